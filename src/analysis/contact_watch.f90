@@ -1,7 +1,6 @@
 !> Follows the contacts of a motion: their onset, their maxima, their end, one row for each.
 module contact_watch
    use integrator, only: integrator_t
-   use interpolation, only: interpolate
    use kinds, only: not_a_number, wp
    use memory, only: get, put
    use planar_system, only: n_ledger, planar_system_t
@@ -129,7 +128,7 @@ contains
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          place = maximum_in(bracket)
-         call interpolate(method%step, system%n_position, place, self%y)
+         call method%within(system, place, self%y)
          call system%set_motion(self%y)
          call look(system, slot, item, force, here)
          call keep_peaks(system, slot, item, here%value + missing(here, bracket), 0.0_wp)

@@ -14,6 +14,7 @@ module load
    use read_scene, only: scene_from_deck
    use scene, only: scene_t
    use section_info, only: column_of
+   use step_check, only: check_steps
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
@@ -56,6 +57,7 @@ contains
       call apply_options(options, loaded%scene, error)
       if (allocated(error)) return
       call new_system(loaded%scene, levels_as_written, loaded%system)
+      call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       call check_words(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
@@ -92,6 +94,7 @@ contains
             return
          end if
          scene%dynamic%values(c)%text = options%method
+         scene%dynamic%values(c)%location = location_t()
       end if
    end subroutine apply_options
 

@@ -10,8 +10,7 @@ module verb_run
    use errors, only: error_t
    use figure_words, only: check_figures
    use integrator, only: integrator_t, read_controls
-   use integrator_registry, only: n_integrator_kinds, new_integrator
-   use kind_info, only: kind_info_t
+   use integrator_registry, only: find_integrator
    use kinds, only: wp
    use libraries, only: library_versions
    use load, only: load_deck, loaded_t
@@ -74,14 +73,7 @@ contains
       type(scene_t), intent(in) :: scene                                !! the scene
       class(integrator_t), allocatable, intent(out) :: method           !! the integrator, not started
 
-      type(kind_info_t) :: info
-      integer :: k
-
-      do k = 1, n_integrator_kinds
-         call new_integrator(k, method)
-         info = method%info()
-         if (info%name == scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text) exit
-      end do
+      call find_integrator(scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text, method)
       call read_controls(scene%dynamic_kind, scene%dynamic, method%controls)
    end subroutine new_method
 
