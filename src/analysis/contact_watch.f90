@@ -77,7 +77,7 @@ contains
             has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate < 0.0_wp
             if (has_peak) call find_penetration_peak(self, system, method, k, i, self%penetration(number), penetration)
             if (has_force_peak) call find_force_peak(self, system, method, k, i, self%force(number), force)
-            if (has_peak .or. has_force_peak) call system%set_state(method%step%y1, method%step%f1)
+            if (has_peak .or. has_force_peak) call system%set_state(method%t, method%step%y1, method%step%f1)
             self%force(number) = force
             self%penetration(number) = penetration
          end do
@@ -129,7 +129,7 @@ contains
       do k = 1, n_search
          place = maximum_in(bracket)
          call method%within(system, place, self%y)
-         call system%set_motion(self%y)
+         call system%set_motion(method%step%t0 + place*method%step%h, self%y)
          call look(system, slot, item, force, here)
          call keep_peaks(system, slot, item, here%value + missing(here, bracket), 0.0_wp)
          if (missing(here, bracket) <= sqrt(near)*abs(here%value)) exit
@@ -161,7 +161,7 @@ contains
          if (status /= 0) return
          call system%evaluate(method%step%t0 + place*method%step%h, self%y, self%ydot, status)
          if (status /= 0) return
-         call system%set_state(self%y, self%ydot)
+         call system%set_state(method%step%t0 + place*method%step%h, self%y, self%ydot)
          call look(system, slot, item, here, penetration)
          call keep_peaks(system, slot, item, 0.0_wp, here%value + missing(here, bracket))
          if (missing(here, bracket) <= sqrt(near)*abs(here%value)) exit
@@ -320,7 +320,7 @@ contains
 
       loss = not_a_number()
       if (.not. system%with_ledger) return
-      z = 6*system%n_body + n_ledger + 2*number
+      z = 2*system%n_position + n_ledger + 2*number
       loss = y(z - 1) + y(z)
    end function loss_of
 

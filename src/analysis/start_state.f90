@@ -1,4 +1,4 @@
-!> Where a motion begins: assembled positions, consistent velocities, no overlap, no redundant rows.
+!> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
    use build_system, only: levels_ideal, new_system
    use consistent_start, only: assemble, assembly_t, find_dependent
@@ -10,7 +10,7 @@ module start_state
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: find_start
+   public :: find_start, redundancy_text
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
 
@@ -19,14 +19,14 @@ contains
    !> State at t = 0 of a system of the scene.
    !>
    !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
-   !> only the ideal joints; both move the bodies as little as possible. Dependent rows are refused in
-   !> the system that runs; while assembling they do no harm.
+   !> only the ideal joints; both move the bodies as little as possible. Rows of the system that runs may
+   !> depend on one another: it is told.
    subroutine find_start(scene, system, y, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that will run
       real(wp), allocatable, intent(out) :: y(:)            !! (n) state [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
-      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, redundant rows, or overlap
+      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or overlap
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
@@ -46,33 +46,37 @@ contains
       end if
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
-      call refuse_dependent(system, report, error)
-      if (.not. allocated(error)) call refuse_overlap(system, [q, v], error)
-      if (allocated(error)) return
+      system%is_redundant = size(report%dependent) > 0
       allocate (y(system%n), source=0.0_wp)
-      y(1:n) = q
-      y(n + 1:2*n) = v
+      do k = 1, system%rows%n_unknown
+         associate (body => system%rows%unknown(k))
+            y(3*k - 2:3*k) = q(3*body - 2:3*body)
+            y(system%n_position + 3*k - 2:system%n_position + 3*k) = v(3*body - 2:3*body)
+         end associate
+      end do
+      call refuse_overlap(system, y, error)
    end subroutine find_start
 
-   !> Rows that depend on others: say which joints they belong to.
-   subroutine refuse_dependent(system, report, error)
-      type(planar_system_t), intent(in) :: system          !! the system that was assembled
-      type(assembly_t), intent(in) :: report               !! dependent rows
-      type(error_t), allocatable, intent(out) :: error     !! some rows depend on others
+   !> How many rows depend on others, and whose reactions are not unique; blank if none.
+   function redundancy_text(system, report) result(words)
+      class(planar_system_t), intent(in) :: system   !! the system that was assembled
+      type(assembly_t), intent(in) :: report         !! dependent rows
+      character(:), allocatable :: words             !! one line
 
       character(:), allocatable :: names
       integer :: k
 
+      words = ""
       if (size(report%dependent) == 0) return
       names = ""
-      do k = 1, size(report%dependent)
-         if (index(names//" ", "'"//system%row_name(report%dependent(k))//"'") > 0) cycle
-         names = names//" '"//system%row_name(report%dependent(k))//"'"
+      do k = 1, size(report%shared)
+         if (index(names//" ", "'"//system%row_name(report%shared(k))//"'") > 0) cycle
+         names = names//" '"//system%row_name(report%shared(k))//"'"
       end do
-      call set_error(error, exit_assembly, "redundant constraints: "//to_text(size(report%dependent))// &
-                     " of "//to_text(system%rows%n)//" rows depend on others, at joint or driver"//names//new_line("a")// &
-                     "  = reactions would not be unique; remove a joint or driver of the loop, or let one have clearance")
-   end subroutine refuse_dependent
+      words = "redundant constraints: "//to_text(size(report%dependent))//" of "//to_text(system%rows%n)// &
+              " rows depend on others at the start; accelerations are exact, but the reactions of"//names// &
+              " are not unique: those of least norm are given"
+   end function redundancy_text
 
    !> No loose joint may begin with its surfaces overlapping.
    subroutine refuse_overlap(system, y, error)

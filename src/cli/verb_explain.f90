@@ -15,7 +15,7 @@ module verb_explain
    use planar_system, only: planar_system_t
    use scene, only: scene_t
    use section_info, only: column_of
-   use start_state, only: find_start
+   use start_state, only: find_start, redundancy_text
    use text, only: real_text, text_t, to_text
    implicit none (type, external)
    private
@@ -112,6 +112,10 @@ contains
       call say("")
       call say("model")
       call say(counted(system%n_body, "planar body", "planar bodies")//", "//to_text(3*system%n_body)//" coordinates", 2)
+      do k = 1, system%known%n
+         call say("'"//system%bodies%names(system%known%body(k))%s//"' moves as a known function of time: "// &
+                  to_text(3*system%rows%n_unknown)//" coordinates unknown, "//to_text(system%rows%n_solve)//" rows solved", 2)
+      end do
       do k = 1, size(scene%joints)
          call count_kind(scene%joints(k)%info, scene%joints(k)%items)
       end do
@@ -136,18 +140,17 @@ contains
       type(assembly_t), intent(in) :: assembly   !! how the start was found
       logical, intent(in) :: has_failed          !! there is no start
 
-      integer :: k
-
-      if (has_failed .and. size(assembly%dependent) == 0) then
+      if (has_failed) then
          call say("NOT assembled: the error below says why", 2)
          return
       end if
       call say(counted(3*loaded%system%n_body - loaded%system%rows%n + size(assembly%dependent), &
                        "degree of freedom", "degrees of freedom"), 2)
-      do k = 1, size(assembly%dependent)
-         call say("redundant: a row of '"//loaded%system%row_name(assembly%dependent(k))//"'", 2)
-      end do
-      if (size(assembly%dependent) == 0) call say("no redundant rows", 2)
+      if (loaded%system%is_redundant) then
+         call say(redundancy_text(loaded%system, assembly), 2)
+      else
+         call say("no redundant rows", 2)
+      end if
       call say("assembled in "//counted(assembly%corrections, "correction", "corrections")//", residual "// &
                real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)// &
                " m", 2)

@@ -24,7 +24,7 @@ module verb_run
    use scene, only: scene_t
    use scene_echo, only: echo_scene
    use section_info, only: column_of
-   use start_state, only: find_start
+   use start_state, only: find_start, redundancy_text
    use text, only: append_text, real_text, text_t
    use version, only: program_version
    implicit none (type, external)
@@ -139,6 +139,7 @@ contains
                           loaded%scene%bodies%names(assembly%changed_body)%s// &
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
+      if (loaded%system%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
       if (options%is_json) plan%show = show_json
       if (options%is_quiet) then
          plan%with_progress = .false.
