@@ -33,10 +33,10 @@ module planar_system
    integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
    integer, parameter :: n_ledger = 3            !! quadratures before those of the loose joints
 
-   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! of rows that are nearly dependent, or always, of the diagonal of
-                                                               !! S: round-off over this shows in reactions that are not unique [1]
+   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
+                                                               !! shows in reactions that are not unique [1]
    integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
-   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows that are always dependent, of the greatest term, that is an error [1]
+   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
 
    !> A planar scene.
    type, extends(ode_system_t) :: planar_system_t
