@@ -101,6 +101,7 @@ module kind_info
       character(:), allocatable :: source           !! citation with equation numbers
       logical :: is_table = .true.                  !! a table of items; else settings `key = value`
       integer :: n_row = 0                          !! constraint rows that an item adds in the plane
+      logical :: is_start_only = .false.            !! the rows hold while the start is made consistent, not after
       type(column_t), allocatable :: columns(:)     !! of the table, without `name`
       type(channel_t), allocatable :: channels(:)   !! of each item
    end type kind_info_t

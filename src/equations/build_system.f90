@@ -14,7 +14,7 @@ module build_system
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_slot_t, list_sides, new_rows
    use kinds, only: wp
-   use motion, only: new_loads, new_motion
+   use motion, only: new_loads, new_motion, set_planar_motion
    use planar_system, only: n_ledger, planar_system_t
    use scene, only: scene_t
    use section_info, only: column_of
@@ -31,11 +31,13 @@ module build_system
 contains
 
    !> Build the system of a scene.
-   subroutine new_system(scene, levels, system)
+   subroutine new_system(scene, levels, system, is_for_start)
       type(scene_t), intent(in) :: scene            !! the scene
       integer, intent(in) :: levels                 !! of joints with clearance, one of the above
       type(planar_system_t), intent(out) :: system  !! the system
+      logical, intent(in), optional :: is_for_start !! with the rows that hold only at the start; absent: without
 
+      logical :: with_start
       integer :: k, n
 
       n = scene%bodies%n
@@ -52,7 +54,9 @@ contains
       system%length_scale = size_of_bodies(scene)
       call new_motion(n, system%motion)
       call new_loads(n, system%loads)
-      call add_joints(scene, system)
+      with_start = .false.
+      if (present(is_for_start)) with_start = is_for_start
+      call add_joints(scene, with_start, system)
       call add_forces(scene, system)
       call add_clearances(scene, levels, system)
       call declare_rows(system)
@@ -105,29 +109,41 @@ contains
       angle(1:) = scene%bodies%angle
    end function start_angles
 
+   !> Coordinates of the bodies where the deck puts them.
+   pure function start_positions(scene) result(q)
+      type(scene_t), intent(in) :: scene      !! the scene
+      real(wp) :: q(3, scene%bodies%n)        !! (3, bodies) x, y, angle [m, m, rad]
+
+      q(1:2, :) = scene%bodies%r(1:2, :)
+      q(3, :) = scene%bodies%angle
+   end function start_positions
+
    !> Ideal joints, then drivers: one set per kind that has rows.
-   subroutine add_joints(scene, system)
+   subroutine add_joints(scene, with_start, system)
       type(scene_t), intent(in) :: scene              !! the scene
+      logical, intent(in) :: with_start               !! whether to take those that hold only at the start
       type(planar_system_t), intent(inout) :: system  !! joints are set
 
       integer, allocatable :: i(:), j(:)
+      logical :: is_taken(n_joint_kinds)
       integer :: k, n, row
 
-      n = 0
       do k = 1, n_joint_kinds
-         if (size(scene%joints(k)%items) > 0) n = n + 1
+         is_taken(k) = size(scene%joints(k)%items) > 0 .and. (with_start .or. .not. scene%joints(k)%info%is_start_only)
       end do
-      allocate (system%joints(n))
+      allocate (system%joints(count(is_taken)))
+      call set_planar_motion(system%n_body, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
       n = 0
       row = 0
       do k = 1, n_joint_kinds
-         if (size(scene%joints(k)%items) == 0) cycle
+         if (.not. is_taken(k)) cycle
          n = n + 1
          call points_of(scene, k, i, j)
          call new_joint_set(k, system%joints(n)%set)
          associate (set => system%joints(n)%set)
             call set%new(scene%joints(k)%items, i, j, scene%points)
             call set%prepare(scene%joints(k)%items, start_angles(scene))
+            call set%set_start(system%motion)
             set%first_row = row
             row = row + set%n*set%n_row_item
          end associate
