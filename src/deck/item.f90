@@ -5,6 +5,7 @@
 !> at deck text again, except to say where a mistake stands.
 module item
    use expression, only: expression_t
+   use kind_info, only: dim_none, dim_t
    use kinds, only: wp
    use text, only: text_t
    implicit none (type, external)
@@ -32,6 +33,8 @@ module item
    type :: value_t
       logical :: given = .false.                     !! .false.: the column's default was taken
       real(wp) :: number = 0.0_wp                    !! of a number; of an expression its value at t = 0, SI [any]
+      type(dim_t) :: dimensions(2) = dim_none        !! (2) of a number of any dimension, a list, the columns of a file
+      real(wp), allocatable :: table(:, :)           !! (rows, 1 or 2) numbers of a list, or of a file, SI [any]
       real(wp) :: vector(3) = 0.0_wp                 !! (3) of a vector, SI [any]
       integer :: n_vector = 0                        !! numbers given of a vector
       logical :: flag = .false.                      !! of an on/off cell

@@ -14,6 +14,7 @@ module read_scene
    use kind_info, only: kind_info_t
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use kinds, only: wp
+   use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: friction_slot_t, law_slot_t, n_base, scene_t, table_bodies, table_materials, table_points
    use section_info, only: column_of, dynamic_info, output_info, scene_info
@@ -41,6 +42,7 @@ contains
       call check_sections(deck, kinds, diagnostics)
       scene%dynamic_kind = dynamic_info()
       scene%output_kind = output_info()
+      call functions_from_deck(deck, scene, diagnostics)
       call read_settings(deck, scene_info(), scene%header, is_present, diagnostics)
       call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
       call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
