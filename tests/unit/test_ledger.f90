@@ -237,7 +237,7 @@ contains
       if (allocated(error)) return
       call check_equal(error, bare%n, 18, "entries of the state")
       call check_equal(error, system%n, 18 + 4 + 2, "entries with a ledger")
-      call check_equal(error, system%n_quadrature, 5, "quadratures")
+      call check_equal(error, system%n_quadrature, 6, "quadratures")
       ydot = y
       ydot_bare = y_bare
       call system%evaluate(0.0_wp, y, ydot, status)
