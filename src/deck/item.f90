@@ -40,7 +40,7 @@ module item
       logical :: flag = .false.                      !! of an on/off cell
       character(:), allocatable :: text              !! the word, the name referred to, or the cell as written
       type(text_t), allocatable :: words(:)          !! of a list of words
-      type(location_t), allocatable :: places(:)     !! (words) where each word of a list stands
+      type(location_t), allocatable :: places(:)     !! (words or rows) where each entry of a list stands
       type(option_t), allocatable :: options(:)      !! after a word
       type(expression_t), allocatable :: expression  !! of an expression cell, constant ones too
       integer :: index = 0                           !! of a reference: number of the item, set by the scene

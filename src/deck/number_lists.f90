@@ -73,6 +73,7 @@ contains
          if (k == 1) value%dimensions(1) = quantity%dimension
          call check_same(quantity%dimension, value%dimensions(1), places(k), place, mistakes)
       end do
+      value%places = places(1:n)
 
    contains
 
@@ -134,6 +135,7 @@ contains
       type(value_t), intent(inout) :: value           !! the cell with its path; receives numbers and dimensions
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      type(location_t), allocatable :: places(:)
       character(:), allocatable :: message, path
       type(source_t) :: source
       type(token_t) :: pair(2)
@@ -155,6 +157,7 @@ contains
       end if
       call add_source(deck, source, number)
       allocate (table(n_line_of(deck%sources(number)), 2), source=0.0_wp)
+      allocate (places(size(table, 1)))
       n = 0
       is_headed = .false.
       do line = 1, size(table, 1)
@@ -162,8 +165,9 @@ contains
          if (.not. is_good) return
          if (.not. is_there) cycle
          if (is_headed) then
-            call read_row(deck, pair, units, place, table(n + 1, :), is_good, mistakes)
             n = n + 1
+            call read_row(deck, pair, units, place, table(n, :), is_good, mistakes)
+            places(n) = span(pair(1), pair(2))
          else
             call read_heads(deck, pair, units, place, is_good, mistakes)
             is_headed = .true.
@@ -171,6 +175,7 @@ contains
          if (.not. is_good) return
       end do
       value%table = table(1:n, :)
+      value%places = places(1:n)
       value%dimensions = units%dimension
    end subroutine read_samples
 

@@ -13,6 +13,7 @@ module function_kind
       type(dim_t) :: dimension = dim_none     !! of its value
       type(dim_t) :: argument = dim_none      !! of what it takes
       integer :: column = 0                   !! column with a mistake, 0: all is well
+      integer :: place = 0                    !! number of the list's entry with the mistake, 0: all of the cell
       character(:), allocatable :: message    !! what is wrong
       character(:), allocatable :: help       !! what to do
    end type made_t

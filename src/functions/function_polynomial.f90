@@ -68,12 +68,22 @@ contains
             else if (.not. same_dimension(dimension, made%dimension)) then
                made%column = k + 1
                made%message = "column c"//to_text(first - 1)//" makes the function "//dimension_name(made%dimension)
-               made%help = "so the unit of c"//to_text(k)//" is " &
-                           //unit_text(dimension_product(made%dimension, dimension_power(dim_time, real(k, wp)), -1.0_wp))
+               made%help = "so the unit of c"//to_text(k)//" is "//unit_over_time(made%dimension, k)
                return
             end if
          end associate
       end do
    end subroutine polynomial_make
+
+   !> The SI unit of a quantity over a time to some power.
+   function unit_over_time(dimension, power) result(unit)
+      type(dim_t), intent(in) :: dimension  !! of the quantity
+      integer, intent(in) :: power          !! of the time
+      character(:), allocatable :: unit     !! as N/s^2
+
+      unit = unit_text(dimension)
+      if (power > 0) unit = unit//"/s"
+      if (power > 1) unit = unit//"^"//to_text(power)
+   end function unit_over_time
 
 end module function_polynomial

@@ -91,6 +91,7 @@ contains
                list%given = .true.
                list%location = file%location
                list%table = file%table(:, k:k)
+               list%places = file%places
                list%dimensions(1) = file%dimensions(k)
             end associate
          end do
@@ -123,6 +124,7 @@ contains
                if (.not. x(k) > x(k - 1)) exit
             end do
             call complain(column_at, "sample "//to_text(k)//" is not behind sample "//to_text(k - 1))
+            made%place = k
             made%help = "places increase from sample to sample"
          else if (beyond_of(item) == beyond_periodic .and. abs(y(n) - y(1)) > closed*maxval(abs(y))) then
             call complain(column_value, "the last value differs from the first one")

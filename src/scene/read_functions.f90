@@ -4,7 +4,7 @@ module read_functions
    use expression_compile, only: is_reserved, name_length, symbol_broken, symbol_function, symbol_t
    use function_kind, only: function_kind_t, made_t
    use function_registry, only: n_function_kinds, new_function_kind
-   use item, only: item_t
+   use item, only: item_t, location_t
    use scene, only: scene_t
    implicit none (type, external)
    private
@@ -52,6 +52,7 @@ contains
       logical, intent(in) :: is_readable                 !! .false.: some row has a mistake, none is made
       type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
 
+      type(location_t) :: at
       type(made_t) :: made
 
       symbol%name = item%name
@@ -59,8 +60,9 @@ contains
       if (.not. is_readable) return
       call kind%make(item, made)
       if (made%column > 0) then
-         call diagnostics%add(item%values(made%column)%location, "function '"//item%name//"' cannot be made", made%message, &
-                              made%help)
+         at = item%values(made%column)%location
+         if (made%place > 0) at = item%values(made%column)%places(made%place)
+         call diagnostics%add(at, "function '"//item%name//"' cannot be made", made%message, made%help)
          return
       end if
       symbol%kind = symbol_function
