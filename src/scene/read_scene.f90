@@ -5,7 +5,7 @@ module read_scene
    use clearance_set, only: clearance_set_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use deck_reader, only: check_sections, read_items, read_settings
-   use deck_types, only: deck_t, location_of_end
+   use deck_types, only: add_default, deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
    use imsl_names, only: fold_imsl_names
@@ -65,7 +65,7 @@ contains
       call new_bodies(scene%base(table_bodies)%items, scene%bodies)
       call new_points(scene%base(table_points)%items, scene%points)
       call new_materials(scene%base(table_materials)%items, scene%materials)
-      call check_meaning(scene, diagnostics)
+      call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck
 
    !> The tables of joints, forces and clearances.
@@ -259,7 +259,8 @@ contains
    end subroutine check_names
 
    !> What rows of tables cannot say of themselves: joints of a body with itself, journals that do not fit.
-   subroutine check_meaning(scene, diagnostics)
+   subroutine check_meaning(deck, scene, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck; lengths of the start are noted as defaults
       type(scene_t), intent(in) :: scene                  !! the scene
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
@@ -320,7 +321,7 @@ contains
          type(item_t), intent(in) :: item       !! the row
 
          real(wp), parameter :: least = 1.0e-9_wp  ! distance that counts as none, of the points' coordinates [1]
-         real(wp) :: p(3, 2)
+         real(wp) :: length, p(3, 2)
          integer :: c, end
 
          c = column_of(info, "length")
@@ -329,7 +330,11 @@ contains
          do end = 1, 2
             p(:, end) = start_position(scene, item%values(end)%index)
          end do
-         if (norm2(p(:, 2) - p(:, 1)) > least*maxval(abs(p))) return
+         length = norm2(p(:, 2) - p(:, 1))
+         if (length > least*maxval(abs(p))) then
+            call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the distance at the start")
+            return
+         end if
          call diagnostics%add(item%values(2)%location, "joint '"//item%name//"' has no length", &
                               "the two points coincide at the start", "give the column length, or move the bodies")
       end subroutine check_start_length
