@@ -1,6 +1,6 @@
 !> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
-   use build_system, only: levels_ideal, new_system
+   use build_system, only: levels_as_written, levels_ideal, new_system
    use consistent_start, only: assemble, assembly_t, find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use kinds, only: wp
@@ -19,8 +19,8 @@ contains
    !> State at t = 0 of a system of the scene.
    !>
    !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
-   !> only the ideal joints; both move the bodies as little as possible. Rows of the system that runs may
-   !> depend on one another: it is told.
+   !> only the ideal joints; both move the bodies as little as possible. What holds only at the start is there
+   !> while assembling, then no more. Rows of the system that runs may depend on one another: it is told.
    subroutine find_start(scene, system, y, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that will run
@@ -30,7 +30,7 @@ contains
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
-      integer :: k, n
+      integer :: k, levels, n
 
       n = 3*system%n_body
       allocate (q(n), v(n), source=0.0_wp)
@@ -38,12 +38,12 @@ contains
          q(3*k - 2:3*k) = [scene%bodies%r(1:2, k), scene%bodies%angle(k)]
          v(3*k - 2:3*k) = [scene%bodies%v(1:2, k), scene%bodies%omega(k)]
       end do
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "ideal") then
-         call new_system(scene, levels_ideal, twin)
-         call assemble(twin, q, v, report, error)
-      else
-         call assemble(system, q, v, report, error)
+      levels = levels_as_written
+      if (system%n_loose == 0 .or. scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "ideal") then
+         levels = levels_ideal
       end if
+      call new_system(scene, levels, twin, is_for_start=.true.)
+      call assemble(twin, q, v, report, error)
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
       system%is_redundant = size(report%dependent) > 0

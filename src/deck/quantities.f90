@@ -4,7 +4,7 @@
 !> braces, which carries its own dimension.
 module quantities
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use deck_types, only: deck_t, text_of
+   use deck_types, only: deck_t, symbols_of, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
    use expression, only: expression_t
@@ -147,7 +147,7 @@ contains
       type(location_t) :: at
       real(wp) :: d1, d2
 
-      call compile_expression(text_of(deck, token), deck%parameters, has_time, compiled, fault)
+      call compile_expression(text_of(deck, token), symbols_of(deck), has_time, compiled, fault)
       if (allocated(fault)) then
          if (len(fault%message) == 0) return
          at = token%location

@@ -4,7 +4,7 @@ module expression_leaves
    use expression_dimension, only: term_t
    use expression_functions, only: function_names, function_operation
    use expression_state, only: advance, digits, emit, fail, letters, name_length, parser_t, peek, resolve, &
-                             & suggestion, symbol_number, symbol_word
+                             & suggestion, symbol_function, symbol_number, symbol_word
    use kind_info, only: dim_time
    use kinds, only: pi, wp
    use numbers, only: number_length
@@ -44,7 +44,7 @@ contains
             call use_symbol(parser, i, term, last)
             return
          end if
-         call append_text(names, parser%symbols(i)%name)
+         if (parser%symbols(i)%kind /= symbol_function) call append_text(names, parser%symbols(i)%name)
       end do
       if (function_operation(name) > 0) then
          call fail(parser, term%first, last, "the function '"//name//"' lacks its argument in parentheses")
@@ -70,6 +70,9 @@ contains
       case (symbol_word)
          call fail(parser, term%first, last, "the parameter '"//parser%symbols(i)%name//"' is the word '" &
                  & //parser%symbols(i)%word//"', not a number")
+      case (symbol_function)
+         call fail(parser, term%first, last, "the function '"//parser%symbols(i)%name &
+                 & //"' lacks its argument in parentheses", "as "//parser%symbols(i)%name//"(t)")
       case default
          call fail(parser, term%first, last, "")
       end select
