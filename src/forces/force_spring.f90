@@ -2,7 +2,8 @@
 !>
 !> With d = r_j + s_j - r_i - s_i, l = |d|, u = d/l:
 !> f = k x + c l' + f_0 + f_l(x) + f_a(t),   x = l - l_0
-!> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x,   lost power = c l'^2,   power of the actuator = -f_a l'
+!> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x
+!> lost power = c l'^2,   power of the actuator = -f_a l'
 !> k stiffness, c damping, l_0 free length, f_0 preload (the tension at the free length), f_l law
 !> of a spring that is not linear, f_a actuator. Without stiffness nothing is stored: the preload is then a constant part of the actuator.
 !>

@@ -2,7 +2,8 @@
 !>
 !> With the angle phi = angle_j - angle_i, turns counted:
 !> m = k x + c phi' + m_0 + m_l(x) + m_a(t),   x = phi - phi_0
-!> stored energy = k (x + m_0/k)^2/2 + integral of m_l from 0 to x,   lost power = c phi'^2,   power of the actuator = -m_a phi'
+!> stored energy = k (x + m_0/k)^2/2 + integral of m_l from 0 to x
+!> lost power = c phi'^2,   power of the actuator = -m_a phi'
 !> k stiffness, c damping, phi_0 free angle, m_0 preload (the moment at the free angle), m_l law
 !> of a spring that is not linear, m_a actuator. Without stiffness nothing is stored: the preload is then a constant part of the actuator.
 !>
