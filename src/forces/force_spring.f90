@@ -5,7 +5,8 @@
 !> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x
 !> lost power = c l'^2,   power of the actuator = -f_a l'
 !> k stiffness, c damping, l_0 free length, f_0 preload (the tension at the free length), f_l law
-!> of a spring that is not linear, f_a actuator. Without stiffness nothing is stored: the preload is then a constant part of the actuator.
+!> of a spring that is not linear, f_a actuator. Without stiffness the preload stores nothing: it is then a constant
+!> part of the actuator.
 !>
 !> Signs: f, channel `tension`, is positive if it pulls the points together; f u acts on the body of i at its
 !> point, channel `force`, and -f u on the body of j. Source: Flores et al. (2008), section 2.3; Nikravesh,

@@ -5,7 +5,8 @@
 !> stored energy = k (x + m_0/k)^2/2 + integral of m_l from 0 to x
 !> lost power = c phi'^2,   power of the actuator = -m_a phi'
 !> k stiffness, c damping, phi_0 free angle, m_0 preload (the moment at the free angle), m_l law
-!> of a spring that is not linear, m_a actuator. Without stiffness nothing is stored: the preload is then a constant part of the actuator.
+!> of a spring that is not linear, m_a actuator. Without stiffness the preload stores nothing: it is then a constant
+!> part of the actuator.
 !>
 !> Signs: m acts on the body of i, channel `moment`, and -m on the body of j; counter-clockwise positive: a positive
 !> moment turns the bodies back towards each other as a tension pulls points together. Source: Flores et al. (2008),
