@@ -43,7 +43,7 @@ contains
       integer :: c, i
 
       do c = 1, size(table%info%columns)
-         if (table%info%columns(c)%cell /= cell_expression) cycle
+         if (table%info%columns(c)%cell /= cell_expression .or. table%info%columns(c)%variable /= "t") cycle
          do i = 1, size(table%items)
             associate (value => table%items(i)%values(c))
                if (.not. allocated(value%expression%curves)) cycle

@@ -204,7 +204,7 @@ contains
       case (cell_file)
          words = words//" (a file)"
       case (cell_expression)
-         words = words//" ["//unit_text(column%dimension)//", a number or an expression in t]"
+         words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//column%variable//"]"
       case (cell_duration)
          words = words//" [s]"
       case (cell_flag)

@@ -77,6 +77,8 @@ module kind_info
       integer :: cell = cell_number           !! what a cell holds, one of the above
       type(dim_t) :: dimension = dim_none     !! of a number, vector or expression
       logical :: is_any = .false.             !! of a number: any dimension will do, and is kept with the value
+      character(1) :: variable = "t"          !! of an expression: what it depends on; t is the time
+      type(dim_t) :: argument = dim_time      !! of an expression: dimension of its variable
       integer :: size = 1                     !! numbers of a vector (2: in the plane; 3: either 2 or 3)
       character(:), allocatable :: refers_to  !! of a reference: blank-separated prefixes of kinds
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
@@ -213,18 +215,22 @@ contains
       call add_column(info, column)
    end subroutine add_reference
 
-   !> Append a column that holds a number or an expression in the time `t`.
-   subroutine add_expression(info, name, dimension, help, default)
+   !> Append a column that holds a number or an expression in the time `t`, or in another variable.
+   subroutine add_expression(info, name, dimension, help, default, variable, argument)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck
       type(dim_t), intent(in) :: dimension           !! of its value
       character(*), intent(in) :: help               !! one line
       character(*), intent(in), optional :: default  !! as in a deck; absent: required
+      character(1), intent(in), optional :: variable !! what it depends on; absent: the time t
+      type(dim_t), intent(in), optional :: argument  !! dimension of the variable
 
       type(column_t) :: column
 
       column = column_t(name=name, cell=cell_expression, dimension=dimension, help=help)
       if (present(default)) column%default = default
+      if (present(variable)) column%variable = variable
+      if (present(argument)) column%argument = argument
       call add_column(info, column)
    end subroutine add_expression
 

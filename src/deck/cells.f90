@@ -154,7 +154,7 @@ contains
          return
       end if
       call check_count(list, 1, place, mistakes, "the result of a brace carries its own unit")
-      call read_brace(deck, list(1), place, .true., compiled, quantity, mistakes)
+      call read_brace(deck, list(1), place, .true., compiled, quantity, mistakes, column)
       call report_dimension(quantity, column%dimension, value%location, place, mistakes)
       if (.not. quantity%is_good) return
       value%number = quantity%x

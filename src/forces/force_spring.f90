@@ -1,14 +1,16 @@
 !> Translational spring, damper and actuator between a point of i and a point of j.
 !>
 !> With d = r_j + s_j - r_i - s_i, l = |d|, u = d/l:
-!> f = k (l - l_0) + c l' + f_0 + f_a(t)
-!> stored energy = k (l - l_0 + f_0/k)^2/2,   lost power = c l'^2,   power of the actuator = -f_a l'
-!> k stiffness, c damping, l_0 free length, f_0 preload (the tension at the free length), f_a actuator. Without
-!> stiffness nothing is stored: the preload is then a constant part of the actuator.
+!> f = k x + c l' + f_0 + f_l(x) + f_a(t),   x = l - l_0
+!> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x
+!> lost power = c l'^2,   power of the actuator = -f_a l'
+!> k stiffness, c damping, l_0 free length, f_0 preload (the tension at the free length), f_l law
+!> of a spring that is not linear, f_a actuator. Without stiffness the preload stores nothing: it is then a constant
+!> part of the actuator.
 !>
 !> Signs: f, channel `tension`, is positive if it pulls the points together; f u acts on the body of i at its
 !> point, channel `force`, and -f u on the body of j. Source: Flores et al. (2008), section 2.3; Nikravesh,
-!> Computer-aided analysis of mechanical systems (1988), section 9.2 (the pull positive). Limits: where the
+!> Computer-aided analysis of mechanical systems (1988), chapter 9 (the pull positive). Limits: where the
 !> points coincide there is no direction and no force is applied; a spring without free length, preload and
 !> actuator has none there anyhow.
 module force_spring
@@ -20,6 +22,7 @@ module force_spring
       dim_stiffness, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position
+   use quadrature, only: integral_of
    use span, only: span_of
    implicit none (type, external)
    private
@@ -32,8 +35,11 @@ module force_spring
       real(wp), allocatable :: s_j(:, :)                !! (3, n) point of body j, its frame [m]
       real(wp), allocatable :: stiffness(:)             !! (n) k [N/m]
       real(wp), allocatable :: damping(:)               !! (n) c [N.s/m]
+      real(wp), allocatable :: free_length(:)           !! (n) l_0 [m]
       real(wp), allocatable :: relaxed(:)               !! (n) length without force of the stiffness, l_0 - f_0/k [m]
       real(wp), allocatable :: constant(:)              !! (n) constant part of the actuator, f_0 without stiffness [N]
+      type(expression_t), allocatable :: law(:)         !! (n) f_l over the stretch [N]
+      logical, allocatable :: has_law(:)                !! (n) whether it is not zero
       type(expression_t), allocatable :: actuator(:)    !! (n) f_a [N]
    contains
       procedure, nopass :: info => spring_info
@@ -61,6 +67,8 @@ contains
                       default="0 m", lower=0.0_wp)
       call add_number(info, "preload", dim_force, "tension at the free length, negative if it pushes", default="0 N")
       call add_expression(info, "actuator", dim_force, "tension as a function of time", default="0 N")
+      call add_expression(info, "law", dim_force, "tension as a function of the stretch x from the free length, beside the " &
+                          //"stiffness", default="0 N", variable="x", argument=dim_length)
       call add_channel(info, "force", "N", "world", 2, "force on the body of i")
       call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive if it pulls them together")
       call add_channel(info, "length", "m", "none", 1, "distance of the points")
@@ -79,6 +87,7 @@ contains
       self%n = size(items)
       allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n), self%actuator(self%n))
       allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
+      allocate (self%free_length(self%n), self%law(self%n), self%has_law(self%n))
       do k = 1, self%n
          associate (values => items(k)%values)
             i = values(1)%index
@@ -89,6 +98,7 @@ contains
             self%s_j(:, k) = points%s(:, j)
             self%stiffness(k) = values(3)%number
             self%damping(k) = values(4)%number
+            self%free_length(k) = values(5)%number
             self%relaxed(k) = values(5)%number
             self%constant(k) = values(6)%number
             if (self%stiffness(k) > 0.0_wp) then
@@ -96,6 +106,8 @@ contains
                self%constant(k) = 0.0_wp
             end if
             self%actuator(k) = values(7)%expression
+            self%law(k) = values(8)%expression
+            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(values(8)%number) > 0.0_wp
          end associate
       end do
    end subroutine spring_prepare
@@ -112,12 +124,15 @@ contains
       real(wp), intent(out) :: tension           !! force that pulls the points together [N]
       real(wp), intent(out) :: actuator          !! the actuator's part of it [N]
 
-      real(wp) :: first_derivative, second_derivative
+      real(wp) :: by_law, first_derivative, second_derivative
 
       call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
       call self%actuator(k)%evaluate(t, actuator, first_derivative, second_derivative)
       actuator = actuator + self%constant(k)
       tension = self%stiffness(k)*(length - self%relaxed(k)) + self%damping(k)*rate + actuator
+      if (.not. self%has_law(k)) return
+      call self%law(k)%evaluate(length - self%free_length(k), by_law, first_derivative, second_derivative)
+      tension = tension + by_law
    end subroutine tension_of
 
    !> Add the loads of all items; the power is that of the actuators.
@@ -141,7 +156,7 @@ contains
       end do
    end subroutine spring_evaluate
 
-   !> Energy stored by the stiffness.
+   !> Energy stored by stiffness and law.
    pure real(wp) function spring_elastic_energy(self, motion) result(energy)
       class(force_spring_t), intent(in) :: self  !! the set
       type(motion_t), intent(in) :: motion       !! positions
@@ -153,6 +168,7 @@ contains
       do k = 1, self%n
          call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
          energy = energy + 0.5_wp*self%stiffness(k)*(length - self%relaxed(k))**2
+         if (self%has_law(k)) energy = energy + integral_of(self%law(k), length - self%free_length(k))
       end do
    end function spring_elastic_energy
 

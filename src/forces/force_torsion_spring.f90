@@ -1,14 +1,16 @@
 !> Torsional spring, damper and actuator between the bodies i and j.
 !>
 !> With the angle phi = angle_j - angle_i, turns counted:
-!> m = k (phi - phi_0) + c phi' + m_0 + m_a(t)
-!> stored energy = k (phi - phi_0 + m_0/k)^2/2,   lost power = c phi'^2,   power of the actuator = -m_a phi'
-!> k stiffness, c damping, phi_0 free angle, m_0 preload (the moment at the free angle), m_a actuator. Without
-!> stiffness nothing is stored: the preload is then a constant part of the actuator.
+!> m = k x + c phi' + m_0 + m_l(x) + m_a(t),   x = phi - phi_0
+!> stored energy = k (x + m_0/k)^2/2 + integral of m_l from 0 to x
+!> lost power = c phi'^2,   power of the actuator = -m_a phi'
+!> k stiffness, c damping, phi_0 free angle, m_0 preload (the moment at the free angle), m_l law
+!> of a spring that is not linear, m_a actuator. Without stiffness the preload stores nothing: it is then a constant
+!> part of the actuator.
 !>
 !> Signs: m acts on the body of i, channel `moment`, and -m on the body of j; counter-clockwise positive: a positive
 !> moment turns the bodies back towards each other as a tension pulls points together. Source: Flores et al. (2008),
-!> section 2.3; Nikravesh, Computer-aided analysis of mechanical systems (1988), section 9.2. Limits: none.
+!> section 2.3; Nikravesh, Computer-aided analysis of mechanical systems (1988), chapter 9. Limits: none.
 module force_torsion_spring
    use bodies, only: points_t
    use expression, only: expression_t
@@ -18,6 +20,7 @@ module force_torsion_spring
       dim_angular_stiffness, dim_moment, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
+   use quadrature, only: integral_of
    implicit none (type, external)
    private
    public :: force_torsion_spring_t
@@ -27,8 +30,11 @@ module force_torsion_spring
       integer, allocatable :: body(:, :)                !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: stiffness(:)             !! (n) k [N.m/rad]
       real(wp), allocatable :: damping(:)               !! (n) c [N.m.s/rad]
+      real(wp), allocatable :: free_angle(:)            !! (n) phi_0 [rad]
       real(wp), allocatable :: relaxed(:)               !! (n) angle without moment of the stiffness, phi_0 - m_0/k [rad]
       real(wp), allocatable :: constant(:)              !! (n) constant part of the actuator, m_0 without stiffness [N.m]
+      type(expression_t), allocatable :: law(:)         !! (n) m_l over the angle [N.m]
+      logical, allocatable :: has_law(:)                !! (n) whether it is not zero
       type(expression_t), allocatable :: actuator(:)    !! (n) m_a [N.m]
    contains
       procedure, nopass :: info => torsion_info
@@ -56,6 +62,8 @@ contains
                       default="0 rad")
       call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
       call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
+      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
+                          default="0 N.m", variable="x", argument=dim_angle)
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the body of i, counter-clockwise positive")
       call add_channel(info, "angle", "rad", "none", 1, "angle of j relative to i, counter-clockwise, turns counted")
       call add_channel(info, "angular_rate", "rad/s", "none", 1, "rate of the angle")
@@ -73,12 +81,14 @@ contains
       self%n = size(items)
       allocate (self%names(self%n), self%body(2, self%n), self%actuator(self%n))
       allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
+      allocate (self%free_angle(self%n), self%law(self%n), self%has_law(self%n))
       do k = 1, self%n
          associate (values => items(k)%values)
             self%names(k)%s = items(k)%name
             self%body(:, k) = [values(1)%index, values(2)%index]
             self%stiffness(k) = values(3)%number
             self%damping(k) = values(4)%number
+            self%free_angle(k) = values(5)%number
             self%relaxed(k) = values(5)%number
             self%constant(k) = values(6)%number
             if (self%stiffness(k) > 0.0_wp) then
@@ -86,6 +96,8 @@ contains
                self%constant(k) = 0.0_wp
             end if
             self%actuator(k) = values(7)%expression
+            self%law(k) = values(8)%expression
+            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(values(8)%number) > 0.0_wp
          end associate
       end do
    end subroutine torsion_prepare
@@ -101,13 +113,16 @@ contains
       real(wp), intent(out) :: moment                    !! on the body of i [N.m]
       real(wp), intent(out) :: actuator                  !! the actuator's part of it [N.m]
 
-      real(wp) :: first_derivative, second_derivative
+      real(wp) :: by_law, first_derivative, second_derivative
 
       angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
       rate = motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k))
       call self%actuator(k)%evaluate(t, actuator, first_derivative, second_derivative)
       actuator = actuator + self%constant(k)
       moment = self%stiffness(k)*(angle - self%relaxed(k)) + self%damping(k)*rate + actuator
+      if (.not. self%has_law(k)) return
+      call self%law(k)%evaluate(angle - self%free_angle(k), by_law, first_derivative, second_derivative)
+      moment = moment + by_law
    end subroutine moment_of
 
    !> Add the loads of all items; the power is that of the actuators.
@@ -131,18 +146,19 @@ contains
       end do
    end subroutine torsion_evaluate
 
-   !> Energy stored by the stiffness.
+   !> Energy stored by stiffness and law.
    pure real(wp) function torsion_elastic_energy(self, motion) result(energy)
       class(force_torsion_spring_t), intent(in) :: self  !! the set
       type(motion_t), intent(in) :: motion               !! positions
 
-      real(wp) :: wound
+      real(wp) :: angle
       integer :: k
 
       energy = 0.0_wp
       do k = 1, self%n
-         wound = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k)) - self%relaxed(k)
-         energy = energy + 0.5_wp*self%stiffness(k)*wound**2
+         angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
+         energy = energy + 0.5_wp*self%stiffness(k)*(angle - self%relaxed(k))**2
+         if (self%has_law(k)) energy = energy + integral_of(self%law(k), angle - self%free_angle(k))
       end do
    end function torsion_elastic_energy
 

@@ -8,6 +8,7 @@ module expression_compile
    use expression_parser, only: parse_whole
    use expression_state, only: fail, fault_t, name_length, new_parser, parser_t, symbol_broken, symbol_function, &
                              & symbol_number, symbol_t, symbol_word
+   use kind_info, only: dim_t, dim_time
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -17,18 +18,27 @@ module expression_compile
 contains
 
    !> Compile an expression.
-   subroutine compile_expression(source, symbols, has_time, compiled, fault)
+   subroutine compile_expression(source, symbols, has_variable, compiled, fault, variable, argument)
       character(*), intent(in) :: source                !! text, without braces
       type(symbol_t), intent(in) :: symbols(:)          !! (n) parameters and functions that it may use
-      logical, intent(in) :: has_time                   !! whether `t` is allowed
+      logical, intent(in) :: has_variable               !! whether it may depend on a variable
       type(expression_t), intent(out) :: compiled       !! the expression
       type(fault_t), allocatable, intent(out) :: fault  !! unallocated: success
+      character(1), intent(in), optional :: variable    !! name of the variable; absent: `t`
+      type(dim_t), intent(in), optional :: argument     !! dimension of the variable; absent: a time
 
+      character(1) :: name
       type(ieee_status_type) :: status
       type(parser_t) :: parser
       type(term_t) :: whole
+      type(dim_t) :: dimension
 
-      call new_parser(parser, source, symbols, has_time)
+      name = "t"
+      if (present(variable)) name = variable
+      if (.not. has_variable) name = " "
+      dimension = dim_time
+      if (present(argument)) dimension = argument
+      call new_parser(parser, source, symbols, name, dimension)
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       call parse_whole(parser, whole)

@@ -5,7 +5,6 @@ module expression_leaves
    use expression_functions, only: function_names, function_operation
    use expression_state, only: advance, digits, emit, fail, letters, name_length, parser_t, peek, resolve, &
                              & suggestion, symbol_function, symbol_number, symbol_word
-   use kind_info, only: dim_time
    use kinds, only: pi, wp
    use numbers, only: number_length
    use text, only: append_text, text_t
@@ -30,12 +29,17 @@ contains
          term%is_soft = .true.
          call emit(parser, op_number, pi)
          return
-      else if (name == "t") then
-         term%dimension = dim_time
+      else if (name == parser%variable) then
+         term%dimension = parser%argument
          term%is_constant = .false.
-         if (.not. parser%has_time) call fail(parser, term%first, last, "the time 't' has no place here", &
-                                            & "only drivers and loads depend on the time")
+         do i = 1, size(parser%symbols)
+            if (parser%symbols(i)%name == name) call fail(parser, term%first, last, "'"//name &
+               & //"' is the variable here, and a parameter", "rename the parameter")
+         end do
          call emit(parser, op_time)
+         return
+      else if (name == "t") then
+         call fail(parser, term%first, last, "the time 't' has no place here", "only drivers and loads depend on the time")
          return
       end if
       allocate (names(0))
@@ -129,7 +133,7 @@ contains
 
       integer :: i
 
-      is_name = word == "t" .or. word == "pi" .or. function_operation(word) > 0
+      is_name = word == "t" .or. word == parser%variable .or. word == "pi" .or. function_operation(word) > 0
       do i = 1, size(parser%symbols)
          is_name = is_name .or. parser%symbols(i)%name == word
       end do

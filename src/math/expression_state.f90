@@ -48,7 +48,8 @@ module expression_state
       integer :: at = 1                             !! next character
       integer :: last = 0                           !! last character of what was read
       integer :: depth = 0                          !! open parentheses and signs
-      logical :: has_time = .false.                 !! `t` is allowed
+      character(1) :: variable = " "                !! name of the variable, blank: there is none
+      type(dim_t) :: argument = dim_none            !! its dimension
       integer :: n_code = 0                         !! operations so far
       integer :: code(longest_code) = 0             !! (longest_code) operations
       real(wp) :: operand(longest_code) = 0.0_wp    !! (longest_code) their numbers [any]
@@ -64,17 +65,19 @@ module expression_state
 contains
 
    !> Set up a reader at the first character.
-   subroutine new_parser(parser, source, symbols, has_time)
+   subroutine new_parser(parser, source, symbols, variable, argument)
       type(parser_t), intent(out) :: parser     !! the reader
       character(*), intent(in) :: source        !! text of the expression
       type(symbol_t), intent(in) :: symbols(:)  !! (n) parameters
-      logical, intent(in) :: has_time           !! `t` is allowed
+      character(1), intent(in) :: variable      !! name of the variable, blank: there is none
+      type(dim_t), intent(in) :: argument       !! its dimension
 
       integer :: i
 
       parser%source = source
       parser%resolved = ""
-      parser%has_time = has_time
+      parser%variable = variable
+      parser%argument = argument
       allocate (parser%symbols(size(symbols)), parser%curves(size(symbols)))
       do i = 1, size(symbols)
          parser%symbols(i) = symbols(i)

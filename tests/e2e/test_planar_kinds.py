@@ -380,6 +380,79 @@ coil   hook  eye  60              0.2             400              {pulse(t)}
     assert result.summary["energy_residual_max"] < 1e-8 * result.summary["energy_max"]
 
 
+FREE_MASS = """
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
+mass   0.5       0.01             {start}   0     {speed}
+[points]
+name   body    xi[m]  eta[m]
+hook   ground  -1     0
+line   ground  0      0
+eye    mass    0      0
+[joint.translational]
+name   i     j     axis
+guide  line  eye   x
+[force.spring]
+name   i     j    free_length[m]  stiffness[N/m]  law
+coil   hook  eye  1               {stiffness}     {law}
+"""
+
+
+def test_law_of_a_hardening_spring(gudgeon):
+    """Duffing's oscillator: a cubic law beside the stiffness, by an elliptic function; its energy is stored."""
+    m, k, b, a = 0.5, 20.0, 300.0, 0.3
+    text = FREE_MASS.format(start=a, speed=0, stiffness=k, law="{300 N/m^3*x^3}")
+    result = run(gudgeon, text + tail("5 s", "10 ms"))
+    # x'' = -(k x + b x^3)/m:  x = a cn(w t | n),  w^2 = (k + b a^2)/m,  n = b a^2/(2 (k + b a^2))
+    w, n = np.sqrt((k + b * a**2) / m), b * a**2 / (2 * (k + b * a**2))
+    x = a * ellipj(w * result.time, n)[1]
+    assert_close(result.item("bodies/position", "mass")[:, 0], x, absolute=3e-8, what="position")
+    assert_close(result.item("forces/tension", "coil"), k * x + b * x**3, absolute=3e-6, what="tension")
+    assert_close(result.read("energy/elastic"), k * x**2 / 2 + b * x**4 / 4, absolute=1e-6, what="stored energy")
+    assert_close(result.read("energy/load_work"), 0.0, absolute=0.0, what="no loads")
+    assert result.summary["energy_residual_max"] < 1e-8 * result.summary["energy_max"]
+
+
+def test_law_of_a_stop(gudgeon):
+    """A stop behind a gap, by samples over the stretch: flight, half a period on the stop, flight back."""
+    m, v, gap, k = 0.5, 2.0, 0.1, 5000.0
+    text = FREE_MASS.format(start=0, speed=v, stiffness=0, law="{5000 N/m*max(x - 100 mm, 0mm)}")
+    result = run(gudgeon, text + tail("0.25 s", "1 ms", tolerance="1e-10"))
+    t, w = result.time, np.sqrt(k / m)
+    on, off = gap / v, gap / v + np.pi / w
+    x = np.where(t < on, v * t, np.where(t < off, gap + v / w * np.sin(w * (t - on)), gap - v * (t - off)))
+    assert_close(result.item("bodies/position", "mass")[:, 0], x, absolute=1e-7, what="position")
+    assert result.summary["energy_residual_max"] < 1e-6 * result.summary["energy_max"]
+
+
+def test_law_of_a_torsional_spring_by_samples(gudgeon):
+    """A law given by samples of a sine over the angle: the pendulum without gravity."""
+    angles = np.linspace(-3, 3, 61)
+    text = f"""
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[m]  y[m]  angle[rad]
+wheel  1         0.02             0     0     2.5
+[points]
+name   body    xi[m]  eta[m]
+axle   ground  0      0
+hub    wheel   0      0
+[joint.revolute]
+name  i     j
+pin   axle  hub
+[function.samples]
+name  at  value
+bend  "{' '.join(map(repr, angles.tolist()))} rad"  "{' '.join(map(repr, np.sin(angles).tolist()))} N.m"
+[force.torsion_spring]
+name    i       j      free_angle[rad]  law
+spiral  ground  wheel  0.5              {{bend(x)}}
+"""
+    result = run(gudgeon, text + tail("2 s", "10 ms"))
+    n, w = np.sin(1.0) ** 2, np.sqrt(1 / 0.02)
+    sn = ellipj(ellipk(n) - w * result.time, n)[0]
+    assert_close(result.item("bodies/angle", "wheel"), 0.5 + 2 * np.arcsin(np.sqrt(n) * sn), absolute=5e-5, what="angle")
+    assert result.summary["energy_residual_max"] < 1e-7 * result.summary["energy_max"]
+
+
 @pytest.mark.parametrize("name", ["quick_return", "valve_train"])
 def test_examples(gudgeon, name):
     """The example decks run with a closed ledger."""

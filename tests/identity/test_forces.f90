@@ -5,6 +5,7 @@ module test_forces
    use check, only: check_close, check_equal, check_true, suite_t
    use differences, only: five_point, places
    use errors, only: error_t
+   use expression, only: constant_expression
    use fixed_random, only: random_t
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_set_t
@@ -313,6 +314,8 @@ contains
       items(1)%values(3:6)%number = [10.0_wp, 2.0_wp, 3.0_wp, 7.0_wp]
       c = column_number(info, "actuator")
       items(1)%values(c)%expression = make_expression("6*t/(1 s)", info%columns(c))
+      c = column_number(info, "law")
+      items(1)%values(c)%expression = constant_expression(0.0_wp, info%columns(c)%dimension)
       call new_force_set(kind_number(name), bench%set)
       call bench%set%prepare(items, bench%points)
    end subroutine make_spring
