@@ -7,19 +7,36 @@ module start_state
    use planar_system, only: planar_system_t
    use scene, only: scene_t
    use section_info, only: column_of
+   use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: find_start
+   public :: deck_positions, find_start
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
 
 contains
 
+   !> Positions and velocities as the deck gives them.
+   pure subroutine deck_positions(scene, q, v)
+      type(scene_t), intent(in) :: scene            !! the scene
+      real(wp), allocatable, intent(out) :: q(:)    !! (3 bodies) positions [m, m, rad]
+      real(wp), allocatable, intent(out) :: v(:)    !! (3 bodies) velocities [m/s, m/s, rad/s]
+
+      integer :: k
+
+      allocate (q(3*scene%bodies%n), v(3*scene%bodies%n), source=0.0_wp)
+      do k = 1, scene%bodies%n
+         q(3*k - 2:3*k) = [scene%bodies%r(1:2, k), scene%bodies%angle(k)]
+         v(3*k - 2:3*k) = [scene%bodies%v(1:2, k), scene%bodies%omega(k)]
+      end do
+   end subroutine deck_positions
+
    !> State at t = 0 of a system of the scene.
    !>
    !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
-   !> only the ideal joints; both move the bodies as little as possible. Dependent rows are refused in
+   !> only the ideal joints; both move the bodies as little as possible. `start = static` searches the
+   !> equilibrium at t = 0. Dependent rows are refused in
    !> the system that runs; while assembling they do no harm.
    subroutine find_start(scene, system, y, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
@@ -30,29 +47,67 @@ contains
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
-      integer :: k, n
+      integer :: n
 
       n = 3*system%n_body
-      allocate (q(n), v(n), source=0.0_wp)
-      do k = 1, system%n_body
-         q(3*k - 2:3*k) = [scene%bodies%r(1:2, k), scene%bodies%angle(k)]
-         v(3*k - 2:3*k) = [scene%bodies%v(1:2, k), scene%bodies%omega(k)]
-      end do
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "ideal") then
+      call deck_positions(scene, q, v)
+      select case (scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
+      case ("ideal")
          call new_system(scene, levels_ideal, twin)
          call assemble(twin, q, v, report, error)
-      else
+      case ("static")
+         call start_at_rest(scene, system, q, v, report, error)
+      case default
          call assemble(system, q, v, report, error)
-      end if
+      end select
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
       call refuse_dependent(system, report, error)
-      if (.not. allocated(error)) call refuse_overlap(system, [q, v], error)
+      if (.not. allocated(error) .and. all_free(system)) call refuse_overlap(system, [q, v], error)
       if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)
       y(1:n) = q
       y(n + 1:2*n) = v
    end subroutine find_start
+
+   !> The static equilibrium at t = 0, its contacts begun. The velocities are zero but for what drivers move.
+   subroutine start_at_rest(scene, system, q, v, report, error)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(planar_system_t), intent(inout) :: system        !! the system that will run
+      real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions of the deck, then at rest [m, m, rad]
+      real(wp), intent(inout) :: v(:)                       !! (3 bodies) velocities [m/s, m/s, rad/s]
+      type(assembly_t), intent(out) :: report               !! how the assembly went
+      type(error_t), allocatable, intent(out) :: error      !! no equilibrium
+
+      type(equilibrium_t) :: equilibrium
+      integer :: i, k
+
+      call find_equilibrium(scene, system, q, report, equilibrium, error)
+      if (allocated(error)) return
+      v = 0.0_wp
+      call assemble(system, q, v, report, error)
+      report%rate_changed = 0.0_wp  ! no velocity of the deck is used
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            set%n_touching = 0
+            do i = 1, set%n
+               if (set%contact(i)%is_touching) call set%begin_contact(i, 0.0_wp, 0.0_wp, 0.0_wp)
+            end do
+         end associate
+      end do
+   end subroutine start_at_rest
+
+   !> Whether no contact is touching yet.
+   pure logical function all_free(system)
+      type(planar_system_t), intent(in) :: system   !! the system
+
+      integer :: k
+
+      all_free = .true.
+      do k = 1, size(system%clearances)
+         all_free = all_free .and. system%clearances(k)%set%n_touching == 0
+      end do
+   end function all_free
 
    !> Rows that depend on others: say which joints they belong to.
    subroutine refuse_dependent(system, report, error)

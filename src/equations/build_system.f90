@@ -16,7 +16,7 @@ module build_system
    use kinds, only: wp
    use motion, only: new_loads, new_motion
    use planar_system, only: n_ledger, planar_system_t
-   use scene, only: scene_t
+   use scene, only: analysis_dynamic, scene_t
    use section_info, only: column_of
    implicit none (type, external)
    private
@@ -42,7 +42,9 @@ contains
       system%n_body = n
       system%bodies = scene%bodies
       system%gravity = scene%gravity
-      system%with_ledger = scene%dynamic%values(column_of(scene%dynamic_kind, "ledger"))%flag
+      system%with_ledger = scene%dynamic%values(column_of(scene%dynamic_kind, "ledger"))%flag &
+                           .and. scene%analysis == analysis_dynamic
+      system%with_energies = system%with_ledger .or. scene%analysis /= analysis_dynamic
       call set_stabilisation(scene, system)
       allocate (system%inverse_mass(3, 0:n), system%weight(3, 0:n), source=0.0_wp)
       do k = 1, n

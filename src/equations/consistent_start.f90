@@ -18,6 +18,7 @@ module consistent_start
    implicit none (type, external)
    private
    public :: assemble, assembly_t, find_dependent
+   public :: evaluate_rows, least_correction, limit_step, rank_tolerance, rates, row_scale, scaled_jacobian, worst_violation
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
    real(wp), parameter :: closed = 1.0e-10_wp           !! greatest scaled violation of an assembled mechanism [1]
@@ -58,7 +59,7 @@ contains
       q_given = q
       before = huge(1.0_wp)
       do k = 1, n_newton
-         call evaluate_rows(system, q, v)
+         call evaluate_rows(system, 0.0_wp, q, v)
          now = worst_violation(system)
          if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
          before = now
@@ -66,7 +67,7 @@ contains
          q = q + limit_step(correction)
          report%corrections = k
       end do
-      call evaluate_rows(system, q, v)
+      call evaluate_rows(system, 0.0_wp, q, v)
       report%residual = maxval(abs(system%rows%phi))
       report%moved = maxval(abs(q - q_given)*coordinate_scale(system, n))
       if (.not. worst_violation(system) <= closed) then
@@ -90,8 +91,9 @@ contains
    end subroutine assemble
 
    !> Rows at a state, without accelerations.
-   subroutine evaluate_rows(system, q, v)
+   subroutine evaluate_rows(system, t, q, v)
       class(planar_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
 
@@ -99,10 +101,10 @@ contains
 
       call set_planar_motion(system%n_body, q, v, system%motion)
       do k = 1, size(system%joints)
-         call system%joints(k)%set%evaluate(0.0_wp, system%motion, system%rows)
+         call system%joints(k)%set%evaluate(t, system%motion, system%rows)
       end do
       do k = 1, size(system%ideal)
-         call system%ideal(k)%set%evaluate(0.0_wp, system%motion, system%rows)
+         call system%ideal(k)%set%evaluate(t, system%motion, system%rows)
       end do
    end subroutine evaluate_rows
 
@@ -227,7 +229,7 @@ contains
 
       report%dependent = [integer ::]
       if (system%rows%n == 0) return
-      call evaluate_rows(system, q, v)
+      call evaluate_rows(system, 0.0_wp, q, v)
       call scaled_jacobian(system, jac)
       transposed = transpose(jac)
       n = size(transposed, 1)

@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgelsd, dgeqp3, dgetrf, dgetrs
+   public :: dgelsd, dgeqp3, dgesvd, dgetrf, dgetrs, dsyev
 
    interface
       !> Least-norm least-squares solution by singular values, with the rank.
@@ -32,6 +32,32 @@ module lapack
          real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
          integer, intent(out) :: info             !! 0: done
       end subroutine dgeqp3
+
+      !> Singular values and vectors.
+      subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: jobu, jobvt                 !! A: all vectors
+         integer, intent(in) :: m, n, lda, ldu, ldvt, lwork   !! sizes
+         real(wp), intent(inout) :: a(lda, *)                 !! (lda, n) matrix, destroyed [any]
+         real(wp), intent(out) :: s(*)                        !! (min(m, n)) singular values, descending [any]
+         real(wp), intent(out) :: u(ldu, *)                   !! (ldu, m) left vectors, column by column [1]
+         real(wp), intent(out) :: vt(ldvt, *)                 !! (ldvt, n) right vectors, row by row [1]
+         real(wp), intent(out) :: work(*)                     !! (lwork) scratch [any]
+         integer, intent(out) :: info                         !! 0: done
+      end subroutine dgesvd
+
+      !> Eigenvalues and vectors of a symmetric matrix.
+      subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: jobz, uplo      !! V: vectors too; U: upper triangle
+         integer, intent(in) :: n, lda, lwork     !! sizes
+         real(wp), intent(inout) :: a(lda, *)     !! (lda, n) matrix, then its eigenvectors [any]
+         real(wp), intent(out) :: w(*)            !! (n) eigenvalues, ascending [any]
+         real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
+         integer, intent(out) :: info             !! 0: done
+      end subroutine dsyev
 
       !> LU factorisation with partial pivoting.
       subroutine dgetrf(m, n, a, lda, ipiv, info)
