@@ -1,6 +1,6 @@
 !> Where a kinematic analysis begins: assembled positions, and a driver for every degree of freedom.
 module kinematic_start
-   use consistent_start, only: assemble, assembly_t, evaluate_rows
+   use consistent_start, only: assemble, assembly_t, evaluate_rows, find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use kinds, only: wp
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
@@ -33,7 +33,7 @@ contains
       call assemble(system, q, v, report, assembly_error)
       call evaluate_rows(system, 0.0_wp, q, v)
       call find_mobility(system, mobility)
-      report%rank = mobility%rank
+      call find_dependent(system, q, v, report)
       if (any(mobility%is_excess)) then
          call refuse_excess(system, mobility, error)
       else if (allocated(assembly_error)) then

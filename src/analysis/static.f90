@@ -12,7 +12,7 @@ module static
    use consistent_start, only: assemble, assembly_t, find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use inverse_dynamics, only: find_reactions
-   use kinds, only: i8, not_a_number, wp
+   use kinds, only: i8, not_a_number, two_pi, wp
    use mobility, only: find_mobility, mobility_t, moving_bodies, sharing_words
    use planar_energy, only: energy_of, energy_t
    use motion, only: set_planar_acceleration
@@ -23,7 +23,7 @@ module static
    use scene, only: scene_t
    use section_info, only: column_of
    use static_kinsol, only: polish
-   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale, square_frequencies
    use static_relaxation, only: least_unbalance, relax
    use text, only: append_text, real_text, to_text
    implicit none (type, external)
@@ -34,6 +34,7 @@ module static
    real(wp), parameter :: nearby = 0.1_wp           !! how far KINSOL may move a coordinate, in sizes or radians [1]
    real(wp), parameter :: no_stiffness = 1.0e-6_wp  !! stiffness that counts as none, of the largest load [1]
    real(wp), parameter :: lost_digits = 1.0e-8_wp   !! stiffness lost in the differences, of the largest [1]
+   real(wp), parameter :: to_round_off = 1.0e-14_wp !! unbalanced load that KINSOL tries to reach, of the largest [1]
    integer, parameter :: n_polish = 50              !! iterations of KINSOL allowed
 
    !> An equilibrium.
@@ -128,7 +129,7 @@ contains
       q_new = q
       rest = 0.0_wp
       call find_dependent(system, q, rest, rows)
-      call polish(system, rows%dependent, load, equilibrium%tolerance, n_polish, q_new, equilibrium%is_polished)
+      call polish(system, rows%dependent, load, to_round_off, n_polish, q_new, equilibrium%is_polished)
       if (equilibrium%is_polished) equilibrium%is_polished = maxval(abs(q_new - q)/position_scale(system)) < nearby
       if (.not. equilibrium%is_polished) q_new = q
       call solve_positions(system, 0.0_wp, newton, q_new, outcome)
@@ -145,7 +146,7 @@ contains
       type(balance_t), intent(in) :: balance                 !! with stiffness and modes
       type(equilibrium_t), intent(inout) :: equilibrium      !! words and warning are set
 
-      real(wp) :: limit
+      real(wp) :: limit, square(size(balance%stiffness))
       integer :: n_flat, n_steep
 
       equilibrium%warning = ""
@@ -154,12 +155,13 @@ contains
             equilibrium%words = "stable: no body can move"
             return
          end if
+         square = square_frequencies(system, balance)
          limit = max(no_stiffness*load_scale(system), lost_digits*maxval(abs(stiffness)), tiny(1.0_wp))
          n_steep = count(stiffness < -limit)
          n_flat = count(abs(stiffness) <= limit)
          if (n_steep > 0) then
             equilibrium%words = "unstable in "//to_text(n_steep)//" of "//to_text(size(stiffness))// &
-                                " freedoms; least stiffness "//real_text(stiffness(1), 4)//" N.m"
+                                " freedoms; a push grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)//" s"
             equilibrium%warning = "the equilibrium is unstable: the least push moves "// &
                                   moving_bodies(system, bodies_in(balance%modes(:, 1:1)))// &
                                   "; begin the search beside it to find a stable one"
@@ -169,7 +171,7 @@ contains
                                   moving_bodies(system, bodies_in(balance%modes(:, pack_range(abs(stiffness) <= limit))))// &
                                   " where the search left them"
          else
-            equilibrium%words = "stable; least stiffness "//real_text(stiffness(1), 4)//" N.m"
+            equilibrium%words = "stable; lowest natural frequency "//real_text(sqrt(square(1))/two_pi, 6)//" Hz"
          end if
       end associate
    end subroutine classify

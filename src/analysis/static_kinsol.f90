@@ -10,7 +10,7 @@ module static_kinsol
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use consistent_start, only: row_scale
    use fkinsol_mod, only: fkincreate, fkinfree, fkininit, fkinsetfuncnormtol, fkinsetlinearsolver, fkinsetnummaxiters, &
-      fkinsetscaledsteptol, fkinseterrfile, fkinsetuserdata, fkinsol, kin_linesearch
+      fkinsetscaledsteptol, fkinseterrfile, fkinsetuserdata, fkinsol, kin_linesearch, kin_linesearch_nonconv
    use fnvector_serial_mod, only: fn_vmake_serial
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
    use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
@@ -73,7 +73,7 @@ contains
       real(wp), intent(in) :: tolerance                        !! greatest value of an equation allowed [1]
       integer, intent(in) :: most                              !! iterations allowed
       real(wp), intent(inout) :: q(:)                          !! (3 bodies) positions, polished if solved [m, m, rad]
-      logical, intent(out) :: is_solved                        !! the equations hold
+      logical, intent(out) :: is_solved                        !! the iteration ended by the tolerance, or by round-off
 
       type(n_vector), pointer :: scale, unknowns
       type(sunmatrix), pointer :: matrix
@@ -108,7 +108,7 @@ contains
       if (status == 0) status = int(fkinsetfuncnormtol(memory, tolerance))
       if (status == 0) status = int(fkinsetscaledsteptol(memory, least_step))
       if (status == 0) status = int(fkinsol(memory, unknowns, int(kin_linesearch, c_int), scale, scale))
-      is_solved = status >= 0
+      is_solved = status >= 0 .or. status == kin_linesearch_nonconv  ! stopped by round-off
       if (is_solved) then
          solution => fn_vgetarraypointer(unknowns)
          q = solution(1:size(q))*position_scale(system)

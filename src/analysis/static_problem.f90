@@ -14,12 +14,13 @@ module static_problem
    use consistent_start, only: evaluate_rows, scaled_jacobian
    use inverse_dynamics, only: find_loads, find_reactions
    use kinds, only: i8, wp
-   use lapack, only: dsyev
+   use lapack, only: dsyev, dsygv
    use mobility, only: split_space
    use planar_system, only: planar_system_t
    implicit none (type, external)
    private
-   public :: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, unbalanced_load
+   public :: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, square_frequencies
+   public :: unbalanced_load
 
    real(wp), parameter :: difference = 1.0e-7_wp  !! step of the central differences, of the size or a radian [1]
 
@@ -142,5 +143,28 @@ contains
       if (n > 0) call dsyev("V", "U", n, k_free, n, balance%stiffness, work, size(work), info)
       balance%modes = matmul(balance%free, k_free)
    end subroutine free_stiffness
+
+   !> Squares of the natural frequencies without damping, ascending; negative where a push grows.
+   !>
+   !> K w = omega^2 N^T M N w, K diagonal in the modes.
+   function square_frequencies(system, balance) result(square)
+      class(planar_system_t), intent(in) :: system      !! the system, for the masses
+      type(balance_t), intent(in) :: balance            !! with stiffness and modes
+      real(wp) :: square(size(balance%stiffness))       !! (freedoms) squares [1/s^2]
+
+      real(wp), allocatable :: k_free(:, :), m_free(:, :), mass(:), work(:)
+      integer :: info, k, n
+
+      n = size(square)
+      square = 0.0_wp
+      if (n == 0) return
+      mass = position_scale(system)**2/reshape(system%inverse_mass(:, 1:), [3*system%n_body])
+      allocate (k_free(n, n), work(64*n), source=0.0_wp)
+      do k = 1, n
+         k_free(k, k) = balance%stiffness(k)
+      end do
+      m_free = matmul(transpose(balance%modes), spread(mass, 2, n)*balance%modes)
+      call dsygv(1, "N", "U", n, k_free, n, m_free, n, square, work, size(work), info)
+   end function square_frequencies
 
 end module static_problem

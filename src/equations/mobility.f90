@@ -204,9 +204,9 @@ contains
 
       words = ""
       do k = 1, min(size(names), most_names)
-         words = words//" '"//names(k)%s//"'"
+         words = words//"'"//names(k)%s//"' "
       end do
-      words = adjustl(words)
+      words = trim(words)
       if (size(names) > most_names) words = words//" and "//to_text(size(names) - most_names)//" more"
    end function counted_names
 

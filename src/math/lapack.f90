@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgelsd, dgeqp3, dgesvd, dgetrf, dgetrs, dsyev
+   public :: dgelsd, dgeqp3, dgesvd, dgetrf, dgetrs, dsyev, dsygv
 
    interface
       !> Least-norm least-squares solution by singular values, with the rank.
@@ -58,6 +58,20 @@ module lapack
          real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
          integer, intent(out) :: info             !! 0: done
       end subroutine dsyev
+
+      !> Eigenvalues of a symmetric matrix against a positive definite one.
+      subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: itype                !! 1: a x = w b x
+         character, intent(in) :: jobz, uplo         !! N: no vectors; U: upper triangles
+         integer, intent(in) :: n, lda, ldb, lwork   !! sizes
+         real(wp), intent(inout) :: a(lda, *)        !! (lda, n) symmetric matrix, destroyed [any]
+         real(wp), intent(inout) :: b(ldb, *)        !! (ldb, n) positive definite matrix, destroyed [any]
+         real(wp), intent(out) :: w(*)               !! (n) eigenvalues, ascending [any]
+         real(wp), intent(out) :: work(*)            !! (lwork) scratch [any]
+         integer, intent(out) :: info                !! 0: done
+      end subroutine dsygv
 
       !> LU factorisation with partial pivoting.
       subroutine dgetrf(m, n, a, lda, ipiv, info)
