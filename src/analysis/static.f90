@@ -34,7 +34,8 @@ module static
    real(wp), parameter :: nearby = 0.1_wp           !! how far KINSOL may move a coordinate, in sizes or radians [1]
    real(wp), parameter :: no_stiffness = 1.0e-6_wp  !! stiffness that counts as none, of the largest load [1]
    real(wp), parameter :: lost_digits = 1.0e-8_wp   !! stiffness lost in the differences, of the largest [1]
-   real(wp), parameter :: to_round_off = 1.0e-14_wp !! unbalanced load that KINSOL tries to reach, of the largest [1]
+   real(wp), parameter :: to_round_off = 1.0e-14_wp !! unbalanced load that is tried for in the end, of the largest [1]
+   integer, parameter :: n_last = 3                 !! steps from the tolerance towards it
    integer, parameter :: n_polish = 50              !! iterations of KINSOL allowed
 
    !> An equilibrium.
@@ -64,7 +65,7 @@ contains
       type(balance_t) :: balance
       real(wp) :: cpu_0, cpu_1
       integer :: most
-      logical :: is_settled
+      logical :: is_exact, is_settled
 
       call cpu_time(cpu_0)
       equilibrium%tolerance = scene%static%values(column_of(scene%static_kind, "tolerance"))%number
@@ -76,6 +77,7 @@ contains
          call try_to_polish(system, q, balance, equilibrium)
          if (.not. equilibrium%is_polished) then
             call relax(system, equilibrium%tolerance, most, q, balance, equilibrium%steps, is_settled)
+            if (is_settled) call relax(system, to_round_off, equilibrium%steps + n_last, q, balance, equilibrium%steps, is_exact)
          end if
       end if
       equilibrium%unbalanced = norm2(balance%load)/max(load_scale(system), tiny(1.0_wp))

@@ -51,11 +51,11 @@ contains
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
       if (allocated(error)) return
-      call choose_analysis(options, loaded%scene, error)
-      if (allocated(error)) return
-      ! channels and figures are words of the loose joints, whatever the level is in this run
+      ! channels and figures are words of the loose joints and of the deck's first analysis, whatever this run has of them
       call new_system(loaded%scene, levels_loose, loose)
       call build_catalogue(loose, catalogue)
+      call choose_analysis(options, loaded%scene, error)
+      if (allocated(error)) return
       call apply_options(options, loaded%scene, error)
       if (allocated(error)) return
       call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &

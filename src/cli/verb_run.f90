@@ -26,7 +26,7 @@ module verb_run
    use prescribed_motion, only: newton_t
    use recorder, only: summary_t
    use run_recorder, only: run_recorder_t
-   use scene, only: analysis_kinematic, analysis_static, scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
    use section_info, only: column_of
    use start_state, only: deck_positions, find_start
@@ -238,7 +238,12 @@ contains
       type(output_plan_t), intent(inout) :: plan     !! words are set, dropped ones become warnings
 
       type(catalogue_t) :: catalogue
+      character(:), allocatable :: reason
 
+      reason = "the joint is ideal"
+      if (loaded%scene%analysis /= analysis_dynamic) then
+         reason = "not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+      end if
       call build_catalogue(loaded%system, catalogue)
       allocate (plan%channels(0), plan%figures(0))
       call keep("channel", "channels", plan%channels)
@@ -266,7 +271,7 @@ contains
                if (bad == 0) then
                   call append_text(kept, words(k)%s)
                else
-                  call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: the joint is ideal")
+                  call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: "//reason)
                end if
             end do
          end associate
