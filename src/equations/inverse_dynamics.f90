@@ -42,7 +42,7 @@ contains
    subroutine find_reactions(system, a, unbalanced)
       class(planar_system_t), intent(inout) :: system  !! the system, rows and loads evaluated; lambda is set
       real(wp), intent(in) :: a(:)                     !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(out) :: unbalanced              !! norm of g - M a - Phi_q^T lambda, forces times the size of the bodies [N.m]
+      real(wp), intent(out) :: unbalanced              !! norm of g - M a - Phi_q^T lambda, forces times the size [N.m]
 
       real(wp), allocatable :: b(:, :), jac(:, :), rest(:), right(:), s(:), transposed(:, :), work(:)
       integer, allocatable :: iwork(:)

@@ -155,7 +155,7 @@ contains
 
       allocate (names(0))
       rows: do k = 1, size(is_meant)
-         if (.not. is_meant(k)) cycle
+         if (.not. is_meant(k)) cycle rows
          do i = 1, size(names)
             if (names(i)%s == system%row_name(k)) cycle rows
          end do
