@@ -2,9 +2,10 @@
 !>
 !> Each step goes along s = sum of modes (f_k / |K_k|), f_k the load out of balance along mode k, K_k its tangent
 !> stiffness: Newton's step where the stiffness is positive, downhill where it is negative, so that an unstable
-!> equilibrium is left unless the search begins exactly in it. No body moves by more than 0.3 of the size
-!> of the bodies, or a radian, in a step; a step is shortened until the loads at its end no longer work against
-!> it by more than half of what they do for it at its begin. Then the ideal joints are closed again.
+!> equilibrium is left unless the search begins exactly in it. No body turns by more than 0.3 rad in a step, or
+!> moves by more than 0.3 of the extent of the mechanism and ten sizes of its bodies; a step is shortened until the
+!> loads at its end no longer work against it by more than half of what they do for it at its begin. Then
+!> the ideal joints are closed again.
 !>
 !> Source: Nocedal and Wright, Numerical Optimization (2006), sections 3.4 (modified Newton), 6.2 and 15.3 (null
 !> space); Dauphin et al. (2014), the absolute value of the curvature. Limits: loads that do work in a closed
@@ -18,7 +19,8 @@ module static_relaxation
    private
    public :: least_unbalance, relax
 
-   real(wp), parameter :: longest_step = 0.3_wp    !! of a coordinate, in sizes or radians [1]
+   real(wp), parameter :: longest_step = 0.3_wp    !! turn of a body, or motion over the extent [1]
+   real(wp), parameter :: sizes = 10.0_wp          !! sizes of the bodies that count as extent at least [1]
    real(wp), parameter :: least_part = 1.0e-13_wp  !! stiffness that counts, of the largest [1]
    integer, parameter :: n_search = 60             !! lengths of a step tried
 
@@ -41,7 +43,7 @@ contains
          call free_stiffness(system, q, balance)
          is_settled = norm2(balance%load) <= part*load_scale(system) + least_unbalance(balance)
          if (is_settled .or. steps >= most) return
-         call downhill(balance, direction)
+         call downhill(balance, extent_of(system, q), direction)
          call go_along(system, direction, q, balance)
          steps = steps + 1
       end do
@@ -55,29 +57,44 @@ contains
       if (size(balance%stiffness) > 0) load = 8.0_wp*eps*maxval(abs(balance%stiffness))
    end function least_unbalance
 
-   !> The step: no coordinate by more than the longest.
-   pure subroutine downhill(balance, direction)
+   !> Extent of the mechanism in sizes of its bodies.
+   pure real(wp) function extent_of(system, q) result(extent)
+      class(planar_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: q(:)                  !! (3 bodies) positions [m, m, rad]
+
+      extent = sizes + max(maxval(q(1::3)) - minval(q(1::3)), maxval(q(2::3)) - minval(q(2::3)))/system%length_scale
+   end function extent_of
+
+   !> The step, along each mode and in all not longer than allowed.
+   pure subroutine downhill(balance, extent, direction)
       type(balance_t), intent(in) :: balance      !! load, stiffness and modes
+      real(wp), intent(in) :: extent              !! of the mechanism, in sizes of its bodies [1]
       real(wp), intent(out) :: direction(:)       !! (3 bodies) scaled step [1]
 
-      real(wp) :: floor_stiffness, force
+      real(wp) :: floor_stiffness, force, part(size(direction))
       integer :: k
 
       direction = 0.0_wp
       floor_stiffness = max(least_part*maxval(abs(balance%stiffness)), norm2(balance%load)*least_part, tiny(1.0_wp))
       do k = 1, size(balance%stiffness)
          force = dot_product(balance%modes(:, k), balance%load)
-         direction = direction + balance%modes(:, k)*limited(force/max(abs(balance%stiffness(k)), floor_stiffness))
+         part = balance%modes(:, k)*(force/max(abs(balance%stiffness(k)), floor_stiffness))
+         direction = direction + shortened(part, extent)
       end do
-      direction = direction*min(1.0_wp, longest_step/max(maxval(abs(direction)), longest_step))
+      direction = shortened(direction, extent)
    end subroutine downhill
 
-   !> A part of a step, so short that the parts can be added.
-   pure real(wp) function limited(x)
-      real(wp), intent(in) :: x   !! along one mode [1]
+   !> A step not longer than allowed.
+   pure function shortened(step, extent) result(short)
+      real(wp), intent(in) :: step(:)             !! (3 bodies) scaled step [1]
+      real(wp), intent(in) :: extent              !! of the mechanism, in sizes of its bodies [1]
+      real(wp) :: short(size(step))               !! (3 bodies) in the same direction [1]
 
-      limited = sign(min(abs(x), longest_step), x)
-   end function limited
+      real(wp) :: length
+
+      length = max(maxval(abs(step(3::3))), maxval(abs(step(1::3)))/extent, maxval(abs(step(2::3)))/extent)
+      short = step*(longest_step/max(length, longest_step))
+   end function shortened
 
    !> Move along a step, shortened where the loads turn against it.
    subroutine go_along(system, direction, q, balance)

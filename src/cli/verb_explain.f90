@@ -174,7 +174,8 @@ contains
       integer :: k
 
       if (has_failed .and. size(assembly%dependent) == 0) then
-         call say("NOT ready to run: the error below says why", 2)
+         call say(trim(merge("NOT assembled   ", "NOT ready to run", loaded%scene%analysis == analysis_dynamic))// &
+                  ": the error below says why", 2)
          return
       end if
       call say(counted(3*loaded%system%n_body - loaded%system%rows%n + size(assembly%dependent), &

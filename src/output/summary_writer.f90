@@ -241,7 +241,7 @@ contains
       call json%put_text("method", summary%method)
       call json%put_text("solver", summary%solver)
       call json%put_text("stabilisation", summary%stabilisation)
-      if (len(summary%equilibrium) > 0) call json%put_text("equilibrium", summary%equilibrium)
+      call json%put_text("equilibrium", summary%equilibrium)
       call json%put_real("tolerance", summary%tolerance)
       call json%put_real("time_start", summary%time_start)
       call json%put_real("time_end", summary%time_end)
