@@ -18,6 +18,7 @@ PYTHON ?= /usr/bin/python3
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 SUNDIALS_DIR ?=
 HDF5_DIR ?=
+SUITESPARSE_DIR ?=
 LAPACK ?=
 ifeq ($(origin ARCH),undefined)
 ifeq ($(shell uname -m),x86_64)
@@ -27,7 +28,7 @@ endif
 endif
 ARCH := $(strip $(ARCH))
 
-export FC PYTHON SUNDIALS_DIR HDF5_DIR LAPACK
+export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR LAPACK
 export OPENBLAS_NUM_THREADS := 1
 export PYTHONDONTWRITEBYTECODE := 1
 
@@ -92,7 +93,7 @@ help:
 	@echo "make -j objects compile all sources without linking (-k: go on after errors)"
 	@echo
 	@echo "Variables: MODE=release|debug  ARCH=x86-64-v3 (ARCH= for the compiler's default)  BUILD=build  JOBS=$(JOBS)"
-	@echo "           SUNDIALS_DIR= HDF5_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
+	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
 	@echo "           PYTEST='-k expression' (options for make test)"
 
 # ---- building one mode ------------------------------------------------------------------------------
@@ -161,7 +162,12 @@ HDF5_INCLUDE := -I/usr/include/hdf5/serial
 HDF5_LIBRARIES := -lhdf5_serial_fortran -lhdf5_serial_hl -lhdf5_serial
 endif
 
-LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(or $(LAPACK),-llapack -lblas) -lm
+ifneq ($(SUITESPARSE_DIR),)
+SUITESPARSE_PATH := $(foreach d,$(wildcard $(SUITESPARSE_DIR)/lib $(SUITESPARSE_DIR)/lib64),-L$(d) -Wl,-rpath,$(d))
+endif
+
+LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(SUITESPARSE_PATH) -lklu \
+  $(or $(LAPACK),-llapack -lblas) -lm
 
 # Off, because contracts need the noise: arguments that one kind does not use, comparing with an exact zero. Off too: gfortran's
 # false alarms about allocatable descriptors (signalling NaN finds the real ones) and about queries of files in conditions.

@@ -15,6 +15,7 @@ module deck_scene
    use scene, only: scene_t
    use scratch_deck, only: remove_scratch, write_scratch
    use start_state, only: find_start
+   use step_check, only: check_steps
    use text, only: append_text, text_t
    use time_plan, only: new_time_plan, time_plan_t
    use verb_run, only: new_method
@@ -89,6 +90,7 @@ contains
       call mistakes%to_error(deck%sources, error)
       if (allocated(error)) return
       call new_system(loaded%scene, levels_as_written, loaded%system)
+      call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       call mistakes%to_error(deck%sources, error)
       if (allocated(error)) return

@@ -1,7 +1,6 @@
 !> Follows the contacts of a motion: their onset, their maxima, their end, one row for each.
 module contact_watch
    use integrator, only: integrator_t
-   use interpolation, only: interpolate
    use kinds, only: not_a_number, wp
    use memory, only: get, put
    use planar_system, only: n_ledger, planar_system_t
@@ -78,7 +77,7 @@ contains
             has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate < 0.0_wp
             if (has_peak) call find_penetration_peak(self, system, method, k, i, self%penetration(number), penetration)
             if (has_force_peak) call find_force_peak(self, system, method, k, i, self%force(number), force)
-            if (has_peak .or. has_force_peak) call system%set_state(method%step%y1, method%step%f1)
+            if (has_peak .or. has_force_peak) call system%set_state(method%t, method%step%y1, method%step%f1)
             self%force(number) = force
             self%penetration(number) = penetration
          end do
@@ -129,8 +128,8 @@ contains
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          place = maximum_in(bracket)
-         call interpolate(method%step, system%n_position, place, self%y)
-         call system%set_motion(self%y)
+         call method%within(system, place, self%y)
+         call system%set_motion(method%step%t0 + place*method%step%h, self%y)
          call look(system, slot, item, force, here)
          call keep_peaks(system, slot, item, here%value + missing(here, bracket), 0.0_wp)
          if (missing(here, bracket) <= sqrt(near)*abs(here%value)) exit
@@ -162,7 +161,7 @@ contains
          if (status /= 0) return
          call system%evaluate(method%step%t0 + place*method%step%h, self%y, self%ydot, status)
          if (status /= 0) return
-         call system%set_state(self%y, self%ydot)
+         call system%set_state(method%step%t0 + place*method%step%h, self%y, self%ydot)
          call look(system, slot, item, here, penetration)
          call keep_peaks(system, slot, item, 0.0_wp, here%value + missing(here, bracket))
          if (missing(here, bracket) <= sqrt(near)*abs(here%value)) exit
@@ -321,7 +320,7 @@ contains
 
       loss = not_a_number()
       if (.not. system%with_ledger) return
-      z = 6*system%n_body + n_ledger + 2*number
+      z = 2*system%n_position + n_ledger + 2*number
       loss = y(z - 1) + y(z)
    end function loss_of
 

@@ -171,7 +171,7 @@ contains
       real(wp) :: scaled
       integer :: k
 
-      do k = 1, system%rows%n
+      do k = 1, system%rows%n_solve
          scaled = run%weight(k)*abs(system%rows%phi(k))
          if (scaled > run%worst) then
             run%worst = scaled
@@ -330,6 +330,7 @@ contains
 
       where_singular = ""
       if (system%bad_row > 0) where_singular = ": they are singular at joint or driver '"//system%row_name(system%bad_row)//"'"
+      if (system%known%n > 0) call system%find_reactions(method%t)
       if (system%bad_row == 0) where_singular = not_finite(system)
       select case (status)
       case (advance_too_many_steps)
@@ -348,8 +349,8 @@ contains
                 " steps, the last of "//real_text(method%step%h, 3)//" s"
       allocate (ydot(system%n), source=0.0_wp)
       call system%evaluate(method%t, method%step%y1, ydot, code)
-      if (system%rows%n > 0) then
-         row = maxloc(abs(system%rows%phi), dim=1)
+      if (system%rows%n_solve > 0) then
+         row = maxloc(abs(system%rows%phi(:system%rows%n_solve)), dim=1)
          message = message//new_line("a")//"  = worst constraint there: '"//system%row_name(row)//"', violated by "// &
                    real_text(abs(system%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%rows%is_angle(row)))
       end if
@@ -363,14 +364,16 @@ contains
       type(planar_system_t), intent(in) :: system   !! the system, evaluated
       character(:), allocatable :: words            !! to follow "cannot be solved", blank if all is finite
 
-      integer :: k
+      integer :: k, pass
 
       words = ""
-      do k = 1, system%rows%n
-         if (ieee_is_finite(system%rows%phi(k)) .and. ieee_is_finite(system%rows%phi_t(k)) &
-             .and. ieee_is_finite(system%rows%gam(k))) cycle
-         words = ": '"//system%row_name(k)//"' or a derivative of it is not a finite number"
-         return
+      do pass = 1, 2  ! first the rows that are functions of time themselves
+         do k = 1, system%rows%n
+            if (ieee_is_finite(system%rows%phi_t(k)) .and. (pass == 1 .or. (ieee_is_finite(system%rows%phi(k)) &
+                                                                            .and. ieee_is_finite(system%rows%gam(k))))) cycle
+            words = ": '"//system%row_name(k)//"' or a derivative of it is not a finite number"
+            return
+         end do
       end do
       do k = 1, system%n_body
          if (all(ieee_is_finite(system%g(:, k)))) cycle

@@ -13,8 +13,7 @@ module kinematic
    use errors, only: error_t, exit_integration, set_error
    use inverse_dynamics, only: find_loads, find_reactions
    use kinds, only: i8, not_a_number, wp
-   use mobility, only: find_mobility, mobility_t, sharing_words, stiffest_driver
-   use motion, only: set_planar_acceleration
+   use mobility, only: find_mobility, mobility_t, stiffest_driver
    use planar_energy, only: energy_of, energy_t
    use planar_report, only: build_catalogue, fill_catalogue
    use planar_system, only: planar_system_t
@@ -42,12 +41,11 @@ module kinematic
 contains
 
    !> Run from assembled positions at t = 0 to the end.
-   subroutine run_kinematic(system, q, plan, newton, mobility, recorder, summary, error)
+   subroutine run_kinematic(system, q, plan, newton, recorder, summary, error)
       type(planar_system_t), intent(inout) :: system      !! the system, all joints ideal
       real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls
-      type(mobility_t), intent(in) :: mobility            !! freedoms and redundancies at the start
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(summary_t), intent(out) :: summary             !! cost and errors
       type(error_t), allocatable, intent(out) :: error    !! a dead point, or a file could not be written
@@ -65,7 +63,9 @@ contains
       summary%ledger = .false.
       summary%energy_residual_max = not_a_number()
       allocate (summary%warnings(0))
-      call warn(system, mobility, summary)
+      if (size(system%ideal) > 0) then
+         call append_text(summary%warnings, "joints with clearance are taken as ideal in a kinematic analysis")
+      end if
       call recorder%start(catalogue, error)
       call cpu_time(cpu_0)
       if (.not. allocated(error)) call follow(system, q, plan, newton, recorder, catalogue, summary, error)
@@ -83,18 +83,6 @@ contains
       call recorder%finish(summary, late_error)
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
    end subroutine run_kinematic
-
-   !> What a careful reader of the results should know.
-   subroutine warn(system, mobility, summary)
-      type(planar_system_t), intent(in) :: system     !! the system
-      type(mobility_t), intent(in) :: mobility        !! redundancies at the start
-      type(summary_t), intent(inout) :: summary       !! warnings are added
-
-      if (size(system%ideal) > 0) then
-         call append_text(summary%warnings, "joints with clearance are taken as ideal in a kinematic analysis")
-      end if
-      if (any(mobility%is_shared)) call append_text(summary%warnings, sharing_words(system, mobility))
-   end subroutine warn
 
    !> From output instant to output instant.
    subroutine follow(system, q, plan, newton, recorder, catalogue, summary, error)
@@ -214,7 +202,6 @@ contains
       real(wp) :: unbalanced, y(2*size(state%q))
 
       call evaluate_rows(system, state%t, state%q, state%v)
-      call set_planar_acceleration(system%n_body, state%a, system%motion)
       call find_loads(system, state%t)
       call find_reactions(system, state%a, unbalanced)
       y = [state%q, state%v]

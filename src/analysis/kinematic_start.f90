@@ -23,7 +23,7 @@ contains
       type(planar_system_t), intent(inout) :: system        !! the system, all joints ideal
       real(wp), allocatable, intent(out) :: q(:)            !! (3 bodies) positions at t = 0 [m, m, rad]
       type(assembly_t), intent(out) :: report               !! how the assembly went
-      type(mobility_t), intent(out) :: mobility             !! freedoms and redundancies at the start
+      type(mobility_t), intent(out) :: mobility             !! freedoms and drivers at the start
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, a driver is missing or in excess
 
       type(error_t), allocatable :: assembly_error
@@ -34,12 +34,13 @@ contains
       call evaluate_rows(system, 0.0_wp, q, v)
       call find_mobility(system, mobility)
       call find_dependent(system, q, v, report)
+      system%is_redundant = size(report%dependent) > 0
       if (any(mobility%is_excess)) then
          call refuse_excess(system, mobility, error)
       else if (allocated(assembly_error)) then
          call move_alloc(assembly_error, error)
       else if (mobility%n_left > 0) then
-         call refuse_missing(system, mobility, error)
+         call refuse_missing(system, mobility, report, error)
       end if
    end subroutine find_kinematic_start
 
@@ -62,15 +63,19 @@ contains
    end subroutine refuse_excess
 
    !> Freedoms that no driver prescribes.
-   subroutine refuse_missing(system, mobility, error)
+   subroutine refuse_missing(system, mobility, report, error)
       type(planar_system_t), intent(in) :: system          !! the system
       type(mobility_t), intent(in) :: mobility             !! freedoms and drivers
+      type(assembly_t), intent(in) :: report               !! dependent rows
       type(error_t), allocatable, intent(out) :: error     !! the message
 
       character(:), allocatable :: dead_point
+      logical :: is_shared(system%rows%n)
 
+      is_shared = .false.
+      is_shared(report%shared) = .true.
       dead_point = ""
-      if (any(mobility%is_shared)) dead_point = new_line("a")//"  = rows of "//joint_names(system, mobility%is_shared)// &
+      if (any(is_shared)) dead_point = new_line("a")//"  = rows of "//joint_names(system, is_shared)// &
                                    " depend on each other here: if this is a dead point, start beside it"
       call set_error(error, exit_assembly, "the motion is not determined: "//freedoms(mobility%n_left)//" left; "// &
                      drivers(mobility%n_driver)//" for "//freedoms(mobility%n_freedom)//new_line("a")// &

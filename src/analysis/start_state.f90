@@ -1,4 +1,4 @@
-!> Where a motion begins: assembled positions, consistent velocities, no overlap, no redundant rows.
+!> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
    use build_system, only: levels_ideal, new_system
    use consistent_start, only: assemble, assembly_t, find_dependent
@@ -11,7 +11,7 @@ module start_state
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: deck_positions, find_start
+   public :: deck_positions, find_start, redundancy_text
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
 
@@ -36,20 +36,18 @@ contains
    !>
    !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
    !> only the ideal joints; both move the bodies as little as possible. `start = static` searches the
-   !> equilibrium at t = 0. Dependent rows are refused in
-   !> the system that runs; while assembling they do no harm.
+   !> equilibrium at t = 0. Rows of the system that runs may depend on one another: it is told.
    subroutine find_start(scene, system, y, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that will run
       real(wp), allocatable, intent(out) :: y(:)            !! (n) state [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
-      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, redundant rows, or overlap
+      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or overlap
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
-      integer :: n
+      integer :: k
 
-      n = 3*system%n_body
       call deck_positions(scene, q, v)
       select case (scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
       case ("ideal")
@@ -62,12 +60,15 @@ contains
       end select
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
-      call refuse_dependent(system, report, error)
-      if (.not. allocated(error) .and. all_free(system)) call refuse_overlap(system, [q, v], error)
-      if (allocated(error)) return
+      system%is_redundant = size(report%dependent) > 0
       allocate (y(system%n), source=0.0_wp)
-      y(1:n) = q
-      y(n + 1:2*n) = v
+      do k = 1, system%rows%n_unknown
+         associate (body => system%rows%unknown(k))
+            y(3*k - 2:3*k) = q(3*body - 2:3*body)
+            y(system%n_position + 3*k - 2:system%n_position + 3*k) = v(3*body - 2:3*body)
+         end associate
+      end do
+      call refuse_overlap(system, y, error)
    end subroutine find_start
 
    !> The static equilibrium at t = 0, its contacts begun. The velocities are zero but for what drivers move.
@@ -97,37 +98,26 @@ contains
       end do
    end subroutine start_at_rest
 
-   !> Whether no contact is touching yet.
-   pure logical function all_free(system)
-      type(planar_system_t), intent(in) :: system   !! the system
-
-      integer :: k
-
-      all_free = .true.
-      do k = 1, size(system%clearances)
-         all_free = all_free .and. system%clearances(k)%set%n_touching == 0
-      end do
-   end function all_free
-
-   !> Rows that depend on others: say which joints they belong to.
-   subroutine refuse_dependent(system, report, error)
-      type(planar_system_t), intent(in) :: system          !! the system that was assembled
-      type(assembly_t), intent(in) :: report               !! dependent rows
-      type(error_t), allocatable, intent(out) :: error     !! some rows depend on others
+   !> How many rows depend on others, and whose reactions are not unique; blank if none.
+   function redundancy_text(system, report) result(words)
+      class(planar_system_t), intent(in) :: system   !! the system that was assembled
+      type(assembly_t), intent(in) :: report         !! dependent rows
+      character(:), allocatable :: words             !! one line
 
       character(:), allocatable :: names
       integer :: k
 
+      words = ""
       if (size(report%dependent) == 0) return
       names = ""
-      do k = 1, size(report%dependent)
-         if (index(names//" ", "'"//system%row_name(report%dependent(k))//"'") > 0) cycle
-         names = names//" '"//system%row_name(report%dependent(k))//"'"
+      do k = 1, size(report%shared)
+         if (index(names//" ", "'"//system%row_name(report%shared(k))//"'") > 0) cycle
+         names = names//" '"//system%row_name(report%shared(k))//"'"
       end do
-      call set_error(error, exit_assembly, "redundant constraints: "//to_text(size(report%dependent))// &
-                     " of "//to_text(system%rows%n)//" rows depend on others, at joint or driver"//names//new_line("a")// &
-                     "  = reactions would not be unique; remove a joint or driver of the loop, or let one have clearance")
-   end subroutine refuse_dependent
+      words = "redundant constraints: "//to_text(size(report%dependent))//" of "//to_text(system%rows%n)// &
+              " rows depend on others at the start; accelerations are exact, but the reactions of"//names// &
+              " are not unique: those of least norm are given"
+   end function redundancy_text
 
    !> No loose joint may begin with its surfaces overlapping.
    subroutine refuse_overlap(system, y, error)

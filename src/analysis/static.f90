@@ -13,9 +13,8 @@ module static
    use errors, only: error_t, exit_assembly, set_error
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
-   use mobility, only: find_mobility, mobility_t, moving_bodies, sharing_words
+   use mobility, only: moving_bodies
    use planar_energy, only: energy_of, energy_t
-   use motion, only: set_planar_acceleration
    use planar_report, only: build_catalogue, fill_catalogue
    use planar_system, only: planar_system_t
    use prescribed_motion, only: newton_t, solve_positions
@@ -112,6 +111,7 @@ contains
       end if
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
+      system%is_redundant = size(report%dependent) > 0
    end subroutine assemble_at_rest
 
    !> Let KINSOL polish; keep what it found if that is an equilibrium nearby.
@@ -235,7 +235,6 @@ contains
       type(catalogue_t) :: catalogue
       type(energy_t) :: energy
       type(error_t), allocatable :: late_error
-      type(mobility_t) :: mobility
       real(wp) :: rest(size(equilibrium%q)), unbalanced, y(2*size(equilibrium%q))
 
       call build_catalogue(system, catalogue)
@@ -243,12 +242,9 @@ contains
       y = [equilibrium%q, rest]
       call evaluate_balance(system, equilibrium%q, balance)
       call find_reactions(system, rest, unbalanced)
-      call set_planar_acceleration(system%n_body, rest, system%motion)
       system%phi_dot = 0.0_wp
-      call find_mobility(system, mobility)
       allocate (summary%warnings(0))
       if (equilibrium%warning /= "") call append_text(summary%warnings, equilibrium%warning)
-      if (any(mobility%is_shared)) call append_text(summary%warnings, sharing_words(system, mobility))
       summary%method = "relaxation"
       if (equilibrium%is_polished) summary%method = "kinsol"
       summary%equilibrium = equilibrium%words//"; "//real_text(equilibrium%unbalanced, 2)//" of the largest load out of balance"

@@ -158,7 +158,7 @@ contains
       n = size(square)
       square = 0.0_wp
       if (n == 0) return
-      mass = position_scale(system)**2/reshape(system%inverse_mass(:, 1:), [3*system%n_body])
+      mass = position_scale(system)**2*reshape(system%mass, [3*system%n_body])
       allocate (k_free(n, n), work(64*n), source=0.0_wp)
       do k = 1, n
          k_free(k, k) = balance%stiffness(k)

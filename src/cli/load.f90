@@ -15,6 +15,7 @@ module load
    use read_scene, only: scene_from_deck
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
    use section_info, only: column_of
+   use step_check, only: check_steps
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
@@ -60,6 +61,7 @@ contains
       if (allocated(error)) return
       call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
                       loaded%system)
+      call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       call check_words(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
@@ -128,6 +130,7 @@ contains
             return
          end if
          scene%dynamic%values(c)%text = options%method
+         scene%dynamic%values(c)%location = location_t()
       end if
 
    contains

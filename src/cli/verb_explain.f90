@@ -17,7 +17,7 @@ module verb_explain
    use planar_system, only: planar_system_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use section_info, only: column_of
-   use start_state, only: deck_positions, find_start
+   use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium
    use text, only: real_text, text_t, to_text
    use time_plan, only: last_instant
@@ -146,6 +146,10 @@ contains
       call say("")
       call say("model")
       call say(counted(system%n_body, "planar body", "planar bodies")//", "//to_text(3*system%n_body)//" coordinates", 2)
+      do k = 1, system%known%n
+         call say("'"//system%bodies%names(system%known%body(k))%s//"' moves as a known function of time: "// &
+                  to_text(3*system%rows%n_unknown)//" coordinates unknown, "//to_text(system%rows%n_solve)//" rows solved", 2)
+      end do
       do k = 1, size(scene%joints)
          call count_kind(scene%joints(k)%info, scene%joints(k)%items)
       end do
@@ -171,9 +175,8 @@ contains
       logical, intent(in) :: has_failed          !! there is no start
 
       type(mobility_t) :: mobility
-      integer :: k
 
-      if (has_failed .and. size(assembly%dependent) == 0) then
+      if (has_failed) then
          call say(trim(merge("NOT assembled   ", "NOT ready to run", loaded%scene%analysis == analysis_dynamic))// &
                   ": the error below says why", 2)
          return
@@ -185,10 +188,11 @@ contains
          call say(counted(mobility%n_freedom, "degree of freedom", "degrees of freedom")//" without drivers, "// &
                   counted(mobility%n_driver, "driver", "drivers"), 2)
       end if
-      do k = 1, size(assembly%dependent)
-         call say("redundant: a row of '"//loaded%system%row_name(assembly%dependent(k))//"'", 2)
-      end do
-      if (size(assembly%dependent) == 0) call say("no redundant rows", 2)
+      if (loaded%system%is_redundant) then
+         call say(redundancy_text(loaded%system, assembly), 2)
+      else
+         call say("no redundant rows", 2)
+      end if
       call say("assembled in "//counted(assembly%corrections, "correction", "corrections")//", residual "// &
                real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)// &
                " m", 2)

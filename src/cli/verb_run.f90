@@ -10,8 +10,7 @@ module verb_run
    use errors, only: error_t
    use figure_words, only: check_figures
    use integrator, only: integrator_t, read_controls
-   use integrator_registry, only: n_integrator_kinds, new_integrator
-   use kind_info, only: kind_info_t
+   use integrator_registry, only: find_integrator
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
    use kinds, only: wp
@@ -29,7 +28,7 @@ module verb_run
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
    use section_info, only: column_of
-   use start_state, only: deck_positions, find_start
+   use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use text, only: append_text, real_text, text_t
    use version, only: program_version
@@ -114,7 +113,7 @@ contains
       call directory%open(directory_of(options, loaded%path), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory%path, assembly, keeper%plan)
-      call run_kinematic(loaded%system, q, loaded%plan, newton, mobility, keeper, summary, error)
+      call run_kinematic(loaded%system, q, loaded%plan, newton, keeper, summary, error)
       call directory%close()
    end subroutine run_prescribed
 
@@ -152,14 +151,7 @@ contains
       type(scene_t), intent(in) :: scene                                !! the scene
       class(integrator_t), allocatable, intent(out) :: method           !! the integrator, not started
 
-      type(kind_info_t) :: info
-      integer :: k
-
-      do k = 1, n_integrator_kinds
-         call new_integrator(k, method)
-         info = method%info()
-         if (info%name == scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text) exit
-      end do
+      call find_integrator(scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text, method)
       call read_controls(scene%dynamic_kind, scene%dynamic, method%controls)
    end subroutine new_method
 
@@ -225,6 +217,7 @@ contains
                           loaded%scene%bodies%names(assembly%changed_body)%s// &
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
+      if (loaded%system%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
       if (options%is_json) plan%show = show_json
       if (options%is_quiet) then
          plan%with_progress = .false.

@@ -1,32 +1,42 @@
-!> Augmented equations by the Schur complement of the mass matrix.
+!> Augmented equations by the Schur complement of the mass matrix, as in the analytic inverse of the book.
 !>
 !> S = Phi_q M^-1 Phi_q^T,   S lambda = Phi_q M^-1 g - b,   a = M^-1 (g - Phi_q^T lambda)
 !>
-!> S is assembled from a list, fixed at set-up, of the pairs of rows that share a body, and
-!> factorised as L D L^T within its envelope, with a pivot test against the diagonal.
-!> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: independent rows.
+!> S is assembled from a list of pairs of rows that share an unknown body, made once, and factorised as L D L^T in its
+!> envelope; the order of the rows is the given one or that of reverse Cuthill-McKee, whichever costs less. A chain of
+!> bodies costs in proportion to its length.
+!> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: independent rows; a pivot below `threshold` of its diagonal
+!> is left to `solve_damped`.
 module augmented_schur
-   use augmented, only: augmented_t
-   use envelope, only: envelope_t, factorise_and_solve, new_envelope
+   use augmented, only: body_accelerations, direct_t
+   use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
    use joint_set, only: rows_t
    use kinds, only: wp
+   use ordering, only: envelope_of, reverse_cuthill_mckee
    implicit none (type, external)
    private
-   public :: augmented_schur_t
+   public :: augmented_schur_t, schur_is_cheap
 
-   real(wp), parameter :: threshold = 1.0e-13_wp  !! least pivot, as a part of its diagonal [1]
+   real(wp), parameter :: threshold = 1.0e-5_wp  !! least pivot, as a part of its diagonal: below, rows are nearly dependent [1]
 
-   !> Schur complement in an envelope.
-   type, extends(augmented_t) :: augmented_schur_t
-      integer :: n_body = 0                       !! number of bodies
-      type(envelope_t) :: s                       !! Schur complement
-      integer :: n_pair = 0                       !! pairs of rows that share a body
+   real, parameter :: sparse_cost = 120.0        !! operations that the sparse solver costs for a row or coordinate, measured
+   real, parameter :: few = 10.0                 !! how many times that the pairs of a row may cost
+
+   !> Schur complement with its structure.
+   type, extends(direct_t) :: augmented_schur_t
+      type(envelope_t) :: s                       !! Schur complement, then its factors
+      integer, allocatable :: order(:)            !! (solved rows) rows in the order of the envelope
+      integer, allocatable :: position(:)         !! (solved rows) place of each row in it
+      integer :: n_pair = 0                       !! pairs of row sides that share a body
       integer, allocatable :: pair(:, :)          !! (3, pairs) entry of Phi_q M^-1, entry of Phi_q, place in S
-      real(wp), allocatable :: jac_m(:)           !! (6 rows) Phi_q M^-1, row by row [any]
+      real(wp), allocatable :: jac_m(:)           !! (6 rows) Phi_q M^-1 [any]
+      real(wp), allocatable :: x(:)               !! (solved rows) right-hand side and solution, in the order of the envelope [any]
    contains
       procedure, nopass :: name => schur_name
       procedure :: prepare => schur_prepare
       procedure :: solve => schur_solve
+      procedure :: factorise => schur_factorise
+      procedure :: back_solve => schur_back_solve
    end type augmented_schur_t
 
 contains
@@ -38,47 +48,116 @@ contains
       name = "schur"
    end function schur_name
 
-   !> Envelope and list of pairs.
+   !> Whether the Schur complement costs less than a sparse factorisation of the whole matrix would.
+   logical function schur_is_cheap(rows) result(is_cheap)
+      type(rows_t), intent(in) :: rows  !! rows, declared
+
+      integer, allocatable :: first(:), order(:)
+      real :: cost, pairs
+      integer :: body
+
+      pairs = 0.0
+      do body = 1, ubound(rows%last_side, 1)
+         pairs = pairs + 0.5*real(rows%last_side(body) - rows%last_side(body - 1))**2
+      end do
+      is_cheap = pairs < few*sparse_cost*real(rows%n_solve + 1)  ! else the pairs alone are too many to list
+      if (.not. is_cheap) return
+      call choose_order(rows, order, first, cost)
+      is_cheap = cost + 3.0*pairs < sparse_cost*real(rows%n_solve + 3*rows%n_unknown)
+   end function schur_is_cheap
+
+   !> The order of the rows with the narrower envelope.
+   subroutine choose_order(rows, order, first, cost)
+      type(rows_t), intent(in) :: rows                  !! rows, declared
+      integer, allocatable, intent(out) :: order(:)     !! (solved rows) rows in their order
+      integer, allocatable, intent(out) :: first(:)     !! (solved rows) first column of each place
+      real, intent(out) :: cost                         !! operations of one factorisation, about
+
+      integer, allocatable :: neighbour(:), other(:), other_first(:), start(:)
+      real :: other_cost
+      integer :: k
+
+      call list_neighbours(rows, start, neighbour)
+      order = [(k, k=1, rows%n_solve)]
+      first = order
+      other_first = order
+      call envelope_of(start, neighbour, order, first, cost)
+      call reverse_cuthill_mckee(start, neighbour, other)
+      call envelope_of(start, neighbour, other, other_first, other_cost)
+      if (other_cost >= cost) return
+      cost = other_cost
+      order = other
+      first = other_first
+   end subroutine choose_order
+
+   !> For each solved row, those that share an unknown body with it.
+   subroutine list_neighbours(rows, start, neighbour)
+      type(rows_t), intent(in) :: rows                    !! rows, declared
+      integer, allocatable, intent(out) :: start(:)       !! (solved rows + 1) place of the first neighbour of each row
+      integer, allocatable, intent(out) :: neighbour(:)   !! (any) neighbours
+
+      integer :: body, i, j, n, pass, row
+
+      n = rows%n_solve
+      allocate (start(n + 1), source=0)
+      do pass = 1, 2
+         do body = 1, ubound(rows%last_side, 1)
+            do i = rows%last_side(body - 1) + 1, rows%last_side(body)
+               row = rows%side(1, i)
+               do j = rows%last_side(body - 1) + 1, rows%last_side(body)
+                  if (i == j) cycle
+                  if (pass == 2) neighbour(start(row)) = rows%side(1, j)
+                  start(row) = start(row) + 1
+               end do
+            end do
+         end do
+         if (pass == 1) then
+            ! counts become places
+            i = 1
+            do row = 1, n + 1
+               j = start(row)
+               start(row) = i
+               i = i + j
+            end do
+            allocate (neighbour(i - 1), source=0)
+         end if
+      end do
+      ! the second pass has moved each place to that of the next row
+      start(2:) = start(:n)
+      start(1) = 1
+   end subroutine list_neighbours
+
+   !> Order, envelope and pairs.
    subroutine schur_prepare(self, n_body, rows)
       class(augmented_schur_t), intent(inout) :: self  !! the solver
       integer, intent(in) :: n_body                    !! number of bodies
       type(rows_t), intent(in) :: rows                 !! rows, of which the bodies are read
 
-      integer, allocatable :: first(:), pairs(:, :)
-      integer :: i, j, n, pass, side_i, side_j
+      integer, allocatable :: first(:)
+      real :: cost
+      integer :: body, column, i, j, k, line, n, pass
 
-      n = rows%n
-      self%n_body = n_body
-      allocate (first(n))
-      first = [(i, i=1, n)]
-      allocate (pairs(4, 0))
+      n = rows%n_solve
+      call choose_order(rows, self%order, first, cost)
+      allocate (self%position(n), source=0)
+      self%position(self%order) = [(k, k=1, n)]
+      call new_envelope(first, self%s)
       do pass = 1, 2
          self%n_pair = 0
-         do i = 1, n
-            do j = 1, i
-               do side_i = 1, 2
-                  if (rows%body(side_i, i) == 0) cycle
-                  do side_j = 1, 2
-                     if (rows%body(side_i, i) /= rows%body(side_j, j)) cycle
-                     self%n_pair = self%n_pair + 1
-                     first(i) = min(first(i), j)
-                     if (pass == 2) pairs(:, self%n_pair) = [i, 3*side_i - 2, j, 3*side_j - 2]
-                  end do
+         do body = 1, n_body
+            do i = rows%last_side(body - 1) + 1, rows%last_side(body)
+               line = self%position(rows%side(1, i))
+               do j = rows%last_side(body - 1) + 1, rows%last_side(body)
+                  column = self%position(rows%side(1, j))
+                  if (column > line) cycle
+                  self%n_pair = self%n_pair + 1
+                  if (pass == 2) self%pair(:, self%n_pair) = [rows%side(2, i) + 1, rows%side(2, j) + 1, self%s%start(line) + column]
                end do
             end do
          end do
-         if (pass == 1) then
-            deallocate (pairs)
-            allocate (pairs(4, self%n_pair))
-         end if
+         if (pass == 1) allocate (self%pair(3, self%n_pair), source=0)
       end do
-      call new_envelope(first, self%s)
-      allocate (self%pair(3, self%n_pair))
-      do i = 1, self%n_pair
-         self%pair(:, i) = [6*(pairs(1, i) - 1) + pairs(2, i), 6*(pairs(3, i) - 1) + pairs(4, i), &
-                            self%s%start(pairs(1, i)) + pairs(3, i)]
-      end do
-      allocate (self%jac_m(6*n), source=0.0_wp)
+      allocate (self%jac_m(6*rows%n), self%x(n), self%residual(n), source=0.0_wp)
    end subroutine schur_prepare
 
    !> Accelerations and multipliers.
@@ -88,41 +167,110 @@ contains
       type(rows_t), intent(in) :: rows                 !! rows
       real(wp), intent(in), contiguous :: g(:, 0:)                 !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in), contiguous :: b(:)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(out), contiguous :: a(:, 0:)                !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(out), contiguous :: lambda(:)               !! (rows) multipliers [N or N.m]
-      integer, intent(out) :: bad_row                  !! row at which the system is singular, 0: none
+      real(wp), intent(inout), contiguous :: a(:, 0:)              !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: lambda(:)             !! (rows) multipliers [N or N.m]
+      integer, intent(out) :: bad_row                  !! row that depends on others, or nearly so, 0: none
 
-      call weigh_rows(self%n_body, rows%n, rows%n_side, rows%side, inverse_mass, rows%jac, g, b, self%jac_m, lambda)
+      integer :: n_body
+
+      n_body = size(g, 2) - 1
+      call weigh_rows(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%position, inverse_mass, rows%jac, g, b, &
+                      self%jac_m, self%x)
       call multiply_pairs(6*rows%n, self%n_pair, size(self%s%a), self%pair, self%jac_m, rows%jac, self%s%a)
-      call factorise_and_solve(rows%n, size(self%s%a), self%s%first, self%s%start, threshold, self%s%a, self%s%inverse, &
-                               self%s%row, lambda, bad_row)
+      call factorise_and_solve(rows%n_solve, size(self%s%a), self%s%first, self%s%start, threshold, self%s%a, self%s%inverse, &
+                               self%s%row, self%x, bad_row)
       self%n_factorisations = self%n_factorisations + 1
-      if (bad_row > 0) return
-      call accelerations(self%n_body, rows%n, rows%n_side, rows%side, rows%last_side, inverse_mass, self%jac_m, g, lambda, a)
+      if (bad_row > 0) then
+         bad_row = self%order(bad_row)
+         return
+      end if
+      call in_given_order(rows%n_solve, self%position, self%x, lambda)
+      call body_accelerations(n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
+                              inverse_mass, rows%jac, g, lambda, a)
    end subroutine schur_solve
 
-   !> Phi_q M^-1, and the right-hand side of the multipliers. The ground has inverse mass zero.
-   pure subroutine weigh_rows(n_body, n_row, n_side, side, inverse_mass, jac, g, b, jac_m, x)
+   !> Factors of S with its diagonal raised.
+   subroutine schur_factorise(self, inverse_mass, rows, damping, bad_row)
+      class(augmented_schur_t), intent(inout) :: self  !! the solver
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)      !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                 !! rows
+      real(wp), intent(in) :: damping                  !! added to the diagonal, of its entries [1]
+      integer, intent(out) :: bad_row                  !! row at which there are no factors all the same, 0: none
+
+      integer :: body, k, place
+
+      do k = 1, rows%n_side
+         place = rows%side(2, k)
+         body = rows%side(3, k)
+         self%jac_m(place + 1:place + 3) = rows%jac(1 + modulo(place, 6):3 + modulo(place, 6), 1 + place/6)*inverse_mass(:, body)
+      end do
+      call multiply_pairs(6*rows%n, self%n_pair, size(self%s%a), self%pair, self%jac_m, rows%jac, self%s%a)
+      do k = 1, rows%n_solve
+         associate (diagonal => self%s%a(self%s%start(k) + k))
+            diagonal = diagonal*(1.0_wp + damping)
+            if (.not. diagonal > 0.0_wp) diagonal = 1.0_wp  ! a row between known bodies
+         end associate
+      end do
+      self%x = 0.0_wp
+      call factorise_and_solve(rows%n_solve, size(self%s%a), self%s%first, self%s%start, 0.0_wp, self%s%a, self%s%inverse, &
+                               self%s%row, self%x, bad_row)
+      self%n_factorisations = self%n_factorisations + 1
+      if (bad_row > 0) bad_row = self%order(bad_row)
+   end subroutine schur_factorise
+
+   !> Solution with these factors.
+   subroutine schur_back_solve(self, x)
+      class(augmented_schur_t), intent(inout) :: self  !! the solver, factorised
+      real(wp), intent(inout), contiguous :: x(:)      !! (solved rows) right-hand side, then solution [any]
+
+      integer :: k
+
+      do k = 1, size(self%position)
+         self%x(self%position(k)) = x(k)
+      end do
+      call solve_factored(size(self%x), size(self%s%a), self%s%first, self%s%start, self%s%a, self%s%inverse, self%x)
+      call in_given_order(size(self%x), self%position, self%x, x)
+   end subroutine schur_back_solve
+
+   !> Values of the envelope's order in the rows' own.
+   pure subroutine in_given_order(n, position, x, lambda)
+      integer, intent(in) :: n                 !! solved rows
+      integer, intent(in) :: position(n)       !! (solved rows) place of each row in the envelope's order
+      real(wp), intent(in) :: x(n)             !! (solved rows) values in that order [any]
+      real(wp), intent(inout) :: lambda(n)     !! (solved rows) the same by row [any]
+
+      integer :: k
+
+      !GCC$ novector
+      do k = 1, n
+         lambda(k) = x(position(k))
+      end do
+   end subroutine in_given_order
+
+   !> Phi_q M^-1, and the right-hand side of the multipliers.
+   pure subroutine weigh_rows(n_body, n_row, n_solve, n_side, side, position, inverse_mass, jac, g, b, jac_m, x)
       integer, intent(in) :: n_body                        !! number of bodies
       integer, intent(in) :: n_row                         !! number of rows
-      integer, intent(in) :: n_side                        !! sides of rows that are bodies
+      integer, intent(in) :: n_solve                       !! rows that are solved for
+      integer, intent(in) :: n_side                        !! sides of rows that are unknown bodies
       integer, intent(in) :: side(3, n_side)               !! (3, sides) row, place in the Jacobian, body
+      integer, intent(in) :: position(n_solve)             !! (solved rows) place of each row in the envelope's order
       real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(inout) :: jac_m(6*n_row)            !! (6 rows) Phi_q M^-1, row by row [any]
-      real(wp), intent(out) :: x(n_row)                    !! (rows) right-hand side of the multipliers [m/s^2 or rad/s^2]
+      real(wp), intent(out) :: x(n_solve)                  !! (solved rows) right-hand side, envelope's order [m/s^2 or rad/s^2]
 
       integer :: body, k, place, row
 
       !GCC$ novector
-      do row = 1, n_row
-         x(row) = -b(row)
+      do row = 1, n_solve
+         x(position(row)) = -b(row)
       end do
       !GCC$ novector
       do k = 1, n_side
-         row = side(1, k)
+         row = position(side(1, k))
          place = side(2, k)
          body = side(3, k)
          jac_m(place + 1) = jac(place + 1)*inverse_mass(1, body)
@@ -135,7 +283,7 @@ contains
    !> The Schur complement from the list of pairs.
    pure subroutine multiply_pairs(n, n_pair, n_entry, pair, jac_m, jac, s)
       integer, intent(in) :: n                   !! entries of the Jacobian, six per row
-      integer, intent(in) :: n_pair              !! pairs of rows that share a body
+      integer, intent(in) :: n_pair              !! pairs of row sides that share a body
       integer, intent(in) :: n_entry             !! entries of the envelope
       integer, intent(in) :: pair(3, n_pair)     !! (3, pairs) entry of Phi_q M^-1, entry of Phi_q, place in S
       real(wp), intent(in) :: jac_m(n)           !! (n) Phi_q M^-1, row by row [any]
@@ -156,39 +304,5 @@ contains
          s(place) = s(place) + (jac_m(c)*jac(d) + jac_m(c + 1)*jac(d + 1) + jac_m(c + 2)*jac(d + 2))
       end do
    end subroutine multiply_pairs
-
-   !> a = M^-1 (g - Phi_q^T lambda).
-   pure subroutine accelerations(n_body, n_row, n_side, side, last_side, inverse_mass, jac_m, g, lambda, a)
-      integer, intent(in) :: n_body                        !! number of bodies
-      integer, intent(in) :: n_row                         !! number of rows
-      integer, intent(in) :: n_side                        !! sides of rows that are bodies
-      integer, intent(in) :: side(3, n_side)               !! (3, sides) row, place in the Jacobian, body
-      integer, intent(in) :: last_side(0:n_body)           !! (0:bodies) last side of each body
-      real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-      real(wp), intent(in) :: jac_m(6*n_row)               !! (6 rows) Phi_q M^-1, row by row [any]
-      real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: lambda(n_row)                !! (rows) multipliers [N or N.m]
-      real(wp), intent(out) :: a(3, 0:n_body)              !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-
-      real(wp) :: a1, a2, a3
-      integer :: body, k, place
-
-      a(:, 0) = 0.0_wp
-      do body = 1, n_body
-         a1 = g(1, body)*inverse_mass(1, body)
-         a2 = g(2, body)*inverse_mass(2, body)
-         a3 = g(3, body)*inverse_mass(3, body)
-         !GCC$ novector
-         do k = last_side(body - 1) + 1, last_side(body)
-            place = side(2, k)
-            a1 = a1 - jac_m(place + 1)*lambda(side(1, k))
-            a2 = a2 - jac_m(place + 2)*lambda(side(1, k))
-            a3 = a3 - jac_m(place + 3)*lambda(side(1, k))
-         end do
-         a(1, body) = a1
-         a(2, body) = a2
-         a(3, body) = a3
-      end do
-   end subroutine accelerations
 
 end module augmented_schur

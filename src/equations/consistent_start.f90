@@ -11,7 +11,7 @@
 module consistent_start
    use errors, only: error_t, exit_assembly, set_error
    use kinds, only: wp
-   use lapack, only: dgelsd, dgeqp3
+   use lapack, only: dgelsd, dgeqp3, dtrtrs
    use motion, only: set_planar_motion
    use planar_system, only: planar_system_t
    use text, only: real_text, to_text
@@ -21,6 +21,7 @@ module consistent_start
    public :: evaluate_rows, least_correction, limit_step, rank_tolerance, rates, row_scale, scaled_jacobian, worst_violation
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
+   real(wp), parameter :: share = 1.0e-6_wp             !! least part of a scaled row in a combination that vanishes [1]
    real(wp), parameter :: closed = 1.0e-10_wp           !! greatest scaled violation of an assembled mechanism [1]
    real(wp), parameter :: round_off = 1.0e-15_wp        !! scaled violation at which Newton stops early [1]
    real(wp), parameter :: give_way = 1.0e4_wp           !! how much easier a velocity changes that is not given [1]
@@ -35,6 +36,7 @@ module consistent_start
       real(wp) :: rate_changed = 0.0_wp          !! greatest change of a given velocity, angles times the size of the bodies [m/s]
       integer :: changed_body = 0                !! the body it belongs to
       integer, allocatable :: dependent(:)       !! rows that depend on others
+      integer, allocatable :: shared(:)          !! rows, those among them, whose multipliers are not unique
    end type assembly_t
 
 contains
@@ -52,7 +54,7 @@ contains
       integer :: k, n
 
       n = size(q)
-      allocate (report%dependent(0))
+      allocate (report%dependent(0), report%shared(0))
       if (system%rows%n == 0) return
       allocate (correction(n), right(system%rows%n))
       allocate (ease(n), source=1.0_wp)
@@ -100,6 +102,7 @@ contains
       integer :: k
 
       call set_planar_motion(system%n_body, q, v, system%motion)
+      system%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
       do k = 1, size(system%joints)
          call system%joints(k)%set%evaluate(t, system%motion, system%rows)
       end do
@@ -216,7 +219,9 @@ contains
       limited = x*min(1.0_wp, longest_turn/max(turn, longest_turn))
    end function limit_step
 
-   !> Rows that depend on others at an assembled position.
+   !> Rows that depend on others at an assembled position, and all rows whose multipliers are therefore not unique: those that
+   !> occur in a combination of rows that vanishes, Phi_q^T x = 0. From the factors R = [ R_1, R_2; 0, 0 ] of the rows in the
+   !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
    subroutine find_dependent(system, q, v, report)
       class(planar_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
@@ -225,9 +230,11 @@ contains
 
       real(wp), allocatable :: jac(:, :), tau(:), transposed(:, :), work(:)
       integer, allocatable :: order(:)
+      logical, allocatable :: is_shared(:)
       integer :: info, k, m, n
 
       report%dependent = [integer ::]
+      report%shared = [integer ::]
       if (system%rows%n == 0) return
       call evaluate_rows(system, 0.0_wp, q, v)
       call scaled_jacobian(system, jac)
@@ -242,6 +249,11 @@ contains
          if (abs(transposed(k, k)) > rank_tolerance*abs(transposed(1, 1))) report%rank = k
       end do
       report%dependent = order(report%rank + 1:m)
+      if (report%rank == m) return
+      call dtrtrs("U", "N", "N", report%rank, m - report%rank, transposed, n, transposed(:, report%rank + 1:), n, info)
+      allocate (is_shared(m), source=.true.)
+      is_shared(order(:report%rank)) = any(abs(transposed(:report%rank, report%rank + 1:)) > share, dim=2)
+      report%shared = pack([(k, k=1, m)], is_shared)
    end subroutine find_dependent
 
    !> The mechanism does not close: say where and by how much.

@@ -11,6 +11,7 @@ module inverse_dynamics
    use consistent_start, only: rank_tolerance, row_scale, scaled_jacobian
    use kinds, only: wp
    use lapack, only: dgelsd
+   use motion, only: set_some_acceleration
    use planar_system, only: planar_system_t
    implicit none (type, external)
    private
@@ -38,10 +39,10 @@ contains
       system%g(3, :) = system%loads%moment(3, :)
    end subroutine find_loads
 
-   !> Multipliers that go with accelerations, and what stays unbalanced.
+   !> Multipliers that go with accelerations, and what stays unbalanced. The motion takes the accelerations.
    subroutine find_reactions(system, a, unbalanced)
       class(planar_system_t), intent(inout) :: system  !! the system, rows and loads evaluated; lambda is set
-      real(wp), intent(in) :: a(:)                     !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(in), contiguous :: a(:)                  !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(out) :: unbalanced              !! norm of g - M a - Phi_q^T lambda, forces times the size [N.m]
 
       real(wp), allocatable :: b(:, :), jac(:, :), rest(:), right(:), s(:), transposed(:, :), work(:)
@@ -50,9 +51,10 @@ contains
 
       m = system%rows%n
       n = size(a)
+      call set_some_acceleration(system%n_body, [(k, k=1, system%n_body)], a, system%motion)
       allocate (right(n), source=0.0_wp)
       do k = 1, system%n_body
-         right(3*k - 2:3*k) = system%g(:, k) - a(3*k - 2:3*k)/system%inverse_mass(:, k)
+         right(3*k - 2:3*k) = system%g(:, k) - a(3*k - 2:3*k)*system%mass(:, k)
          right(3*k - 2:3*k - 1) = right(3*k - 2:3*k - 1)*system%length_scale
       end do
       unbalanced = norm2(right)

@@ -1,10 +1,9 @@
-!> What the joints and drivers leave free, and what they hold twice.
+!> What the joints and drivers leave free, and which drivers are in excess.
 !>
 !> From the singular values of the scaled Jacobian, Phi_q = U S V^T: columns of V beyond the rank are motions
-!> that no row hinders, columns of U beyond the rank are reactions that balance each other, so that
-!> the rows in them have no unique reaction. A driver is in excess if what it prescribes is prescribed by
-!> the joints and the other drivers already: the rows of drivers on the motions that the joints leave
-!> free, D V_0, are factorised with pivoting.
+!> that no row hinders. A driver is in excess if what it prescribes is prescribed by the joints and the
+!> other drivers already: the rows of drivers on the motions that the joints leave free, D V_0, are
+!> factorised with pivoting.
 !>
 !> Source: Flores et al. (2008), section 2.2 (degrees of freedom, redundant constraints); Golub and Van
 !> Loan, Matrix Computations, sections 2.5 and 5.4 (rank). Limits: dense; the present position only.
@@ -16,12 +15,12 @@ module mobility
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
-   public :: find_mobility, joint_names, mobility_t, moving_bodies, sharing_words, split_space, stiffest_driver
+   public :: find_mobility, joint_names, mobility_t, moving_bodies, split_space, stiffest_driver
 
    real(wp), parameter :: takes_part = 1.0e-6_wp   !! least entry of a unit vector that counts [1]
    integer, parameter :: most_names = 8            !! names told in a message
 
-   !> What is free and what is held twice.
+   !> What is free, and which drivers are in excess.
    type :: mobility_t
       integer :: rank = 0                          !! independent rows, drivers included
       integer :: n_left = 0                        !! freedoms that neither joints nor drivers hold
@@ -29,17 +28,16 @@ module mobility
       integer :: n_driver = 0                      !! rows of drivers
       logical, allocatable :: is_driver(:)         !! (rows) rows of drivers
       logical, allocatable :: is_excess(:)         !! (rows) rows of drivers that others prescribe already
-      logical, allocatable :: is_shared(:)         !! (rows) rows without a unique reaction
       real(wp), allocatable :: freedom(:)          !! (bodies) how much each body can still move, 0 to 1 [1]
       real(wp), allocatable :: weakest(:)          !! (rows) left singular vector of the least singular value [1]
    end type mobility_t
 
 contains
 
-   !> Freedoms and redundancies at the position where the rows were evaluated.
+   !> Freedoms and drivers in excess at the position where the rows were evaluated.
    subroutine find_mobility(system, mobility)
       class(planar_system_t), intent(in) :: system   !! the system, rows evaluated
-      type(mobility_t), intent(out) :: mobility      !! what is free and what is held twice
+      type(mobility_t), intent(out) :: mobility      !! what is free, and drivers in excess
 
       real(wp), allocatable :: free(:, :), jac(:, :), joints(:, :), left(:, :)
       integer, allocatable :: drivers(:), others(:)
@@ -62,10 +60,6 @@ contains
       allocate (mobility%freedom(system%n_body), mobility%weakest(m), source=0.0_wp)
       do k = 1, system%n_body
          if (mobility%n_left > 0) mobility%freedom(k) = maxval(norm2(free(3*k - 2:3*k, :), dim=1))
-      end do
-      allocate (mobility%is_shared(m), source=.false.)
-      do k = 1, m
-         if (mobility%rank < m) mobility%is_shared(k) = norm2(left(k, mobility%rank + 1:)) > takes_part
       end do
       if (mobility%rank > 0) mobility%weakest = left(:, mobility%rank)
    end subroutine find_mobility
@@ -163,17 +157,6 @@ contains
       end do rows
       words = counted_names(names)
    end function joint_names
-
-   !> That reactions are not unique, and of which joints; blank if all are.
-   function sharing_words(system, mobility) result(words)
-      class(planar_system_t), intent(in) :: system   !! the system
-      type(mobility_t), intent(in) :: mobility       !! what is held twice
-      character(:), allocatable :: words             !! a warning
-
-      words = ""
-      if (any(mobility%is_shared)) words = "the reactions of "//joint_names(system, mobility%is_shared)// &
-          " are not unique, because rows of these depend on each other: the least ones are reported"
-   end function sharing_words
 
    !> Names of the bodies that move, those that move most first.
    function moving_bodies(system, motion) result(words)

@@ -49,22 +49,23 @@ contains
       type(energy_t) :: energy                         !! energies
 
       real(wp) :: m
-      integer :: k, nq, z
+      integer :: k, z
 
-      nq = 3*system%n_body
-      do k = 1, system%n_body
-         m = system%bodies%mass(k)
-         energy%kinetic = energy%kinetic + 0.5_wp*(m*(y(nq + 3*k - 2)**2 + y(nq + 3*k - 1)**2) &
-                                                   + system%bodies%inertia(k)*y(nq + 3*k)**2)
-         energy%potential = energy%potential - m*(system%gravity(1)*y(3*k - 2) + system%gravity(2)*y(3*k - 1))
-      end do
+      associate (motion => system%motion)
+         do k = 1, system%n_body
+            m = system%bodies%mass(k)
+            energy%kinetic = energy%kinetic + 0.5_wp*(m*(motion%v(1, k)**2 + motion%v(2, k)**2) &
+                                                      + system%bodies%inertia(k)*motion%omega(3, k)**2)
+            energy%potential = energy%potential - m*(system%gravity(1)*motion%r(1, k) + system%gravity(2)*motion%r(2, k))
+         end do
+      end associate
       if (any_touching(system)) then
          do k = 1, size(system%clearances)
             energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%motion)
          end do
       end if
       if (.not. system%with_ledger) return
-      z = 2*nq
+      z = 2*system%n_position
       energy%drive_work = y(z + work_drive)
       energy%load_work = y(z + work_load)
       energy%stabilisation_work = y(z + work_stabilisation)

@@ -45,7 +45,7 @@ contains
       type(catalogue_t), intent(out) :: catalogue     !! what it can report
 
       type(kind_info_t) :: contact_info, info, joint_info
-      integer :: i, k, room
+      integer :: i, k
 
       catalogue%n_coordinates = 2
       do k = 1, system%n_body
@@ -54,13 +54,11 @@ contains
       call catalogue%add_kind(room_bodies, bodies_info())
       do k = 1, size(system%joints)
          associate (set => system%joints(k)%set)
-            room = merge(room_drivers, room_joints, set%is_driver)
-            call catalogue%add_kind(room, set%info())
-            do i = 1, set%n
-               call catalogue%add_item(room, set%names(i)%s, info=set%info())
-            end do
+            call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), set%info())
          end associate
       end do
+      call add_joint_items(system, .false., catalogue)
+      call add_joint_items(system, .true., catalogue)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
             info = set%info()
@@ -94,6 +92,34 @@ contains
       end if
       call catalogue%allocate_data()
    end subroutine build_catalogue
+
+   !> Joints, or drivers, in the order of their columns.
+   subroutine add_joint_items(system, is_driver, catalogue)
+      class(planar_system_t), intent(in) :: system        !! the system
+      logical, intent(in) :: is_driver                    !! drivers, not joints
+      type(catalogue_t), intent(inout) :: catalogue       !! items are added
+
+      integer, allocatable :: item(:), slot(:)
+      integer :: i, k, n
+
+      n = 0
+      do k = 1, size(system%joints)
+         if (system%joints(k)%set%is_driver .eqv. is_driver) n = n + system%joints(k)%set%n
+      end do
+      allocate (item(n), slot(n), source=0)
+      do k = 1, size(system%joints)
+         associate (set => system%joints(k)%set)
+            if (set%is_driver .neqv. is_driver) cycle
+            slot(set%column) = k
+            item(set%column) = [(i, i=1, set%n)]
+         end associate
+      end do
+      do k = 1, n
+         associate (set => system%joints(slot(k))%set)
+            call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(k))%s, info=set%info())
+         end associate
+      end do
+   end subroutine add_joint_items
 
    !> The channels of a joint with clearance that is taken as ideal.
    subroutine ideal_info(info)
@@ -134,7 +160,8 @@ contains
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
-      call system%set_state(y, ydot)
+      if (.not. system%with_ledger .and. system%known%n > 0) call system%find_reactions(t)
+      call system%set_state(t, y, ydot)
       call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state
 
@@ -205,12 +232,11 @@ contains
       real(wp) :: force(2), moment, rate, value
       integer :: column, i, k, row
 
-      column = 0
       do k = 1, size(system%joints)
          associate (set => system%joints(k)%set)
             if (set%is_driver .neqv. is_driver) cycle
             do i = 1, set%n
-               column = column + 1
+               column = set%column(i)
                row = set%first_row + (i - 1)*set%n_row_item + 1
                associate (last => row + set%n_row_item - 1)
                   select case (channel)

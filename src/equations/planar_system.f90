@@ -1,8 +1,8 @@
 !> A planar scene as a system of ordinary differential equations with events.
 !>
-!> y = ( q, v, z ): coordinates (x, y, angle) of each body, their rates, and the quadratures of the
-!> energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
-!> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t.
+!> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, their rates, and the
+!> quadratures of the energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
+!> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less Phi_q a of the bodies whose motion is known.
 !>
 !> Ledger: z = ( drive work, load work, stabilisation work; per loose joint: lost in contact, lost by
 !> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', (F_N - F_elastic) delta', F_T |v_T|.
@@ -18,8 +18,9 @@ module planar_system
    use force_set, only: force_slot_t
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
+   use known_motion, only: find_multipliers, known_t, move_known
    use memory, only: get, put
-   use motion, only: accelerate => set_planar_acceleration, loads_t, motion_t, set_planar_motion
+   use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
@@ -31,11 +32,20 @@ module planar_system
    integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
    integer, parameter :: n_ledger = 3            !! quadratures before those of the loose joints
 
+   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! of rows that are nearly dependent, or always, of the diagonal of
+                                                               !! S: round-off over this shows in reactions that are not unique [1]
+   integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
+   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of the damped rows, of the greatest term, that is an error [1]
+
    !> A planar scene.
    type, extends(ode_system_t) :: planar_system_t
       integer :: n_body = 0                              !! number of bodies
       type(bodies_t) :: bodies                           !! the bodies
-      real(wp), allocatable :: inverse_mass(:, :)        !! (3, 0:bodies) inverse masses, ground 0 [1/kg, 1/kg, 1/(kg.m^2)]
+      logical, allocatable :: is_known(:)                !! (bodies) whether the motion of a body is a known function of time
+      type(known_t) :: known                             !! those of them whose motion is a known function of time
+      real(wp), allocatable :: mass(:, :)                !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), allocatable :: inverse_mass(:, :)        !! (3, 0:bodies) inverse masses, 0 of the ground and of known bodies
+                                                         !! [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), allocatable :: weight(:, :)              !! (3, 0:bodies) force of gravity [N]
       real(wp) :: gravity(3) = 0.0_wp                    !! (3) acceleration of free fall [m/s^2]
       real(wp) :: length_scale = 1.0_wp                  !! size of the bodies, for error scales [m]
@@ -49,7 +59,9 @@ module planar_system
       type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
       integer :: n_loose = 0                             !! loose joints in all
       class(augmented_t), allocatable :: solver          !! way of solving the augmented equations
+      logical :: is_redundant = .false.                  !! whether rows depend on one another from the start
       integer(i8) :: n_evaluations = 0                   !! evaluations made
+      integer(i8) :: n_damped = 0                        !! those of them in which rows were dependent, or nearly so
       ! the last evaluation
       type(motion_t) :: motion                           !! positions and velocities
       type(loads_t) :: loads                             !! applied and contact loads
@@ -59,6 +71,7 @@ module planar_system
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       real(wp), allocatable :: g(:, :)                   !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
       real(wp), allocatable :: a(:, :)                   !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), allocatable :: rest(:, :)                !! (3, 0:bodies) scratch of `find_reactions` [N, N, N.m]
       real(wp), allocatable :: losses(:, :)              !! (2, loose joints) power lost by contact and friction [W]
       real(wp) :: load_power = 0.0_wp                    !! power of applied loads [W]
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
@@ -68,6 +81,7 @@ module planar_system
       procedure :: events => planar_events
       procedure :: last_events => planar_last_events
       procedure :: set_motion => planar_set_motion
+      procedure :: find_reactions => planar_find_reactions
       procedure :: set_acceleration => planar_set_acceleration
       procedure :: set_state => planar_set_state
       procedure :: row_name => planar_row_name
@@ -87,13 +101,15 @@ contains
       real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
-      integer :: k, n, nq
+      integer :: k, nq
 
-      n = self%n_body
-      nq = 3*n
+      nq = self%n_position
       self%n_evaluations = self%n_evaluations + 1
-      call set_planar_motion(n, y, y(nq + 1:2*nq), self%motion)
-      call start_loads(n, self%weight, self%loads%force, self%loads%moment)
+      call self%set_motion(t, y)
+      self%bad_row = 0
+      status = merge(0, 1, self%known%is_finite)
+      if (status /= 0) return
+      call start_loads(self%n_body, self%weight, self%loads%force, self%loads%moment)
       self%load_power = 0.0_wp
       do k = 1, size(self%forces)
          call self%forces(k)%set%evaluate(t, self%motion, self%loads, self%load_power)
@@ -102,20 +118,63 @@ contains
          call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
       end do
       do k = 1, size(self%joints)
-         call self%joints(k)%set%evaluate(t, self%motion, self%rows)
+         if (self%joints(k)%set%is_solved) call self%joints(k)%set%evaluate(t, self%motion, self%rows)
       end do
       do k = 1, size(self%ideal)
          call self%ideal(k)%set%evaluate(t, self%motion, self%rows)
       end do
-      call right_hand_side(n, self%rows%n, self%rows%n_side, self%rows%side, self%rows%phi, self%rows%phi_t, self%rows%jac, &
-                           self%rows%gam, y(nq + 1:2*nq), self%alpha, self%beta, self%phi_dot, self%b)
-      call planar_loads(n, self%loads%force, self%loads%moment, self%g)
-      call self%solver%solve(self%inverse_mass, self%rows, self%g, self%b, self%a, self%lambda, self%bad_row)
-      status = 1
-      if (self%bad_row > 0) return
-      call state_rates(n, y, self%a, ydot, status)
-      if (self%with_ledger) call ledger_rates(self, ydot(2*nq + 1:))
+      call right_hand_side(self%n_body, self%rows%n, self%rows%n_solve, self%rows%n_side, self%rows%side, self%rows%n_known, &
+                           self%rows%known, self%rows%phi, self%rows%phi_t, self%rows%jac, self%rows%gam, self%motion%v, &
+                           self%motion%omega, self%motion%a, self%motion%alpha, self%alpha, self%beta, self%phi_dot, self%b)
+      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
+      call find_accelerations(self, status)
+      if (status /= 0) return
+      call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, y(nq + 1:2*nq), self%a, ydot, status)
+      if (.not. self%with_ledger) return
+      if (self%known%n > 0) call self%find_reactions(t)
+      call ledger_rates(self, ydot(2*nq + 1:))
    end subroutine planar_evaluate
+
+   !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: through a singular
+   !> position it stays finite and accurate as long as the rows do not contradict each other. Status 1 if they do.
+   subroutine find_accelerations(self, status)
+      class(planar_system_t), intent(inout) :: self  !! the system, rows and loads evaluated
+      integer, intent(out) :: status                 !! 0: found
+
+      integer :: k
+
+      self%bad_row = 1
+      status = 0
+      if (.not. self%is_redundant) then
+         call self%solver%solve(self%inverse_mass, self%rows, self%g, self%b, self%a, self%lambda, self%bad_row)
+      end if
+      if (self%bad_row == 0) return
+      self%n_damped = self%n_damped + 1
+      k = merge(2, 1, self%is_redundant)
+      call self%solver%solve_damped(self%inverse_mass, self%rows, self%g, self%b, damping(k), n_refinement(k), self%a, &
+                                    self%lambda, self%bad_row)
+      if (self%bad_row == 0 .and. .not. self%solver%left_over <= contradiction) then
+         self%bad_row = maxloc(abs(self%solver%residual(:self%rows%n_solve)), dim=1)
+      end if
+      if (self%bad_row > 0) status = 1
+   end subroutine find_accelerations
+
+   !> Multipliers of the rows that fix the known bodies, at the state evaluated last. The ledger and reports want them.
+   subroutine planar_find_reactions(self, t)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                      !! time [s]
+
+      integer :: body, k
+
+      do k = 1, size(self%joints)
+         if (.not. self%joints(k)%set%is_solved) call self%joints(k)%set%evaluate(t, self%motion, self%rows)
+      end do
+      do k = 1, self%known%n
+         body = self%known%body(k)
+         self%a(:, body) = [self%motion%a(1, body), self%motion%a(2, body), self%motion%alpha(3, body)]
+      end do
+      call find_multipliers(self%known, self%rows, self%mass, self%g, self%a, self%rest, self%lambda)
+   end subroutine planar_find_reactions
 
    !> Loads of gravity.
    pure subroutine start_loads(n, weight, force, moment)
@@ -149,46 +208,57 @@ contains
    end subroutine planar_loads
 
    !> Derivative of coordinates and rates. Status 1 if an acceleration is not a finite number.
-   pure subroutine state_rates(n, y, a, ydot, status)
-      integer, intent(in) :: n                      !! number of bodies
-      real(wp), intent(in) :: y(3, 2*n)             !! (3, 2 n) coordinates, then rates [any]
-      real(wp), intent(in) :: a(3, 0:n)             !! (3, 0:n) accelerations [m/s^2, m/s^2, rad/s^2]
+   pure subroutine state_rates(n, unknown, n_body, v, a, ydot, status)
+      integer, intent(in) :: n                      !! number of unknown bodies
+      integer, intent(in) :: unknown(n)             !! (n) their numbers
+      integer, intent(in) :: n_body                 !! number of bodies
+      real(wp), intent(in) :: v(3, n)               !! (3, n) rates [m/s, m/s, rad/s]
+      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(inout) :: ydot(3, 2*n)       !! (3, 2 n) derivatives [any]
       integer, intent(out) :: status                !! 0: all finite
 
       real(wp) :: sum
-      integer :: k
+      integer :: body, k
 
       sum = 0.0_wp
       do k = 1, n
-         ydot(:, k) = y(:, n + k)
-         ydot(:, n + k) = a(:, k)
-         sum = sum + abs(a(1, k)) + abs(a(2, k)) + abs(a(3, k))
+         body = unknown(k)
+         ydot(:, k) = v(:, k)
+         ydot(:, n + k) = a(:, body)
+         sum = sum + abs(a(1, body)) + abs(a(2, body)) + abs(a(3, body))
       end do
       status = merge(0, 1, ieee_is_finite(sum))
    end subroutine state_rates
 
-   !> Rate of the violation and stabilised right-hand side of all rows.
-   pure subroutine right_hand_side(n, n_row, n_side, side, phi, phi_t, jac, gam, v, alpha, beta, phi_dot, b)
-      integer, intent(in) :: n                      !! number of bodies
+   !> Rate of the violation and stabilised right-hand side of the solved rows.
+   pure subroutine right_hand_side(n_body, n_row, n_solve, n_side, side, n_known, known, phi, phi_t, jac, gam, v, omega, a, &
+                                   angular, alpha, beta, phi_dot, b)
+      integer, intent(in) :: n_body                 !! number of bodies
       integer, intent(in) :: n_row                  !! number of rows
-      integer, intent(in) :: n_side                 !! sides of rows that are bodies
+      integer, intent(in) :: n_solve                !! rows that are solved for
+      integer, intent(in) :: n_side                 !! their sides that are unknown bodies
       integer, intent(in) :: side(3, n_side)        !! (3, sides) row, place in the Jacobian, body
+      integer, intent(in) :: n_known                !! their sides that are known bodies
+      integer, intent(in) :: known(3, n_known)      !! (3, known sides) row, place in the Jacobian, body
       real(wp), intent(in) :: phi(n_row)            !! (rows) violation [m or rad]
       real(wp), intent(in) :: phi_t(n_row)          !! (rows) its partial time derivative [m/s or rad/s]
       real(wp), intent(in) :: jac(6*n_row)          !! (6 rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: gam(n_row)            !! (rows) gamma [m/s^2 or rad/s^2]
-      real(wp), intent(in) :: v(3, n)               !! (3, n) rates of the coordinates [m/s, m/s, rad/s]
+      real(wp), intent(in) :: v(3, 0:n_body)        !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)    !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations, of known bodies [m/s^2]
+      real(wp), intent(in) :: angular(3, 0:n_body)  !! (3, 0:bodies) angular accelerations, of known bodies [rad/s^2]
       real(wp), intent(in) :: alpha                 !! gain on the rate [1/s]
       real(wp), intent(in) :: beta                  !! gain on the violation [1/s]
-      real(wp), intent(out) :: phi_dot(n_row)       !! (rows) rate of the violation [m/s or rad/s]
-      real(wp), intent(out) :: b(n_row)             !! (rows) right-hand side [m/s^2 or rad/s^2]
+      real(wp), intent(inout) :: phi_dot(n_row)     !! (rows) rate of the violation [m/s or rad/s]
+      real(wp), intent(inout) :: b(n_row)           !! (rows) right-hand side [m/s^2 or rad/s^2]
 
       integer :: body, k, place, row
 
       !GCC$ novector
-      do row = 1, n_row
+      do row = 1, n_solve
          phi_dot(row) = phi_t(row)
+         b(row) = gam(row)
       end do
       !GCC$ novector
       do k = 1, n_side
@@ -196,11 +266,20 @@ contains
          place = side(2, k)
          body = side(3, k)
          phi_dot(row) = phi_dot(row) &
-                        + (jac(place + 1)*v(1, body) + jac(place + 2)*v(2, body) + jac(place + 3)*v(3, body))
+                        + (jac(place + 1)*v(1, body) + jac(place + 2)*v(2, body) + jac(place + 3)*omega(3, body))
       end do
       !GCC$ novector
-      do row = 1, n_row
-         b(row) = gam(row) - 2.0_wp*alpha*phi_dot(row) - beta*beta*phi(row)
+      do k = 1, n_known
+         row = known(1, k)
+         place = known(2, k)
+         body = known(3, k)
+         phi_dot(row) = phi_dot(row) &
+                        + (jac(place + 1)*v(1, body) + jac(place + 2)*v(2, body) + jac(place + 3)*omega(3, body))
+         b(row) = b(row) - (jac(place + 1)*a(1, body) + jac(place + 2)*a(2, body) + jac(place + 3)*angular(3, body))
+      end do
+      !GCC$ novector
+      do row = 1, n_solve
+         b(row) = b(row) - 2.0_wp*alpha*phi_dot(row) - beta*beta*phi(row)
       end do
    end subroutine right_hand_side
 
@@ -215,6 +294,8 @@ contains
       power(work_stabilisation) = 0.0_wp
       do k = 1, self%rows%n
          power(work_drive) = power(work_drive) + self%lambda(k)*self%rows%phi_t(k)
+      end do
+      do k = 1, self%rows%n_solve
          power(work_stabilisation) = power(work_stabilisation) - self%lambda(k)*self%phi_dot(k)
       end do
       power(work_load) = self%load_power
@@ -233,12 +314,16 @@ contains
       real(wp), intent(out) :: scale(:)           !! (n) scales [any]
 
       real(wp) :: rate
-      integer :: k, nq
+      integer :: body, k, nq
 
-      nq = 3*self%n_body
+      nq = self%n_position
       rate = 1.0_wp
       do k = nq + 1, 2*nq, 3
          rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
+      end do
+      do k = 1, self%known%n
+         body = self%known%body(k)
+         rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
       end do
       do k = 1, nq, 3
          scale(k) = self%length_scale
@@ -258,7 +343,7 @@ contains
       real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
       real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
 
-      call self%set_motion(y)
+      call self%set_motion(t, y)
       call self%last_events(t, y, g, rate)
    end subroutine planar_events
 
@@ -286,30 +371,33 @@ contains
       end do
    end subroutine planar_last_events
 
-   !> Motion of all bodies from a state.
-   subroutine planar_set_motion(self, y)
+   !> Motion of all bodies at a state.
+   subroutine planar_set_motion(self, t, y)
       class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: y(:)                   !! (n) state [any]
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
 
-      call set_planar_motion(self%n_body, y, y(3*self%n_body + 1:6*self%n_body), self%motion)
+      if (self%known%n > 0) call move_known(self%known, self%joints, t, self%motion)
+      call set_some_motion(self%rows%n_unknown, self%rows%unknown, y, y(self%n_position + 1:2*self%n_position), self%motion)
    end subroutine planar_set_motion
 
    !> Motion of all bodies, with accelerations, from a state and its derivative.
-   subroutine planar_set_state(self, y, ydot)
+   subroutine planar_set_state(self, t, y, ydot)
       class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: y(:)                   !! (n) state [any]
-      real(wp), intent(in) :: ydot(:)                !! (n) its derivative [any]
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
+      real(wp), intent(in), contiguous :: ydot(:)    !! (n) its derivative [any]
 
-      call self%set_motion(y)
+      call self%set_motion(t, y)
       call self%set_acceleration(ydot)
    end subroutine planar_set_state
 
-   !> Accelerations of all bodies from the derivative of a state.
+   !> Accelerations of the unknown bodies from the derivative of a state.
    subroutine planar_set_acceleration(self, ydot)
       class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: ydot(:)                !! (n) derivative of the state [any]
+      real(wp), intent(in), contiguous :: ydot(:)    !! (n) derivative of the state [any]
 
-      call accelerate(self%n_body, ydot(3*self%n_body + 1:6*self%n_body), self%motion)
+      call set_some_acceleration(self%rows%n_unknown, self%rows%unknown, ydot(self%n_position + 1:2*self%n_position), self%motion)
    end subroutine planar_set_acceleration
 
    !> Set and item of a loose joint by its number.
@@ -364,7 +452,7 @@ contains
 
       integer :: k
 
-      n = 2
+      n = 3
       do k = 1, size(self%joints)
          n = n + self%joints(k)%set%memory_size()
       end do
@@ -385,6 +473,7 @@ contains
       integer :: k
 
       call put(row, place, self%n_evaluations)
+      call put(row, place, self%n_damped)
       call put(row, place, self%solver%n_factorisations)
       do k = 1, size(self%joints)
          call self%joints(k)%set%save(row, place)
@@ -406,6 +495,7 @@ contains
       integer :: k
 
       call get(row, place, self%n_evaluations)
+      call get(row, place, self%n_damped)
       call get(row, place, self%solver%n_factorisations)
       do k = 1, size(self%joints)
          call self%joints(k)%set%load(row, place)

@@ -2,10 +2,10 @@
 !>
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
-!> zero. What is found is a bracket; the integrator re-steps into it, so that the event is as
-!> accurate as the step, not as the interpolant.
+!> zero. What is found is a bracket; the integrator goes into it by its own means (a one-step method
+!> re-steps, so that the event is as accurate as the step, not as the interpolant).
 module event_location
-   use interpolation, only: interpolate, step_t
+   use integrator, only: integrator_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
    implicit none (type, external)
@@ -22,19 +22,14 @@ contains
    !>
    !> At the start of a step every event function counts as negative, whatever its last digits say:
    !> an event just handled leaves its function at zero.
-   subroutine find_first_event(system, step, g0, rate0, g1, rate1, y, g, rate, event, low, high)
+   subroutine find_first_event(system, method, event, low, high)
       class(ode_system_t), intent(inout) :: system  !! the system
-      type(step_t), intent(in) :: step              !! the step
-      real(wp), intent(in) :: g0(:), rate0(:)       !! (n_event) functions and rates at the start [any]
-      real(wp), intent(in) :: g1(:), rate1(:)       !! (n_event) functions and rates at the end [any]
-      real(wp), intent(out) :: y(:)                 !! (n) scratch [any]
-      real(wp), intent(out) :: g(:), rate(:)        !! (n_event) scratch [any]
+      class(integrator_t), intent(inout) :: method  !! the integrator, after a step; its scratch is used
       integer, intent(out) :: event                 !! which function, 0: none
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place in the step after it [1]
 
-      real(wp) :: a, b, middle
-      integer :: i, k
+      integer :: k
       logical :: is_worth
 
       event = 0
@@ -42,48 +37,71 @@ contains
       high = 1.0_wp
       is_worth = .false.
       do k = 1, system%n_event
-         is_worth = is_worth .or. may_happen(g0(k), step%h*rate0(k), g1(k), step%h*rate1(k))
+         is_worth = is_worth .or. may_happen(method%g0(k), method%step%h*method%rate0(k), &
+                                             method%g1(k), method%step%h*method%rate1(k))
       end do
-      if (.not. is_worth) return
+      if (is_worth) call search(system, method, event, low, high)
+   end subroutine find_first_event
 
+   !> The search itself, at places of the step and between them.
+   subroutine search(system, method, event, low, high)
+      class(ode_system_t), intent(inout) :: system  !! the system
+      class(integrator_t), intent(inout) :: method  !! the integrator, after a step
+      integer, intent(out) :: event                 !! which function, 0: none
+      real(wp), intent(out) :: low                  !! place in the step before the event [1]
+      real(wp), intent(out) :: high                 !! place in the step after it [1]
+
+      real(wp), allocatable :: g(:), rate(:), y(:)
+      real(wp) :: a, b, middle
+      integer :: i, k
+
+      ! the room of the integrator, while it itself is asked for states
+      call move_alloc(method%scratch, y)
+      call move_alloc(method%g, g)
+      call move_alloc(method%rate, rate)
+      event = 0
+      low = 0.0_wp
+      high = 1.0_wp
       a = 0.0_wp
       do i = 1, n_sample
          b = real(i, wp)/n_sample
          if (i < n_sample) then
             call values_at(b)
          else
-            g(1:system%n_event) = g1
-            rate(1:system%n_event) = rate1
+            g = method%g1
+            rate = method%rate1
          end if
          do k = 1, system%n_event
             if (g(k) > 0.0_wp) event = k
          end do
          ! a maximum between two places: look at it if it may be above zero, even if another function is by now
          do k = 1, system%n_event
-            if (g(k) <= 0.0_wp .and. rate(k) < 0.0_wp .and. g(k) - rate(k)*step%h*(b - a) > 0.0_wp) call climb(k, a, b)
+            if (g(k) <= 0.0_wp .and. rate(k) < 0.0_wp .and. g(k) - rate(k)*method%step%h*(b - a) > 0.0_wp) call climb(k, a, b)
          end do
          if (event /= 0) exit
          a = b
       end do
       if (event == 0) then
          call values_at(1.0_wp)  ! the system is left at the end of the step
-         return
+      else
+         ! narrow the bracket; where several functions are positive, the first to become so decides
+         low = a
+         high = b
+         do i = 1, n_narrow
+            middle = 0.5_wp*(low + high)
+            call values_at(middle)
+            k = maxloc(g, dim=1)
+            if (g(k) > 0.0_wp) then
+               high = middle
+               event = k
+            else
+               low = middle
+            end if
+         end do
       end if
-
-      ! narrow the bracket; where several functions are positive, the first to become so decides
-      low = a
-      high = b
-      do i = 1, n_narrow
-         middle = 0.5_wp*(low + high)
-         call values_at(middle)
-         k = maxloc(g(1:system%n_event), dim=1)
-         if (g(k) > 0.0_wp) then
-            high = middle
-            event = k
-         else
-            low = middle
-         end if
-      end do
+      call move_alloc(y, method%scratch)
+      call move_alloc(g, method%g)
+      call move_alloc(rate, method%rate)
 
    contains
 
@@ -91,8 +109,8 @@ contains
       subroutine values_at(s)
          real(wp), intent(in) :: s  !! place [1]
 
-         call interpolate(step, system%n_position, s, y)
-         call system%events(step%t0 + s*step%h, y, g, rate)
+         call method%within(system, s, y)
+         call system%events(method%step%t0 + s*method%step%h, y, g, rate)
       end subroutine values_at
 
       !> Follow function k to its maximum between two places; if that is above zero, it is the event
@@ -126,13 +144,13 @@ contains
             else
                right = place
             end if
-            if (g(k) + abs(rate(k))*step%h*(right - left) < 0.0_wp) exit
+            if (g(k) + abs(rate(k))*method%step%h*(right - left) < 0.0_wp) exit
          end do
          ! values at b again, for the other functions
          call values_at(b)
       end subroutine climb
 
-   end subroutine find_first_event
+   end subroutine search
 
    !> Whether a function with these end values and rates (times the step) may become positive within.
    !> The curvature is taken from the cubic of Hermite, twice over.

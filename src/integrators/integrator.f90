@@ -20,6 +20,7 @@ module integrator
    public :: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps
    public :: advance_too_small
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
+   public :: steps_any, steps_fixed, steps_variable
 
    integer, parameter :: advance_step = 0                   !! a step was made
    integer, parameter :: advance_event = 1                  !! a step was made, to an event
@@ -33,6 +34,10 @@ module integrator
    integer, parameter :: norm_relative = 2    !! IMSL INORM = 2: |e| / max(|y|, FLOOR), greatest entry
    integer, parameter :: norm_euclidean = 3   !! IMSL INORM = 3: root of the sum of squares of |e| / max(|y|, 1)
    integer, parameter :: norm_scaled = -1     !! |e| over the natural scale of the entry, greatest entry
+
+   integer, parameter :: steps_any = 0        !! fixed steps, or variable ones
+   integer, parameter :: steps_fixed = 1      !! fixed steps only
+   integer, parameter :: steps_variable = 2   !! variable steps only
 
    !> What a user may set.
    type :: controls_t
@@ -52,7 +57,12 @@ module integrator
       type(controls_t) :: controls              !! what the user set
       type(step_t) :: step                      !! the last step; its end is the present state
       real(wp) :: t = 0.0_wp                    !! present time [s]
+      real(wp), allocatable :: trial(:)         !! (n) state at the end of a trial step [any]
+      real(wp), allocatable :: scale(:)         !! (n) error scales [any]
       real(wp), allocatable :: scratch(:)       !! (n) room for one state [any]
+      real(wp), allocatable :: g0(:), rate0(:)  !! (n_event) event functions and rates at the start of the last step [any]
+      real(wp), allocatable :: g1(:), rate1(:)  !! (n_event) at the present state [any]
+      real(wp), allocatable :: g(:), rate(:)    !! (n_event) elsewhere [any]
       integer, allocatable :: happened(:)       !! (n_event) event functions that made the last step end
       integer :: n_happened = 0                 !! how many
       integer(i8) :: n_steps = 0                !! accepted steps
@@ -65,11 +75,16 @@ module integrator
       procedure(advance_interface), deferred :: advance
       procedure(restart_interface), deferred :: restart
       procedure(refine_interface), deferred :: refine
+      procedure, nopass :: steps => integrator_steps
       procedure :: prepare_output => integrator_prepare_output
+      procedure :: within => integrator_within
       procedure :: state_at => integrator_state_at
       procedure :: memory_size => integrator_memory_size
       procedure :: save => integrator_save
       procedure :: load => integrator_load
+      procedure :: make_room
+      procedure :: begin_step
+      procedure :: set_scales
       procedure :: base_memory_size
       procedure :: save_base
       procedure :: load_base
@@ -160,9 +175,74 @@ contains
       if (t >= self%t .or. self%step%h <= 0.0_wp) then
          y = self%step%y1
       else
-         call interpolate(self%step, system%n_position, (t - self%step%t0)/self%step%h, y)
+         call self%within(system, (t - self%step%t0)/self%step%h, y)
       end if
    end subroutine integrator_state_at
+
+   !> State at a place of the last step, by interpolation.
+   subroutine integrator_within(self, system, s, y)
+      class(integrator_t), intent(in) :: self    !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)              !! (n) state [any]
+
+      call interpolate(self%step, system%n_position, s, y)
+   end subroutine integrator_within
+
+   !> Which steps a method makes.
+   pure integer function integrator_steps() result(steps)
+      steps = steps_any
+   end function integrator_steps
+
+   !> Room for states and event functions, made once.
+   subroutine make_room(self, system)
+      class(integrator_t), intent(inout) :: self  !! the integrator
+      class(ode_system_t), intent(in) :: system   !! the system
+
+      integer :: m, n
+
+      if (allocated(self%scratch)) return
+      n = system%n
+      m = system%n_event
+      allocate (self%step%y0(n), self%step%y1(n), self%step%f0(n), self%step%f1(n), self%step%inner(n, 2), source=0.0_wp)
+      allocate (self%trial(n), self%scale(n), self%scratch(n), source=0.0_wp)
+      allocate (self%g0(m), self%rate0(m), self%g1(m), self%rate1(m), self%g(m), self%rate(m), source=0.0_wp)
+      allocate (self%happened(m), source=0)
+   end subroutine make_room
+
+   !> The present state becomes the start of the next step.
+   subroutine begin_step(self)
+      class(integrator_t), intent(inout) :: self  !! the integrator
+
+      self%n_happened = 0
+      self%step%t0 = self%t
+      self%step%y0 = self%step%y1
+      self%step%f0 = self%step%f1
+      self%g0 = self%g1
+      self%rate0 = self%rate1
+      self%step%has_inner = .false.
+   end subroutine begin_step
+
+   !> What the error of each entry is divided by in the norm, into `scale`; quadratures are left alone.
+   subroutine set_scales(self, system, y)
+      class(integrator_t), intent(inout) :: self  !! the integrator
+      class(ode_system_t), intent(in) :: system   !! the system
+      real(wp), intent(in) :: y(:)                !! (n) state [any]
+
+      integer :: n
+
+      n = system%n - system%n_quadrature
+      select case (self%controls%norm)
+      case (norm_mixed, norm_euclidean)
+         self%scale(1:n) = max(abs(y(1:n)), 1.0_wp)
+      case (norm_absolute)
+         self%scale(1:n) = 1.0_wp
+      case (norm_relative)
+         self%scale(1:n) = max(abs(y(1:n)), self%controls%floor)
+      case default
+         call system%weights(y, self%scale)
+      end select
+   end subroutine set_scales
 
    !> Numbers that a checkpoint needs; a method that remembers more adds to it.
    integer function integrator_memory_size(self) result(n)
@@ -189,11 +269,11 @@ contains
       call self%load_base(row, place)
    end subroutine integrator_load
 
-   !> Numbers that every integrator keeps: time, state, derivative and counters.
+   !> Numbers that every integrator keeps: time, state, derivative, event functions and counters.
    integer function base_memory_size(self) result(n)
       class(integrator_t), intent(in) :: self  !! the integrator
 
-      n = 5 + 2*size(self%step%y1)
+      n = 5 + 2*size(self%step%y1) + 2*size(self%g1)
    end function base_memory_size
 
    !> Write what every integrator keeps.
@@ -209,6 +289,8 @@ contains
       call put(row, place, self%n_output_evaluations)
       call put(row, place, self%step%y1)
       call put(row, place, self%step%f1)
+      call put(row, place, self%g1)
+      call put(row, place, self%rate1)
    end subroutine save_base
 
    !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
@@ -224,6 +306,8 @@ contains
       call get(row, place, self%n_output_evaluations)
       call get(row, place, self%step%y1)
       call get(row, place, self%step%f1)
+      call get(row, place, self%g1)
+      call get(row, place, self%rate1)
       self%step%t0 = self%t
       self%step%h = 0.0_wp
       self%step%has_inner = .false.

@@ -1,12 +1,14 @@
 !> The integrators: two lines each (`use`, `case`).
 module integrator_registry
    use integrator, only: integrator_t
+   use kind_info, only: kind_info_t
+   use rk4, only: rk4_t
    use verner, only: verner_t
    implicit none (type, external)
    private
-   public :: n_integrator_kinds, new_integrator
+   public :: find_integrator, n_integrator_kinds, new_integrator
 
-   integer, parameter :: n_integrator_kinds = 1  !! number of methods
+   integer, parameter :: n_integrator_kinds = 2  !! number of methods
 
 contains
 
@@ -17,7 +19,23 @@ contains
 
       select case (k)
       case (1); allocate (verner_t :: method)
+      case (2); allocate (rk4_t :: method)
       end select
    end subroutine new_integrator
+
+   !> Integrator by its name in a deck, which must be one of them.
+   subroutine find_integrator(name, method)
+      character(*), intent(in) :: name                          !! the method's name
+      class(integrator_t), allocatable, intent(out) :: method   !! the integrator, not started
+
+      type(kind_info_t) :: info
+      integer :: k
+
+      do k = 1, n_integrator_kinds
+         call new_integrator(k, method)
+         info = method%info()
+         if (info%name == name) exit
+      end do
+   end subroutine find_integrator
 
 end module integrator_registry

@@ -4,6 +4,11 @@
 !> entries, the velocities; the last `n_quadrature` entries are quadratures, which no derivative
 !> depends on and which stay out of the error norm. Between, there may be other states.
 !> An event function is negative before its event and becomes positive at it.
+!>
+!> Two hooks do nothing unless a system overrides them. `set_step` tells the step about to be made
+!> (the gains of some stabilisations follow it). A system that sets `holds` has its `hold` called on
+!> every state that an integrator gives out: the end of an accepted step before its derivative is
+!> taken, the states tried in search of an event, the states of `refine`.
 module ode_system
    use kinds, only: wp
    implicit none (type, external)
@@ -16,11 +21,14 @@ module ode_system
       integer :: n_position = 0     !! leading entries that are positions
       integer :: n_quadrature = 0   !! trailing entries that are quadratures
       integer :: n_event = 0        !! event functions
+      logical :: holds = .false.    !! whether `hold` must be called on the states given out
    contains
       procedure(evaluate_interface), deferred :: evaluate
       procedure(weights_interface), deferred :: weights
       procedure(events_interface), deferred :: events
       procedure :: last_events => ode_last_events
+      procedure :: set_step => ode_set_step
+      procedure :: hold => ode_hold
    end type ode_system_t
 
    abstract interface
@@ -69,5 +77,22 @@ contains
 
       call self%events(t, y, g, rate)
    end subroutine ode_last_events
+
+   !> A step of length h is about to be made.
+   subroutine ode_set_step(self, h)
+      class(ode_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: h                   !! length of the step [s]
+   end subroutine ode_set_step
+
+   !> Correct a state in place, for instance onto an invariant. Status: 0 done, > 0 retry with a
+   !> smaller step, < 0 give up.
+   subroutine ode_hold(self, t, y, status)
+      class(ode_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                   !! time [s]
+      real(wp), intent(inout) :: y(:)             !! (n) state [any]
+      integer, intent(out) :: status              !! outcome
+
+      status = 0
+   end subroutine ode_hold
 
 end module ode_system

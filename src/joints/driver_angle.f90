@@ -27,6 +27,7 @@ module driver_angle
       procedure, nopass :: info => angle_info
       procedure :: prepare => angle_prepare
       procedure :: evaluate => angle_evaluate
+      procedure :: prescription => angle_prescription
       procedure :: time_of_turns => angle_time_of_turns
       procedure :: time_before => angle_time_before
    end type driver_angle_t
@@ -73,11 +74,23 @@ contains
       integer :: k
 
       do k = 1, self%n
-         call self%f(k)%evaluate(t, f, f_dot, f_dot_dot)
+         call angle_prescription(self, k, t, f, f_dot, f_dot_dot)
          call write_driver_row(self%first_row + k, motion%angle(self%body(1, k)), motion%angle(self%body(2, k)), &
                                f, f_dot, f_dot_dot, rows)
       end do
    end subroutine angle_evaluate
+
+   !> The angle that an item prescribes.
+   subroutine angle_prescription(self, k, t, f, f_dot, f_dot_dot)
+      class(driver_angle_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      real(wp), intent(in) :: t                  !! time [s]
+      real(wp), intent(out) :: f                 !! angle of j relative to i [rad]
+      real(wp), intent(out) :: f_dot             !! its first time derivative [rad/s]
+      real(wp), intent(out) :: f_dot_dot         !! its second time derivative [rad/s^2]
+
+      call self%f(k)%evaluate(t, f, f_dot, f_dot_dot)
+   end subroutine angle_prescription
 
    !> First time at which |f(t) - f(0)| reaches a number of turns.
    function angle_time_of_turns(self, k, turns) result(t)

@@ -25,6 +25,7 @@ module driver_speed
       procedure, nopass :: info => speed_info
       procedure :: prepare => speed_prepare
       procedure :: evaluate => speed_evaluate
+      procedure :: prescription => speed_prescription
       procedure :: time_of_turns => speed_time_of_turns
       procedure :: time_before => speed_time_before
    end type driver_speed_t
@@ -68,13 +69,29 @@ contains
       type(motion_t), intent(in) :: motion       !! positions and velocities
       type(rows_t), intent(inout) :: rows        !! rows, those of the set are filled
 
+      real(wp) :: f, f_dot, f_dot_dot
       integer :: k
 
       do k = 1, self%n
+         call speed_prescription(self, k, t, f, f_dot, f_dot_dot)
          call write_driver_row(self%first_row + k, motion%angle(self%body(1, k)), motion%angle(self%body(2, k)), &
-                               self%start(k) + self%speed(k)*t, self%speed(k), 0.0_wp, rows)
+                               f, f_dot, f_dot_dot, rows)
       end do
    end subroutine speed_evaluate
+
+   !> The angle that an item prescribes.
+   subroutine speed_prescription(self, k, t, f, f_dot, f_dot_dot)
+      class(driver_speed_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      real(wp), intent(in) :: t                  !! time [s]
+      real(wp), intent(out) :: f                 !! angle of j relative to i [rad]
+      real(wp), intent(out) :: f_dot             !! its first time derivative [rad/s]
+      real(wp), intent(out) :: f_dot_dot         !! its second time derivative [rad/s^2]
+
+      f = self%start(k) + self%speed(k)*t
+      f_dot = self%speed(k)
+      f_dot_dot = 0.0_wp
+   end subroutine speed_prescription
 
    !> Time of a number of turns.
    function speed_time_of_turns(self, k, turns) result(t)

@@ -18,13 +18,21 @@ module joint_set
    public :: add_joint_channels, joint_set_t, joint_slot_t, list_sides, new_rows, rows_t
 
    !> The constraint rows of a planar scene.
+   !>
+   !> The first `n_solve` rows are solved for; those after them only fix the motion of bodies that are known
+   !> functions of time, and are evaluated when their reactions are wanted.
    type :: rows_t
       integer :: n = 0                          !! number of rows
+      integer :: n_solve = 0                    !! rows that are solved for, the first ones
       integer, allocatable :: body(:, :)        !! (2, n) bodies i and j of each row, 0: ground
       logical, allocatable :: is_angle(:)       !! (n) whether the row is an angle [rad] or a length [m]
-      integer :: n_side = 0                     !! sides of rows that are bodies, not the ground
+      integer :: n_unknown = 0                  !! bodies whose motion is unknown
+      integer, allocatable :: unknown(:)        !! (unknown bodies) their numbers, rising
+      integer :: n_side = 0                     !! sides of solved rows that are unknown bodies
       integer, allocatable :: side(:, :)        !! (3, sides) row, place before its entries in `jac`, body; sorted by body
       integer, allocatable :: last_side(:)      !! (0:bodies) last side of each body; of body 0: 0
+      integer :: n_known = 0                    !! sides of solved rows that are known bodies other than the ground
+      integer, allocatable :: known(:, :)       !! (3, known sides) row, place before its entries in `jac`, body
       real(wp), allocatable :: phi(:)           !! (n) Phi [m or rad]
       real(wp), allocatable :: phi_t(:)         !! (n) partial time derivative of Phi [m/s or rad/s]
       real(wp), allocatable :: jac(:, :)        !! (6, n) Phi_q [1 or m]
@@ -36,6 +44,8 @@ module joint_set
       integer :: n = 0                           !! number of items
       integer :: n_row_item = 0                  !! rows of one item
       integer :: first_row = 0                   !! number of the first row of the set, less one
+      logical :: is_solved = .true.              !! whether its rows are solved for, not only evaluated for reactions
+      integer, allocatable :: column(:)          !! (n) places of the items among all joints, or all drivers, in reports
       logical :: is_driver = .false.             !! whether the items prescribe a motion
       logical :: is_angle(3) = .false.           !! (3) which rows of an item are angles, set by `prepare`
       type(text_t), allocatable :: names(:)      !! (n) names
@@ -50,6 +60,7 @@ module joint_set
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: coordinate => joint_coordinate
+      procedure :: prescription => joint_prescription
       procedure :: time_of_turns => joint_time_of_turns
       procedure :: time_before => joint_time_before
       procedure :: memory_size => joint_memory_size
@@ -154,6 +165,20 @@ contains
       rate = motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k))
    end subroutine joint_coordinate
 
+   !> The coordinate that a driver prescribes, and its derivatives.
+   subroutine joint_prescription(self, k, t, f, f_dot, f_dot_dot)
+      class(joint_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      real(wp), intent(in) :: t               !! time [s]
+      real(wp), intent(out) :: f              !! coordinate; zero unless the kind is a driver of an angle [rad]
+      real(wp), intent(out) :: f_dot          !! its first time derivative [rad/s]
+      real(wp), intent(out) :: f_dot_dot      !! its second time derivative [rad/s^2]
+
+      f = 0.0_wp*t*k*self%n
+      f_dot = 0.0_wp
+      f_dot_dot = 0.0_wp
+   end subroutine joint_prescription
+
    !> Time at which a driver has made a number of turns since t = 0; negative if it never does.
    function joint_time_of_turns(self, k, turns) result(t)
       class(joint_set_t), intent(in) :: self  !! the set
@@ -211,39 +236,57 @@ contains
    !> Room for n rows.
    subroutine new_rows(n, rows)
       integer, intent(in) :: n           !! number of rows
-      type(rows_t), intent(out) :: rows  !! the rows, zero
+      type(rows_t), intent(out) :: rows  !! the rows, zero, all to be solved for
 
       rows%n = n
+      rows%n_solve = n
       allocate (rows%body(2, n), source=0)
       allocate (rows%is_angle(n), source=.false.)
       allocate (rows%phi(n), rows%phi_t(n), rows%gam(n), rows%jac(6, n), source=0.0_wp)
    end subroutine new_rows
 
-   !> List the sides of the declared rows that are bodies, body by body: what loops over the Jacobian need.
-   subroutine list_sides(n_body, rows)
-      integer, intent(in) :: n_body        !! number of bodies
+   !> List the sides of the solved rows: those of unknown bodies body by body, which loops over the Jacobian
+   !> need, and those of known ones.
+   subroutine list_sides(is_known, rows)
+      logical, intent(in) :: is_known(:)   !! (bodies) whether the motion of a body is a known function of time
       type(rows_t), intent(inout) :: rows  !! rows; their sides are listed
 
-      integer :: body, k, row, side
+      integer :: body, k, n_body, row, side
 
-      rows%n_side = count(rows%body > 0)
-      allocate (rows%side(3, rows%n_side), rows%last_side(0:n_body), source=0)
-      do row = 1, rows%n
+      n_body = size(is_known)
+      rows%unknown = pack([(body, body=1, n_body)], .not. is_known)
+      rows%n_unknown = size(rows%unknown)
+      allocate (rows%last_side(0:n_body), source=0)
+      rows%n_known = 0
+      do row = 1, rows%n_solve
          do side = 1, 2
             body = rows%body(side, row)
-            if (body > 0) rows%last_side(body) = rows%last_side(body) + 1
+            if (body == 0) cycle
+            if (is_known(body)) then
+               rows%n_known = rows%n_known + 1
+            else
+               rows%last_side(body) = rows%last_side(body) + 1
+            end if
          end do
       end do
       do body = 1, n_body
          rows%last_side(body) = rows%last_side(body - 1) + rows%last_side(body)
       end do
-      do row = rows%n, 1, -1
+      rows%n_side = rows%last_side(n_body)
+      allocate (rows%side(3, rows%n_side), rows%known(3, rows%n_known), source=0)
+      rows%n_known = 0
+      do row = rows%n_solve, 1, -1
          do side = 2, 1, -1
             body = rows%body(side, row)
             if (body == 0) cycle
-            k = rows%last_side(body)
-            rows%last_side(body) = k - 1
-            rows%side(:, k) = [row, 6*(row - 1) + 3*(side - 1), body]
+            if (is_known(body)) then
+               rows%n_known = rows%n_known + 1
+               rows%known(:, rows%n_known) = [row, 6*(row - 1) + 3*(side - 1), body]
+            else
+               k = rows%last_side(body)
+               rows%last_side(body) = k - 1
+               rows%side(:, k) = [row, 6*(row - 1) + 3*(side - 1), body]
+            end if
          end do
       end do
       ! the loop above has moved each entry to the end of the body before

@@ -9,7 +9,7 @@ module envelope
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: envelope_t, factorise_and_solve, new_envelope
+   public :: envelope_t, factorise_and_solve, new_envelope, solve_factored
 
    !> A symmetric matrix or its factors, in an envelope that is fixed at set-up.
    type :: envelope_t
@@ -86,17 +86,53 @@ contains
          inverse(i) = 1.0_wp/pivot
          x(i) = right
       end do
+      call solve_upper(n, n_entry, first, start, a, inverse, x)
+   end subroutine factorise_and_solve
+
+   !> Solve for one more right-hand side with the factors of `factorise_and_solve`.
+   pure subroutine solve_factored(n, n_entry, first, start, a, inverse, x)
+      integer, intent(in) :: n                    !! order
+      integer, intent(in) :: n_entry              !! entries of the envelope
+      integer, intent(in) :: first(n)             !! (n) first column of each row
+      integer, intent(in) :: start(n)             !! (n) place of entry (i, j) is start(i) + j
+      real(wp), intent(in) :: a(n_entry)          !! (entries) factors [any]
+      real(wp), intent(in) :: inverse(n)          !! (n) one over D [any]
+      real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then solution [any]
+
+      integer :: i, j
+
+      do i = 1, n
+         !GCC$ novector
+         do j = first(i), i - 1
+            x(i) = x(i) - a(start(i) + j)*x(j)
+         end do
+      end do
+      call solve_upper(n, n_entry, first, start, a, inverse, x)
+   end subroutine solve_factored
+
+   !> The second half of a solution, D L^T x = y.
+   pure subroutine solve_upper(n, n_entry, first, start, a, inverse, x)
+      integer, intent(in) :: n                    !! order
+      integer, intent(in) :: n_entry              !! entries of the envelope
+      integer, intent(in) :: first(n)             !! (n) first column of each row
+      integer, intent(in) :: start(n)             !! (n) place of entry (i, j) is start(i) + j
+      real(wp), intent(in) :: a(n_entry)          !! (entries) factors [any]
+      real(wp), intent(in) :: inverse(n)          !! (n) one over D [any]
+      real(wp), intent(inout) :: x(n)             !! (n) y, then x [any]
+
+      real(wp) :: value
+      integer :: i, j
+
       do i = 1, n
          x(i) = x(i)*inverse(i)
       end do
       do i = n, 1, -1
-         start_i = start(i)
-         sum = x(i)
+         value = x(i)
          !GCC$ novector
          do j = first(i), i - 1
-            x(j) = x(j) - a(start_i + j)*sum
+            x(j) = x(j) - a(start(i) + j)*value
          end do
       end do
-   end subroutine factorise_and_solve
+   end subroutine solve_upper
 
 end module envelope

@@ -58,9 +58,24 @@ module expression
       character(:), allocatable :: source    !! text it was compiled from, with the values of parameters put in
    contains
       procedure :: evaluate
+      procedure :: is_smooth
    end type expression_t
 
 contains
+
+   !> Whether the value and its derivatives have no jumps where they exist: nothing in it steps, folds, or wraps around.
+   pure logical function is_smooth(self)
+      class(expression_t), intent(in) :: self  !! the expression
+
+      integer, parameter :: rough(5) = [op_abs, op_atan2, op_max, op_min, op_step]
+      integer :: k
+
+      is_smooth = .true.
+      if (.not. allocated(self%code)) return
+      do k = 1, size(rough)
+         is_smooth = is_smooth .and. all(self%code /= rough(k))
+      end do
+   end function is_smooth
 
    !> An expression that is one number.
    pure function constant_expression(x, dimension) result(constant)

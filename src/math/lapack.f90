@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgelsd, dgeqp3, dgesvd, dgetrf, dgetrs, dsyev, dsygv
+   public :: dgelsd, dgeqp3, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
 
    interface
       !> Least-norm least-squares solution by singular values, with the rank.
@@ -73,6 +73,29 @@ module lapack
          integer, intent(out) :: info                !! 0: done
       end subroutine dsygv
 
+      !> LU factorisation with complete pivoting; pivots that are too small are raised.
+      subroutine dgetc2(n, a, lda, ipiv, jpiv, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: n, lda          !! sizes
+         real(wp), intent(inout) :: a(lda, *)   !! (lda, n) matrix, then its factors [any]
+         integer, intent(out) :: ipiv(*)        !! (n) row exchanges
+         integer, intent(out) :: jpiv(*)        !! (n) column exchanges
+         integer, intent(out) :: info           !! 0: no pivot was raised
+      end subroutine dgetc2
+
+      !> Solution with the factors of dgetc2.
+      subroutine dgesc2(n, a, lda, rhs, ipiv, jpiv, scale)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: n, lda          !! sizes
+         real(wp), intent(in) :: a(lda, *)      !! (lda, n) factors [any]
+         real(wp), intent(inout) :: rhs(*)      !! (n) right-hand side, then scale times the solution [any]
+         integer, intent(in) :: ipiv(*)         !! (n) row exchanges
+         integer, intent(in) :: jpiv(*)         !! (n) column exchanges
+         real(wp), intent(out) :: scale         !! against overflow, 0 to 1 [1]
+      end subroutine dgesc2
+
       !> LU factorisation with partial pivoting.
       subroutine dgetrf(m, n, a, lda, ipiv, info)
          import :: wp
@@ -94,6 +117,17 @@ module lapack
          real(wp), intent(inout) :: b(ldb, *)        !! (ldb, nrhs) right-hand sides, then solutions [any]
          integer, intent(out) :: info                !! 0: done
       end subroutine dgetrs
+
+      !> Solution of triangular equations.
+      subroutine dtrtrs(uplo, trans, diag, n, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: uplo, trans, diag   !! "U" upper, "N" not transposed, "N" no unit diagonal
+         integer, intent(in) :: n, nrhs, lda, ldb     !! sizes
+         real(wp), intent(in) :: a(lda, *)            !! (lda, n) matrix [any]
+         real(wp), intent(inout) :: b(ldb, *)         !! (ldb, nrhs) right-hand sides, then solutions [any]
+         integer, intent(out) :: info                 !! 0: done
+      end subroutine dtrtrs
    end interface
 
 end module lapack

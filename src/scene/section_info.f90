@@ -48,10 +48,13 @@ contains
                     default="ideal", choices="ideal given static")
       call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
       call add_word(info, "method", "integrator", default="verner", choices=trim(adjustl(methods)))
-      call add_word(info, "solver", "of the augmented equations: schur, lapack (full matrix with pivoting), or auto", &
-                    default="auto", choices="auto schur lapack")
+      call add_word(info, "solver", "of the augmented equations: schur (complement, in its envelope), sparse (KLU), lapack (full " &
+                    //"matrix, partial pivoting), complete (complete pivoting), augmented_lagrangian (penalties), or auto", &
+                    default="auto", choices="auto schur sparse lapack complete augmented_lagrangian")
       call add_word(info, "stabilise", "how the constraints are held: baumgarte with gains alpha and beta, or none", &
                     default="baumgarte alpha=5s^-1 beta=5s^-1", choices="none baumgarte", options="alpha beta")
+      call add_word(info, "driven_bodies", "bodies that drivers and rigid joints leave no freedom: known functions of time, or " &
+                    //"unknown as the others", default="known", choices="known unknown")
       call add_flag(info, "ledger", "whether the energy ledger is kept", default="on")
       call add_number(info, "energy_limit", dim_none, "greatest ledger residual allowed, of the largest energy; 0: none", &
                       default="0", lower=0.0_wp)

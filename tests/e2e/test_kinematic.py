@@ -137,7 +137,7 @@ def test_same_channels_as_a_dynamic_run(gudgeon, slider_crank):
         if "violation" in name or "eccentricity" in name:
             assert np.abs(values).max() < 1e-9, name
             continue
-        assert_close(values, theirs[name], absolute=1e-8 * np.abs(theirs[name]).max() + 1e-12, what=name)
+        assert_close(values, theirs[name], absolute=1e-8 * np.abs(theirs[name]).max() + 1e-11, what=name)
 
 
 def vector_loop(time, speed=SPEED):
@@ -298,7 +298,7 @@ def test_explain(gudgeon, slider_crank):
     assert "2401 instants" in done.stdout
     assert "analysis.dynamic" not in done.stdout
     done = call(gudgeon, "explain", written(scratch(), four_bar(more="twin  wall_a  heel\n")))
-    assert done.stdout.count("redundant: a row of") == 2
+    assert "redundant constraints: 2 of 11 rows" in done.stdout
 
 
 def test_option_analysis(gudgeon):

@@ -15,7 +15,7 @@ module clearance_bench
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
-   use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_acceleration, set_planar_motion
+   use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_motion, set_some_acceleration
    use normal_law, only: normal_law_t
    use text, only: split_blank, text_t
    implicit none (type, external)
@@ -197,8 +197,10 @@ contains
       type(bench_t), intent(inout) :: bench  !! the set
       real(wp), intent(in) :: t              !! time [s]
 
+      integer :: k
+
       call set_planar_motion(n_body, bench%q + t*(bench%v + 0.5_wp*t*bench%a), bench%v + t*bench%a, bench%motion)
-      call set_planar_acceleration(n_body, bench%a, bench%motion)
+      call set_some_acceleration(n_body, [(k, k=1, n_body)], bench%a, bench%motion)
    end subroutine move_to
 
    !> Penetrations and rates after a time; those of other sets are left at -1.

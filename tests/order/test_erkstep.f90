@@ -172,7 +172,7 @@ contains
 
       integer :: nq
 
-      nq = 3*system%n_body
+      nq = system%n_position
       call check_close(error, actual(1:nq), expected(1:nq), part, "coordinates "//what)
       call check_close(error, actual(nq + 1:2*nq), expected(nq + 1:2*nq), part, "rates "//what, relative=.true.)
       ! quadratures stay out of the error norm

@@ -7,6 +7,7 @@ module test_start
    use kinds, only: i8, pi, wp
    use planar_system, only: planar_system_t
    use scene_fixture, only: channel_of, nl, slider_crank, start_text
+   use start_state, only: redundancy_text
    use text, only: real_text, replace
    implicit none (type, external)
    private
@@ -118,7 +119,7 @@ contains
                       "bob 2 0.05 0.4 0 3 1.2 7"//nl// &
                       "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"eye bob -0.4 0"//nl// &
                       "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
-                      "[analysis.dynamic]"//nl//"end = 1 s", system, y, error)
+                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error)
       if (allocated(error)) return
       ! vx = 0; vy = 0.4 omega with (vy - 1.2)/0.4 + omega - 7 = 0
       call check_close(error, y(4:6), [0.0_wp, 2.0_wp, 5.0_wp], 1.0e-14_wp, "velocities", relative=.true.)
@@ -138,7 +139,7 @@ contains
                       "[points]"//nl//"name body xi[m] eta[m]"//nl//"hub left 0 0"//nl//"nave right 0 0"//nl// &
                       "end left 0.5 0"//nl// &
                       "[joint.revolute]"//nl//"name i j"//nl//"axle hub nave"//nl// &
-                      "[analysis.dynamic]"//nl//"end = 1 s", system, y, error, report)
+                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error, report)
       if (allocated(error)) return
       call check_close(error, y(1:6), [3.5_wp, 0.0_wp, 0.0_wp, 3.5_wp, 0.0_wp, 0.5_wp], 1.0e-14_wp, "positions")
       call check_close(error, report%moved, 0.5_wp, 1.0e-14_wp, "greatest move")
@@ -196,7 +197,7 @@ contains
                       "[joint.revolute]"//nl//"name i j"//nl//"shoulder hook eye"//nl// &
                       "[joint.rigid]"//nl//"name i j"//nl//"weld wrist palm"//nl// &
                       "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor shoulder 8"//nl// &
-                      "[analysis.dynamic]"//nl//"end = 1 s", system, y, error)
+                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error)
       if (allocated(error)) return
       ydot = y
       call system%evaluate(0.0_wp, y, ydot, status)
@@ -219,7 +220,7 @@ contains
                       "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"eye bob -0.4 0"//nl// &
                       "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
                       "[driver.angle]"//nl//"name joint angle"//nl//"motor pin {0.3 rad + 0.5 rad*sin(6 rad/s*t)}"//nl// &
-                      "[analysis.dynamic]"//nl//"end = 1 s", system, y, error)
+                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error)
       if (allocated(error)) return
       call check_close(error, y(1:3), [0.4_wp*cos(0.3_wp), 0.4_wp*sin(0.3_wp), 0.3_wp], 1.0e-15_wp, "position")
       call check_close(error, y(4:6), 3.0_wp*[-0.4_wp*sin(0.3_wp), 0.4_wp*cos(0.3_wp), 1.0_wp], 1.0e-13_wp, "velocity")
@@ -235,8 +236,6 @@ contains
       type(error_t), allocatable :: reason
       type(planar_system_t) :: system
       real(wp), allocatable :: y(:)
-      integer :: first, last
-
       if (allocated(error)) return
       call start_text(deck, system, y, reason)
       if (.not. allocated(reason)) then
@@ -244,14 +243,24 @@ contains
          return
       end if
       call check_equal(error, reason%code, exit_assembly, "exit code of '"//reason%message//"'")
+      call check_parts(error, reason%message, words)
+   end subroutine check_no_start
+
+   !> A text says what it must.
+   subroutine check_parts(error, text, words)
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+      character(*), intent(in) :: text                    !! the text
+      character(*), intent(in) :: words                   !! what it must say, each part before a `|`
+
+      integer :: first, last
+
       first = 1
       do while (first <= len(words))
          last = first + index(words(first:), "|") - 2
-         call check_true(error, index(reason%message, words(first:last)) > 0, &
-                         "the message '"//reason%message//"' says '"//words(first:last)//"'")
+         call check_true(error, index(text, words(first:last)) > 0, "'"//text//"' says '"//words(first:last)//"'")
          first = last + 2
       end do
-   end subroutine check_no_start
+   end subroutine check_parts
 
    !> A four-bar whose ground is longer than its links together.
    subroutine test_loop_that_cannot_close(error)
@@ -285,7 +294,7 @@ contains
       deck = "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"bob 2 0.05 0.4 0"//nl// &
              "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"eye bob -0.4 0"//nl// &
              "nail ground 0.8 0"//nl//"toe bob 0.4 0"//nl// &
-             tables//nl//"[analysis.dynamic]"//nl//"end = 1 s"
+             tables//nl//"[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s"
    end function pendulum
 
    !> Two speeds for one joint: in the middle each is off by half.
@@ -306,16 +315,39 @@ contains
                           "cannot be assembled|' stays open by 0.05 rad|")
    end subroutine test_contradictory_angles
 
-   !> Two equal drivers; a body held by two pins: rows depend on others, and a joint is named.
+   !> Two equal drivers; a body held by two pins: rows depend on others, and the joints that share the load are named.
    subroutine test_redundant_rows(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      call check_no_start(error, pendulum("[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
-                                          "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"one pin 3"//nl//"two pin 3"), &
-                          "redundant constraints: 1 of 4 rows depend|")
-      if (allocated(error)) return
-      call check_no_start(error, pendulum("[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl//"tack nail toe"), &
-                          "redundant constraints: 1 of 4 rows depend|at joint or driver '|")
+      call check_redundancy(error, "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
+                            "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"one pin 3"//nl//"two pin 3", &
+                            "1 of 4 rows depend|reactions of 'one' 'two' are|")
+      call check_redundancy(error, "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl//"tack nail toe", &
+                            "1 of 4 rows depend|reactions of 'pin' 'tack' are|")
+      call check_redundancy(error, "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye", "")
+
+   contains
+
+      !> What is said of a pendulum with these joints.
+      subroutine check_redundancy(error, tables, expected)
+         type(error_t), allocatable, intent(inout) :: error   !! first failure
+         character(*), intent(in) :: tables                   !! joints and drivers
+         character(*), intent(in) :: expected                 !! parts of the text, each ended by a bar; blank: nothing is said
+
+         type(assembly_t) :: report
+         type(planar_system_t) :: system
+         real(wp), allocatable :: y(:)
+
+         call start_text(pendulum(tables), system, y, error, report)
+         if (allocated(error)) return
+         call check_true(error, system%is_redundant .eqv. len(expected) > 0, "known to be redundant")
+         if (len(expected) == 0) then
+            call check_equal(error, redundancy_text(system, report), "", "nothing to say")
+         else
+            call check_parts(error, redundancy_text(system, report), expected)
+         end if
+      end subroutine check_redundancy
+
    end subroutine test_redundant_rows
 
    !> The surfaces of a loose joint overlap at a given start: the joint and the depth.

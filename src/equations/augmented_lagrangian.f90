@@ -1,0 +1,247 @@
+!> Augmented equations by iteration with penalties: the augmented Lagrangian of the book.
+!>
+!> (M + Phi_q^T alpha Phi_q) a_k+1 = M a_k + Phi_q^T alpha b,   lambda_k+1 = lambda_k + alpha (Phi_q a_k+1 - b),   M a_0 = g
+!>
+!> with alpha = penalty / D for each row, D the diagonal of Phi_q M^-1 Phi_q^T: the penalty is a number without unit. An
+!> iteration takes the error down to 1 / (1 + penalty mu), mu the least eigenvalue of D^-1/2 S D^-1/2 that is not zero. The
+!> iterations solve for the change of a, so that round-off does not grow with the penalty. The matrix is factorised once
+!> as L D L^T, in the envelope of the bodies' coordinates. Rows may depend on one another; multipliers are then those of
+!> least norm.
+!> Source: Flores et al. (2008), eqs. (2.32)-(2.35), with Phi_q v + Phi_t where (2.34) prints Phi_q a.
+!> Limits: slow where mu is small; multipliers lose as many digits as the penalty has.
+module augmented_lagrangian
+   use augmented, only: augmented_t, body_accelerations, row_residuals
+   use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
+   use joint_set, only: rows_t
+   use kinds, only: wp
+   use ordering, only: envelope_of, reverse_cuthill_mckee
+   implicit none (type, external)
+   private
+   public :: augmented_lagrangian_t
+
+   real(wp), parameter :: converged = 1.0e-14_wp  !! change of the residual, of the greatest term, that ends the iteration [1]
+   real(wp), parameter :: solved = 1.0e-8_wp      !! residual, of the greatest term, of a solution [1]
+   integer, parameter :: n_iteration = 40         !! iterations, at most
+
+   !> Penalty matrix with its structure.
+   type, extends(augmented_t) :: augmented_lagrangian_t
+      real(wp) :: penalty = 1.0e5_wp              !! of a violated row, of its inverse effective mass [1]
+      type(envelope_t) :: k                       !! penalty matrix, then its factors
+      integer, allocatable :: place(:)            !! (0:bodies) place before the coordinates of an unknown body
+      integer :: n_pair = 0                       !! pairs of sides of the same row
+      integer, allocatable :: pair(:, :)          !! (5, pairs) row, entries of both sides in the Jacobian, their coordinates
+      real(wp), allocatable :: alpha(:)           !! (solved rows) penalties [any]
+      real(wp), allocatable :: x(:)               !! (coordinates) right-hand side and change of a [any]
+   contains
+      procedure, nopass :: name => lagrangian_name
+      procedure :: prepare => lagrangian_prepare
+      procedure :: solve => lagrangian_solve
+      procedure :: solve_damped => lagrangian_solve_damped
+   end type augmented_lagrangian_t
+
+contains
+
+   !> The word for it in a deck.
+   function lagrangian_name() result(name)
+      character(:), allocatable :: name  !! as in `solver = name`
+
+      name = "augmented_lagrangian"
+   end function lagrangian_name
+
+   !> Order of the bodies, envelope of their coordinates, pairs of sides.
+   subroutine lagrangian_prepare(self, n_body, rows)
+      class(augmented_lagrangian_t), intent(inout) :: self  !! the solver
+      integer, intent(in) :: n_body                         !! number of bodies
+      type(rows_t), intent(in) :: rows                      !! rows, of which the bodies are read
+
+      integer, allocatable :: first(:), first_body(:), neighbour(:), order(:), other(:), start(:)
+      integer :: body, c, k, m, n, of_row(2, rows%n_solve), pass
+      real :: cost, other_cost
+
+      n = rows%n_unknown
+      call list_bodies(n_body, rows, of_row, start, neighbour)
+      order = [(k, k=1, n)]
+      first_body = order
+      call envelope_of(start, neighbour, order, first_body, cost)
+      call reverse_cuthill_mckee(start, neighbour, other)
+      allocate (first(n))
+      call envelope_of(start, neighbour, other, first, other_cost)
+      if (other_cost < cost) then
+         order = other
+         first_body = first
+      end if
+      allocate (self%place(0:n_body), source=0)
+      self%place(rows%unknown(order)) = [(3*k - 3, k=1, n)]
+      call new_envelope([((3*first_body(k) - 2, c=1, 3), k=1, n)], self%k)
+      do pass = 1, 2
+         self%n_pair = 0
+         do k = 1, rows%n_solve
+            do c = 1, 2
+               do m = 1, 2
+                  if (of_row(c, k) == 0 .or. of_row(m, k) == 0) cycle
+                  body = self%place(rows%side(3, of_row(c, k)))
+                  if (body < self%place(rows%side(3, of_row(m, k)))) cycle
+                  self%n_pair = self%n_pair + 1
+                  if (pass == 1) cycle
+                  self%pair(:, self%n_pair) = [k, rows%side(2, of_row(c, k)), rows%side(2, of_row(m, k)), body, &
+                                               self%place(rows%side(3, of_row(m, k)))]
+               end do
+            end do
+         end do
+         if (pass == 1) allocate (self%pair(5, self%n_pair), source=0)
+      end do
+      allocate (self%alpha(rows%n_solve), self%residual(rows%n_solve), self%x(3*n), source=0.0_wp)
+   end subroutine lagrangian_prepare
+
+   !> Sides of each row, and for each unknown body those that share a row with it.
+   subroutine list_bodies(n_body, rows, of_row, start, neighbour)
+      integer, intent(in) :: n_body                       !! number of bodies
+      type(rows_t), intent(in) :: rows                    !! rows
+      integer, intent(out) :: of_row(2, rows%n_solve)     !! (2, solved rows) sides of each row, 0: none
+      integer, allocatable, intent(out) :: start(:)       !! (unknown bodies + 1) place of the first neighbour of each
+      integer, allocatable, intent(out) :: neighbour(:)   !! (any) neighbours, numbered among the unknown bodies
+
+      integer :: i, k, number(0:n_body), other, row
+
+      number = 0
+      number(rows%unknown) = [(k, k=1, rows%n_unknown)]
+      of_row = 0
+      do k = 1, rows%n_side
+         row = rows%side(1, k)
+         of_row(merge(1, 2, of_row(1, row) == 0), row) = k
+      end do
+      allocate (start(rows%n_unknown + 1), neighbour(rows%n_side))
+      start(1) = 1
+      do i = 1, rows%n_unknown
+         start(i + 1) = start(i)
+         do k = rows%last_side(rows%unknown(i) - 1) + 1, rows%last_side(rows%unknown(i))
+            other = sum(of_row(:, rows%side(1, k))) - k
+            if (other == 0) cycle
+            neighbour(start(i + 1)) = number(rows%side(3, other))
+            start(i + 1) = start(i + 1) + 1
+         end do
+      end do
+   end subroutine list_bodies
+
+   !> Accelerations and multipliers.
+   subroutine lagrangian_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
+      class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
+      integer, intent(out) :: bad_row                          !! row that has not converged, 0: none
+
+      call lagrangian_solve_damped(self, inverse_mass, rows, g, b, 0.0_wp, n_iteration, a, lambda, bad_row)
+      if (bad_row == 0 .and. .not. self%left_over <= solved) bad_row = maxloc(abs(self%residual), dim=1)
+   end subroutine lagrangian_solve
+
+   !> The same, whatever is left over. The penalty stands for the damping.
+   subroutine lagrangian_solve_damped(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)
+      class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
+      real(wp), intent(in) :: damping                          !! of other solvers [1]
+      integer, intent(in) :: n_refinement                      !! iterations, at most
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
+      integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
+
+      real(wp) :: before, greatest, now
+      integer :: k, n, n_body
+
+      n = rows%n_solve
+      n_body = size(g, 2) - 1
+      call assemble(self, inverse_mass, rows)
+      self%x = 0.0_wp
+      call factorise_and_solve(self%k%n, size(self%k%a), self%k%first, self%k%start, 0.0_wp, self%k%a, self%k%inverse, &
+                               self%k%row, self%x, bad_row)
+      self%n_factorisations = self%n_factorisations + 1
+      if (bad_row > 0) then
+         bad_row = 1
+         return
+      end if
+      lambda(:n) = 0.0_wp
+      call body_accelerations(n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
+                              inverse_mass, rows%jac, g, lambda, a)
+      self%left_over = 0.0_wp
+      if (n == 0) return
+      greatest = max(tiny(1.0_wp), maxval(abs(b(:n))))
+      before = huge(1.0_wp)
+      do k = 0, max(n_refinement, 1)
+         call row_residuals(n_body, rows%n, n, rows%n_side, rows%side, rows%jac, a, b, self%residual)
+         now = maxval(abs(self%residual))
+         if (k == 0) greatest = max(greatest, now)
+         if (k > 0) lambda(:n) = lambda(:n) + self%alpha*self%residual
+         self%left_over = now/greatest
+         if (before - now <= converged*greatest) exit
+         before = now
+         call change_accelerations(self, rows, a)
+      end do
+   end subroutine lagrangian_solve_damped
+
+   !> M + Phi_q^T alpha Phi_q.
+   subroutine assemble(self, inverse_mass, rows)
+      class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows
+
+      integer :: c, i, j, k, place, row
+
+      self%alpha = 0.0_wp
+      do k = 1, rows%n_side
+         row = rows%side(1, k)
+         place = rows%side(2, k) - 6*(row - 1)
+         self%alpha(row) = self%alpha(row) + sum(rows%jac(place + 1:place + 3, row)**2*inverse_mass(:, rows%side(3, k)))
+      end do
+      ! a row between known bodies has nothing to hold
+      where (self%alpha > 0.0_wp) self%alpha = self%penalty/self%alpha
+      self%k%a = 0.0_wp
+      do k = 1, rows%n_unknown
+         do c = 1, 3
+            i = self%place(rows%unknown(k)) + c
+            self%k%a(self%k%start(i) + i) = 1.0_wp/inverse_mass(c, rows%unknown(k))
+         end do
+      end do
+      do k = 1, self%n_pair
+         row = self%pair(1, k)
+         associate (left => self%pair(2, k) - 6*(row - 1), right => self%pair(3, k) - 6*(row - 1))
+            do c = 1, 3
+               i = self%pair(4, k) + c
+               do j = 1, 3
+                  if (self%pair(5, k) + j > i) exit
+                  place = self%k%start(i) + self%pair(5, k) + j
+                  self%k%a(place) = self%k%a(place) + self%alpha(row)*rows%jac(left + c, row)*rows%jac(right + j, row)
+               end do
+            end do
+         end associate
+      end do
+   end subroutine assemble
+
+   !> (M + Phi_q^T alpha Phi_q) (a_k+1 - a_k) = -Phi_q^T alpha r.
+   subroutine change_accelerations(self, rows, a)
+      class(augmented_lagrangian_t), intent(inout) :: self     !! the solver, factorised, residuals set
+      type(rows_t), intent(in) :: rows                         !! rows
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+
+      integer :: i, k, place, row
+
+      self%x = 0.0_wp
+      do k = 1, rows%n_side
+         row = rows%side(1, k)
+         place = rows%side(2, k) - 6*(row - 1)
+         i = self%place(rows%side(3, k))
+         self%x(i + 1:i + 3) = self%x(i + 1:i + 3) - rows%jac(place + 1:place + 3, row)*(self%alpha(row)*self%residual(row))
+      end do
+      call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%k%inverse, self%x)
+      do k = 1, rows%n_unknown
+         i = self%place(rows%unknown(k))
+         a(:, rows%unknown(k)) = a(:, rows%unknown(k)) + self%x(i + 1:i + 3)
+      end do
+   end subroutine change_accelerations
+
+end module augmented_lagrangian

@@ -1,0 +1,192 @@
+!> Augmented equations as one sparse matrix, by KLU: for large scenes with bodies that carry many joints.
+!>
+!> Scaled as the full matrix of `augmented_dense`. The structure is analysed once; each evaluation refactorises with the
+!> pivots of before, and chooses new ones where these have become bad.
+!> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
+module augmented_sparse
+   use augmented, only: direct_t
+   use joint_set, only: rows_t
+   use kinds, only: wp
+   use klu, only: sparse_lu_t
+   implicit none (type, external)
+   private
+   public :: augmented_sparse_t
+
+   !> Sparse matrix with its structure.
+   type, extends(direct_t) :: augmented_sparse_t
+      integer :: n_coordinate = 0               !! coordinates of unknown bodies, the first rows of the matrix
+      type(sparse_lu_t) :: matrix               !! scaled augmented matrix and its factors
+      integer, allocatable :: upper(:)          !! (sides) place of a side's first entry in the rows' columns; two more follow
+      integer, allocatable :: lower(:, :)       !! (3, sides) places of its entries in the coordinates' columns
+      integer, allocatable :: diagonal(:)       !! (solved rows) places of the diagonal entries of the rows
+      real(wp), allocatable :: x(:)             !! (n) right-hand side and solution [any]
+      real(wp), allocatable :: row_scale(:)     !! (solved rows) scales of the rows [any]
+      real(wp), allocatable :: root(:, :)       !! (3, 0:bodies) roots of the inverse masses [1/kg^0.5, 1/kg^0.5, 1/(kg^0.5.m)]
+   contains
+      procedure, nopass :: name => sparse_name
+      procedure :: prepare => sparse_prepare
+      procedure :: solve => sparse_solve
+      procedure :: factorise => sparse_factorise
+      procedure :: back_solve => sparse_back_solve
+   end type augmented_sparse_t
+
+contains
+
+   !> The word for it in a deck.
+   function sparse_name() result(name)
+      character(:), allocatable :: name  !! as in `solver = name`
+
+      name = "sparse"
+   end function sparse_name
+
+   !> Structure of the matrix: unit diagonal, the Jacobian's transpose above, the Jacobian below, the diagonal of the rows.
+   subroutine sparse_prepare(self, n_body, rows)
+      class(augmented_sparse_t), intent(inout) :: self  !! the solver
+      integer, intent(in) :: n_body                     !! number of bodies
+      type(rows_t), intent(in) :: rows                  !! rows, of which the bodies are read
+
+      integer :: body, c, column, coordinate(0:n_body), i, k, n, nq, place
+      integer, allocatable :: in_row(:), of_row(:, :)
+
+      nq = 3*rows%n_unknown
+      n = nq + rows%n_solve
+      self%n_coordinate = nq
+      coordinate = 0
+      coordinate(rows%unknown) = [(3*k - 3, k=1, rows%n_unknown)]
+      self%matrix%n = n
+      allocate (self%matrix%column(n + 1), self%matrix%row(nq + 6*rows%n_side + rows%n_solve))
+      allocate (self%upper(rows%n_side), self%lower(3, rows%n_side), self%diagonal(rows%n_solve))
+      place = 0
+      do i = 1, rows%n_unknown
+         body = rows%unknown(i)
+         do c = 1, 3
+            column = 3*i - 3 + c
+            self%matrix%column(column) = place
+            place = place + 1
+            self%matrix%row(place) = column - 1
+            do k = rows%last_side(body - 1) + 1, rows%last_side(body)
+               place = place + 1
+               self%matrix%row(place) = nq + rows%side(1, k) - 1
+               self%lower(c, k) = place
+            end do
+         end do
+      end do
+      ! the sides of each row, at most two
+      allocate (in_row(rows%n_solve), of_row(2, rows%n_solve), source=0)
+      do k = 1, rows%n_side
+         i = rows%side(1, k)
+         in_row(i) = in_row(i) + 1
+         of_row(in_row(i), i) = k
+      end do
+      do i = 1, rows%n_solve
+         self%matrix%column(nq + i) = place
+         do k = 1, in_row(i)
+            self%upper(of_row(k, i)) = place + 1
+            do c = 1, 3
+               place = place + 1
+               self%matrix%row(place) = coordinate(rows%side(3, of_row(k, i))) + c - 1
+            end do
+         end do
+         place = place + 1
+         self%matrix%row(place) = nq + i - 1
+         self%diagonal(i) = place
+      end do
+      self%matrix%column(n + 1) = place
+      allocate (self%matrix%a(place), source=0.0_wp)
+      self%matrix%a(self%matrix%column(:nq) + 1) = 1.0_wp
+      call self%matrix%analyse()
+      allocate (self%x(n), self%row_scale(rows%n_solve), self%residual(rows%n_solve), self%root(3, 0:n_body), source=0.0_wp)
+   end subroutine sparse_prepare
+
+   !> Accelerations and multipliers.
+   subroutine sparse_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
+      class(augmented_sparse_t), intent(inout) :: self         !! the solver
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
+      integer, intent(out) :: bad_row                          !! row that depends on others, 0: none
+
+      integer :: body, i, k
+
+      call sparse_factorise(self, inverse_mass, rows, 0.0_wp, bad_row)
+      if (bad_row > 0) return
+      do i = 1, rows%n_unknown
+         body = rows%unknown(i)
+         self%x(3*i - 2:3*i) = g(:, body)*self%root(:, body)
+      end do
+      do k = 1, rows%n_solve
+         self%x(self%n_coordinate + k) = b(k)*self%row_scale(k)
+      end do
+      call self%matrix%solve(self%x)
+      do i = 1, rows%n_unknown
+         body = rows%unknown(i)
+         a(:, body) = self%x(3*i - 2:3*i)*self%root(:, body)
+      end do
+      do k = 1, rows%n_solve
+         lambda(k) = self%x(self%n_coordinate + k)*self%row_scale(k)
+      end do
+   end subroutine sparse_solve
+
+   !> Factors of the damped matrix.
+   subroutine sparse_factorise(self, inverse_mass, rows, damping, bad_row)
+      class(augmented_sparse_t), intent(inout) :: self         !! the solver
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows
+      real(wp), intent(in) :: damping                          !! on the diagonal of the rows [1]
+      integer, intent(out) :: bad_row                          !! row at which there are no factors, 0: none
+
+      real(wp) :: entry(3)
+      integer :: bad, k, place, row
+
+      self%root = sqrt(inverse_mass)
+      self%row_scale = 0.0_wp
+      do k = 1, rows%n_side
+         row = rows%side(1, k)
+         place = rows%side(2, k) - 6*(row - 1)
+         entry = rows%jac(place + 1:place + 3, row)*self%root(:, rows%side(3, k))
+         self%matrix%a(self%upper(k):self%upper(k) + 2) = entry
+         self%row_scale(row) = self%row_scale(row) + sum(entry**2)
+      end do
+      do row = 1, rows%n_solve
+         self%matrix%a(self%diagonal(row)) = -damping
+         if (.not. self%row_scale(row) > 0.0_wp) then
+            self%row_scale(row) = 1.0_wp  ! a row between known bodies
+            self%matrix%a(self%diagonal(row)) = -1.0_wp
+         end if
+         self%row_scale(row) = 1.0_wp/sqrt(self%row_scale(row))
+      end do
+      do k = 1, rows%n_side
+         row = rows%side(1, k)
+         entry = self%matrix%a(self%upper(k):self%upper(k) + 2)*self%row_scale(row)
+         self%matrix%a(self%upper(k):self%upper(k) + 2) = entry
+         self%matrix%a(self%lower(1, k)) = entry(1)
+         self%matrix%a(self%lower(2, k)) = entry(2)
+         self%matrix%a(self%lower(3, k)) = entry(3)
+      end do
+      call self%matrix%factorise(bad)
+      self%n_factorisations = self%n_factorisations + 1
+      bad_row = 0
+      if (bad > 0) bad_row = max(1, bad - self%n_coordinate)
+   end subroutine sparse_factorise
+
+   !> Solution of (S + damping D) x = r.
+   subroutine sparse_back_solve(self, x)
+      class(augmented_sparse_t), intent(inout) :: self  !! the solver, factorised
+      real(wp), intent(inout), contiguous :: x(:)       !! (solved rows) r, then x [any]
+
+      integer :: k
+
+      self%x(:self%n_coordinate) = 0.0_wp
+      do k = 1, size(self%row_scale)
+         self%x(self%n_coordinate + k) = -x(k)*self%row_scale(k)
+      end do
+      call self%matrix%solve(self%x)
+      do k = 1, size(self%row_scale)
+         x(k) = self%x(self%n_coordinate + k)*self%row_scale(k)
+      end do
+   end subroutine sparse_back_solve
+
+end module augmented_sparse

@@ -1,0 +1,138 @@
+!> Which bodies of a scene move as known functions of time, and which rows of joints and drivers fix them.
+!>
+!> Starting from the ground: a revolute joint with a driver, or a rigid joint, makes the body on its other side known.
+!> Rows that tie known bodies to one another a second time stay in the equations, where they are redundant or contradict.
+module find_known
+   use item, only: item_t
+   use joint_registry, only: n_joint_kinds
+   use scene, only: scene_t
+   implicit none (type, external)
+   private
+   public :: find_known_bodies, joint_points, link_t
+
+   !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
+   type :: link_t
+      integer :: body = 0      !! the known body
+      integer :: kind = 0      !! kind of the joint
+      integer :: item = 0      !! its row in the table of the kind
+      integer :: driver = 0    !! kind of the driver, 0: rigid
+      integer :: driving = 0   !! its row in the table of the kind
+   end type link_t
+
+contains
+
+   !> The links of all known bodies, each after the link of the body that it is tied to.
+   subroutine find_known_bodies(scene, links)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(link_t), allocatable, intent(out) :: links(:)    !! (known bodies) how they are fixed
+
+      logical :: is_known(0:scene%bodies%n)
+      integer :: n
+
+      is_known = .false.
+      is_known(0) = .true.
+      allocate (links(0))
+      do
+         n = size(links)
+         call look_at_drivers(scene, is_known, links)
+         call look_at_rigid_joints(scene, is_known, links)
+         if (size(links) == n) exit
+      end do
+   end subroutine find_known_bodies
+
+   !> Driven revolute joints between a known and an unknown body.
+   subroutine look_at_drivers(scene, is_known, links)
+      type(scene_t), intent(in) :: scene                       !! the scene
+      logical, intent(inout) :: is_known(0:)                   !! (0:bodies) which bodies are known
+      type(link_t), allocatable, intent(inout) :: links(:)     !! links, grown
+
+      integer :: i, k, revolute
+
+      revolute = kind_number(scene, "joint.revolute")
+      do k = 1, n_joint_kinds
+         if (scene%joints(k)%info%columns(1)%refers_to /= "joint.revolute") cycle
+         do i = 1, size(scene%joints(k)%items)
+            if (.not. has_smooth_cells(scene%joints(k)%items(i))) cycle
+            call add_if_new(scene, link_t(kind=revolute, item=scene%joints(k)%items(i)%values(1)%index, driver=k, driving=i), &
+                            is_known, links)
+         end do
+      end do
+   end subroutine look_at_drivers
+
+   !> Whether all functions of time in a row are smooth. A body cannot jump; where its driver does, it stays unknown, and the
+   !> stabilisation brings it back.
+   pure logical function has_smooth_cells(item) result(is_smooth)
+      type(item_t), intent(in) :: item  !! the row
+
+      integer :: k
+
+      is_smooth = .true.
+      do k = 1, size(item%values)
+         if (allocated(item%values(k)%expression)) is_smooth = is_smooth .and. item%values(k)%expression%is_smooth()
+      end do
+   end function has_smooth_cells
+
+   !> Rigid joints between a known and an unknown body.
+   subroutine look_at_rigid_joints(scene, is_known, links)
+      type(scene_t), intent(in) :: scene                       !! the scene
+      logical, intent(inout) :: is_known(0:)                   !! (0:bodies) which bodies are known
+      type(link_t), allocatable, intent(inout) :: links(:)     !! links, grown
+
+      integer :: i, rigid
+
+      rigid = kind_number(scene, "joint.rigid")
+      do i = 1, size(scene%joints(rigid)%items)
+         call add_if_new(scene, link_t(kind=rigid, item=i), is_known, links)
+      end do
+   end subroutine look_at_rigid_joints
+
+   !> Append a link if it makes a body known.
+   subroutine add_if_new(scene, link, is_known, links)
+      type(scene_t), intent(in) :: scene                       !! the scene
+      type(link_t), intent(in) :: link                         !! the link, without its body
+      logical, intent(inout) :: is_known(0:)                   !! (0:bodies) which bodies are known
+      type(link_t), allocatable, intent(inout) :: links(:)     !! links, grown
+
+      integer :: body(2), point(2)
+
+      call joint_points(scene, link%kind, link%item, point(1), point(2))
+      body = scene%points%body(point)
+      if (is_known(body(1)) .eqv. is_known(body(2))) return
+      links = [links, link]
+      links(size(links))%body = merge(body(2), body(1), is_known(body(1)))
+      is_known(body) = .true.
+   end subroutine add_if_new
+
+   !> Points i and j of a row of a joint table; a driver's are those of its joint.
+   subroutine joint_points(scene, kind, row, i, j)
+      type(scene_t), intent(in) :: scene   !! the scene
+      integer, intent(in) :: kind          !! number of the kind
+      integer, intent(in) :: row           !! row of its table
+      integer, intent(out) :: i            !! point of body i
+      integer, intent(out) :: j            !! point of body j
+
+      associate (table => scene%joints(kind))
+         if (table%info%columns(1)%name == "joint") then
+            associate (driven => scene%joints(kind_number(scene, table%info%columns(1)%refers_to))% &
+                       items(table%items(row)%values(1)%index))
+               i = driven%values(1)%index
+               j = driven%values(2)%index
+            end associate
+         else
+            i = table%items(row)%values(1)%index
+            j = table%items(row)%values(2)%index
+         end if
+      end associate
+   end subroutine joint_points
+
+   !> Number of a kind of joint in the registry, by its name.
+   pure integer function kind_number(scene, name) result(k)
+      type(scene_t), intent(in) :: scene   !! the scene, whose tables know their kinds
+      character(*), intent(in) :: name     !! as in a deck
+
+      do k = 1, n_joint_kinds
+         if (scene%joints(k)%info%name == name) return
+      end do
+   end function kind_number
+
+end module find_known

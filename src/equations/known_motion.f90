@@ -1,0 +1,131 @@
+!> Bodies whose motion is a known function of time: driven against the ground, or against one another, without freedom.
+!>
+!> A body is known when a driven revolute joint, or a rigid one, ties it to the ground or to a known body:
+!>
+!> angle_b = angle_a + offset + sign f(t),   r_b = r_a + s_a - s_b,   and the time derivatives of both.
+!>
+!> Its coordinates leave the unknowns, and the three rows that fix it leave the equations. The multipliers of these rows
+!> come back by inverse dynamics, body by body from the last to the first:
+!>
+!> Phi_b^T lambda = g_b - M_b a_b - ( Phi^T lambda of all other rows )_b.
+!>
+!> Signs: as the rows of the joints; the reaction on a body is -Phi_q^T lambda.
+!> Source: Flores et al. (2008), eqs. (2.1), (2.14). Limits: drivers of angles.
+module known_motion
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use joint_set, only: joint_slot_t, rows_t
+   use kinds, only: wp
+   use motion, only: cross, motion_t
+   implicit none (type, external)
+   private
+   public :: find_multipliers, known_t, move_known
+
+   !> The known bodies, each after the body that it is tied to.
+   type :: known_t
+      integer :: n = 0                        !! number of known bodies
+      integer, allocatable :: body(:)         !! (n) the bodies
+      integer, allocatable :: base(:)         !! (n) what each is tied to, 0: the ground
+      real(wp), allocatable :: s_body(:, :)   !! (3, n) common point in the frame of the body [m]
+      real(wp), allocatable :: s_base(:, :)   !! (3, n) the same in the frame of its base [m]
+      real(wp), allocatable :: sign(:)        !! (n) of the driver's angle in that of the body; 0: rigid [1]
+      real(wp), allocatable :: offset(:)      !! (n) angle of the body less that of its base, less sign times f [rad]
+      integer, allocatable :: slot(:)         !! (n) set of the driver
+      integer, allocatable :: item(:)         !! (n) its item
+      integer, allocatable :: row(:, :)       !! (3, n) rows that fix the body
+      integer, allocatable :: side(:, :)      !! (3, n) side of the body in each of them, 1: i, 2: j
+      real(wp) :: t = -huge(1.0_wp)           !! time of the motion that is set [s]
+      logical :: is_finite = .true.           !! whether that motion is finite numbers
+   end type known_t
+
+contains
+
+   !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
+   subroutine move_known(known, joints, t, motion)
+      type(known_t), intent(inout) :: known       !! the bodies
+      type(joint_slot_t), intent(in) :: joints(:) !! (sets) joints and drivers
+      real(wp), intent(in) :: t                   !! time [s]
+      type(motion_t), intent(inout) :: motion     !! the motion of the known bodies is set, accelerations too
+
+      real(wp) :: f, f_dot, f_dot_dot, s_a(2), s_b(2)
+      integer :: a, b, k
+
+      if (.not. abs(t - known%t) > 0.0_wp) return
+      known%t = t
+      known%is_finite = .true.
+      do k = 1, known%n
+         a = known%base(k)
+         b = known%body(k)
+         f = 0.0_wp
+         f_dot = 0.0_wp
+         f_dot_dot = 0.0_wp
+         if (known%slot(k) > 0) call joints(known%slot(k))%set%prescription(known%item(k), t, f, f_dot, f_dot_dot)
+         known%is_finite = known%is_finite .and. ieee_is_finite(f) .and. ieee_is_finite(f_dot) .and. ieee_is_finite(f_dot_dot)
+         motion%angle(b) = motion%angle(a) + known%offset(k) + known%sign(k)*f
+         motion%omega(3, b) = motion%omega(3, a) + known%sign(k)*f_dot
+         motion%alpha(3, b) = motion%alpha(3, a) + known%sign(k)*f_dot_dot
+         motion%rot(1:2, 1, b) = [cos(motion%angle(b)), sin(motion%angle(b))]
+         motion%rot(1:2, 2, b) = [-motion%rot(2, 1, b), motion%rot(1, 1, b)]
+         s_a = motion%rot(1:2, 1, a)*known%s_base(1, k) + motion%rot(1:2, 2, a)*known%s_base(2, k)
+         s_b = motion%rot(1:2, 1, b)*known%s_body(1, k) + motion%rot(1:2, 2, b)*known%s_body(2, k)
+         motion%r(1:2, b) = motion%r(1:2, a) + s_a - s_b
+         motion%v(1:2, b) = motion%v(1:2, a) + motion%omega(3, a)*[-s_a(2), s_a(1)] - motion%omega(3, b)*[-s_b(2), s_b(1)]
+         motion%a(1:2, b) = motion%a(1:2, a) + motion%alpha(3, a)*[-s_a(2), s_a(1)] - motion%omega(3, a)**2*s_a &
+                            - motion%alpha(3, b)*[-s_b(2), s_b(1)] + motion%omega(3, b)**2*s_b
+      end do
+   end subroutine move_known
+
+   !> Multipliers of the rows that fix the known bodies. Those of the solved rows are there; all rows are evaluated.
+   pure subroutine find_multipliers(known, rows, mass, g, a, rest, lambda)
+      type(known_t), intent(in) :: known          !! the bodies
+      type(rows_t), intent(in) :: rows            !! all rows
+      real(wp), intent(in) :: mass(3, *)          !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: g(:, 0:)            !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: a(:, 0:)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout) :: rest(:, 0:)      !! (3, 0:bodies) scratch: what the rows of a body have to carry [N, N, N.m]
+      real(wp), intent(inout) :: lambda(:)        !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+
+      real(wp) :: matrix(3, 3), x(3)
+      integer :: b, i, k, place, row
+
+      do k = 1, known%n
+         b = known%body(k)
+         rest(:, b) = g(:, b) - mass(:, b)*a(:, b)
+      end do
+      do k = 1, rows%n_known
+         row = rows%known(1, k)
+         place = rows%known(2, k) - 6*(row - 1)
+         b = rows%known(3, k)
+         rest(:, b) = rest(:, b) - rows%jac(place + 1:place + 3, row)*lambda(row)
+      end do
+      do k = known%n, 1, -1
+         b = known%body(k)
+         do i = 1, 3
+            place = 3*(known%side(i, k) - 1)
+            matrix(:, i) = rows%jac(place + 1:place + 3, known%row(i, k))
+         end do
+         x = solve_three(matrix, rest(:, b))
+         do i = 1, 3
+            row = known%row(i, k)
+            lambda(row) = x(i)
+            place = 3*(2 - known%side(i, k))
+            rest(:, known%base(k)) = rest(:, known%base(k)) - rows%jac(place + 1:place + 3, row)*x(i)
+         end do
+      end do
+   end subroutine find_multipliers
+
+   !> Solution of three equations by Cramer's rule: columns are two unit forces with their moments and a unit moment,
+   !> so that the determinant is one or minus one.
+   pure function solve_three(matrix, right) result(x)
+      real(wp), intent(in) :: matrix(3, 3)  !! (3, 3) matrix [1 or m]
+      real(wp), intent(in) :: right(3)      !! (3) right-hand side [N, N, N.m]
+      real(wp) :: x(3)                      !! (3) solution [N, N, N.m]
+
+      real(wp) :: c23(3), c31(3), c12(3)
+
+      c23 = cross(matrix(:, 2), matrix(:, 3))
+      c31 = cross(matrix(:, 3), matrix(:, 1))
+      c12 = cross(matrix(:, 1), matrix(:, 2))
+      x = [dot_product(c23, right), dot_product(c31, right), dot_product(c12, right)]/dot_product(c23, matrix(:, 1))
+   end function solve_three
+
+end module known_motion

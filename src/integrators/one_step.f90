@@ -1,0 +1,436 @@
+!> One-step methods: step control, events by re-stepping, checkpoints. A method adds its stages.
+!>
+!> A step is accepted if the norm of the error estimate is at most TOL. The next step is
+!> 0.9 (TOL / estimate)^(1/p) times the present one, p the order of the method, not more than 4
+!> times, not less than a tenth, and does not grow right after a rejection. Fixed steps have no
+!> estimate; only the last one before a stop or an event is shorter.
+!>
+!> Events: the bracket from the interpolant is closed in on by Newton's iteration on the length of
+!> the step, each time by the method itself, so that the event function is zero to round-off and the
+!> time of the event is as accurate as the step.
+module one_step
+   use event_location, only: find_first_event
+   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
+      advance_too_many_steps, advance_too_small, integrator_t
+   use kinds, only: eps, wp
+   use memory, only: get, put
+   use ode_system, only: ode_system_t
+   implicit none (type, external)
+   private
+   public :: one_step_t
+
+   real(wp), parameter :: safety = 0.9_wp         !! of the step that the estimate would allow [1]
+   real(wp), parameter :: growth = 4.0_wp         !! greatest ratio of successive steps [1]
+   real(wp), parameter :: shrinkage = 0.1_wp      !! least ratio of successive steps [1]
+   real(wp), parameter :: near = 1.0e-9_wp        !! of a step: events closer than this count as one [1]
+   integer, parameter :: n_newton = 12            !! re-steps towards an event
+   integer, parameter :: n_halving = 60           !! halvings if these do not converge
+
+   !> A one-step method.
+   type, abstract, extends(integrator_t) :: one_step_t
+      real(wp) :: h_next = 0.0_wp      !! step to try next [s]
+      real(wp) :: h_before = 0.0_wp    !! step before a disturbance began, 0: none [s]
+      integer :: order = 1             !! order of the method; the estimate falls as the step to this power
+      integer :: n_new_stage = 0       !! evaluations of `make_stages`
+   contains
+      procedure(prepare_interface), deferred :: prepare
+      procedure(stages_interface), deferred :: make_stages
+      procedure(norm_interface), deferred :: error_norm
+      procedure :: start => one_step_start
+      procedure :: advance => one_step_advance
+      procedure :: restart => one_step_restart
+      procedure :: refine => one_step_refine
+      procedure :: memory_size => one_step_memory_size
+      procedure :: save => one_step_save
+      procedure :: load => one_step_load
+   end type one_step_t
+
+   abstract interface
+      !> Room for the stages; sets `order` and `n_new_stage`.
+      subroutine prepare_interface(self, n)
+         import :: one_step_t
+         implicit none (type, external)
+         class(one_step_t), intent(inout) :: self  !! the integrator
+         integer, intent(in) :: n                  !! entries of the state
+      end subroutine prepare_interface
+
+      !> Stages of a step of length h from step%t0, step%y0, step%f0; the end state into `trial`.
+      subroutine stages_interface(self, system, h, status)
+         import :: one_step_t, ode_system_t, wp
+         implicit none (type, external)
+         class(one_step_t), intent(inout) :: self      !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(in) :: h                     !! length of the step [s]
+         integer, intent(out) :: status                !! of the evaluations
+      end subroutine stages_interface
+
+      !> Norm of the error estimate of the trial step, over the tolerance. Not called for fixed steps.
+      function norm_interface(self, system, h) result(norm)
+         import :: one_step_t, ode_system_t, wp
+         implicit none (type, external)
+         class(one_step_t), intent(inout) :: self   !! the integrator
+         class(ode_system_t), intent(in) :: system  !! the system
+         real(wp), intent(in) :: h                  !! length of the step [s]
+         real(wp) :: norm                           !! at most 1: accept [1]
+      end function norm_interface
+   end interface
+
+contains
+
+   !> Begin at a state: workspace, first derivative, first step.
+   subroutine one_step_start(self, system, t, y, t_end, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in) :: y(:)                  !! (n) state [any]
+      real(wp), intent(in) :: t_end                 !! end of the integration [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      call self%make_room(system)
+      call self%prepare(system%n)
+      self%t = t
+      self%step%t0 = t
+      self%step%h = 0.0_wp
+      self%step%y1 = y
+      self%h_next = 0.0_wp
+      self%h_before = 0.0_wp
+      call self%restart(system, 0.0_wp, status)
+      if (status /= advance_step) return
+      self%h_next = self%controls%initial_step
+      if (self%controls%fixed_step > 0.0_wp) self%h_next = self%controls%fixed_step
+      if (self%h_next <= 0.0_wp) call choose_first_step(self, system, t_end)
+   end subroutine one_step_start
+
+   !> First step: where a first-order change would reach a hundredth of the scales, reduced for the tolerance.
+   subroutine choose_first_step(self, system, t_end)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_end                 !! end of the integration [s]
+
+      real(wp) :: rate
+      integer :: n
+
+      n = system%n - system%n_quadrature
+      call system%weights(self%step%y1, self%scale)
+      rate = maxval(abs(self%step%f1(1:n))/self%scale(1:n))
+      self%h_next = 0.1_wp*(t_end - self%t)
+      if (rate > 0.0_wp) self%h_next = min(self%h_next, self%controls%tolerance**(1.0_wp/real(self%order, wp))/rate)
+   end subroutine choose_first_step
+
+   !> Evaluate anew at the present state.
+   subroutine one_step_restart(self, system, step_hint, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      call system%evaluate(self%t, self%step%y1, self%step%f1, status)
+      self%n_evaluations = self%n_evaluations + 1
+      if (status /= 0) then
+         status = advance_failed_evaluation
+         return
+      end if
+      status = advance_step
+      if (system%n_event > 0) call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      if (step_hint > 0.0_wp) then
+         self%h_before = max(self%h_before, self%h_next)
+         self%h_next = min(self%h_next, step_hint)
+      else
+         self%h_next = max(self%h_before, self%h_next)
+         self%h_before = 0.0_wp
+      end if
+   end subroutine one_step_restart
+
+   !> One accepted step, to an event if there is one on the way.
+   subroutine one_step_advance(self, system, t_stop, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      real(wp) :: h, least, norm
+      logical :: is_fixed, is_last, was_rejected
+
+      call self%begin_step()
+      is_fixed = self%controls%fixed_step > 0.0_wp
+      was_rejected = .false.
+      least = max(self%controls%minimum_step, 4.0_wp*eps*abs(self%step%t0), eps*eps*abs(t_stop))
+      do
+         call check_limits(self, status)
+         if (status /= advance_step) return
+         h = max(self%h_next, least)
+         if (is_fixed) h = self%controls%fixed_step
+         if (self%controls%maximum_step > 0.0_wp) h = min(h, self%controls%maximum_step)
+         is_last = self%step%t0 + h*(1.0_wp + 1.0e-10_wp) >= t_stop
+         if (is_last) h = t_stop - self%step%t0
+         if (.not. is_last .and. merge(t_stop, self%step%t0, is_fixed) + h <= merge(t_stop, self%step%t0, is_fixed)) then
+            status = advance_too_small
+            return
+         end if
+         call try_step(self, system, h, merge(t_stop, self%step%t0 + h, is_last), norm, status)
+         if (status == 0) exit
+         if (status < 0 .or. is_fixed) then
+            status = advance_failed_evaluation
+            return
+         end if
+         self%n_rejected = self%n_rejected + 1
+         was_rejected = .true.
+         if (h <= least) then
+            status = advance_too_small
+            return
+         end if
+         self%h_next = h*max(shrinkage, safety*norm**(-1.0_wp/real(self%order, wp)))
+      end do
+      if (.not. is_fixed) call choose_next_step(self, h, norm, was_rejected, is_last)
+      self%step%h = h
+      self%t = merge(t_stop, self%step%t0 + h, is_last)
+      self%step%y1 = self%trial
+      call finish_step(self, system, status)
+   end subroutine one_step_advance
+
+   !> Whether another step is allowed.
+   pure subroutine check_limits(self, status)
+      class(one_step_t), intent(in) :: self   !! the integrator
+      integer, intent(out) :: status          !! advance_step, or what is used up
+
+      status = advance_step
+      associate (controls => self%controls)
+         if (controls%maximum_steps > 0 .and. self%n_steps >= controls%maximum_steps) then
+            status = advance_too_many_steps
+         else if (controls%maximum_evaluations > 0 &
+                  .and. self%n_evaluations + self%n_new_stage + 1 > controls%maximum_evaluations) then
+            status = advance_too_many_evaluations
+         end if
+      end associate
+   end subroutine check_limits
+
+   !> A trial step: stages, error test, the state held, its derivative. What fails after the test
+   !> belongs to the step too: it is tried again, smaller.
+   subroutine try_step(self, system, h, t_new, norm, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the step [s]
+      real(wp), intent(in) :: t_new                 !! time at its end [s]
+      real(wp), intent(out) :: norm                 !! of the error over the tolerance; huge: not known [1]
+      integer, intent(out) :: status                !! 0: accepted; > 0: smaller; < 0: give up
+
+      call system%set_step(h)
+      call self%make_stages(system, h, status)
+      norm = 0.0_wp
+      if (status == 0 .and. self%controls%fixed_step <= 0.0_wp) norm = self%error_norm(system, h)
+      if (status == 0 .and. .not. norm <= 1.0_wp) then
+         status = 1
+         if (.not. norm < huge(1.0_wp)) norm = huge(1.0_wp)  ! a NaN
+         return
+      end if
+      if (status == 0 .and. system%holds) call system%hold(t_new, self%trial, status)
+      if (status == 0) then
+         call system%evaluate(t_new, self%trial, self%step%f1, status)
+         self%n_evaluations = self%n_evaluations + 1
+      end if
+      if (status /= 0) norm = huge(1.0_wp)
+   end subroutine try_step
+
+   !> Length of the next step. A step cut short by the end of a stretch says little about it.
+   pure subroutine choose_next_step(self, h, norm, was_rejected, is_last)
+      class(one_step_t), intent(inout) :: self  !! the integrator
+      real(wp), intent(in) :: h                 !! length of the accepted step [s]
+      real(wp), intent(in) :: norm              !! norm of its error estimate over the tolerance [1]
+      logical, intent(in) :: was_rejected       !! after a rejection
+      logical, intent(in) :: is_last            !! cut short
+
+      real(wp) :: wanted
+
+      wanted = h*min(merge(1.0_wp, growth, was_rejected), safety*max(norm, tiny(1.0_wp))**(-1.0_wp/real(self%order, wp)))
+      if (is_last) then
+         self%h_next = max(self%h_next, wanted)
+      else
+         self%h_next = wanted
+      end if
+   end subroutine choose_next_step
+
+   !> Events within the step.
+   subroutine finish_step(self, system, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      real(wp) :: h, high, low
+      integer :: event
+      logical :: is_found
+
+      self%n_steps = self%n_steps + 1
+      status = advance_step
+      if (system%n_event == 0) return
+      call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      call find_first_event(system, self, event, low, high)
+      if (event == 0) return
+      call close_in(self, system, event, low, high, h, is_found, status)
+      if (.not. is_found) then
+         call halve(self, system, high, h, event, status)
+         if (event == 0) then
+            ! the interpolant's maximum was not there: the whole step stands
+            call system%evaluate(self%t, self%step%y1, self%step%f1, status)
+            self%n_evaluations = self%n_evaluations + 1
+            status = merge(advance_step, advance_failed_evaluation, status == 0)
+            return
+         end if
+      end if
+      if (status == 0) then
+         self%step%h = h
+         self%t = self%step%t0 + h
+         self%step%y1 = self%trial
+         self%n_happened = 1
+         self%happened(1) = event
+         call system%evaluate(self%t, self%step%y1, self%step%f1, status)
+         self%n_evaluations = self%n_evaluations + 1
+      end if
+      status = merge(advance_event, advance_failed_evaluation, status == 0)
+   end subroutine finish_step
+
+   !> The state after a part of the step, held, by the method itself.
+   subroutine make_part(self, system, h, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the part [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      call system%set_step(h)
+      call self%make_stages(system, h, status)
+      if (status == 0 .and. system%holds) call system%hold(self%step%t0 + h, self%trial, status)
+   end subroutine make_part
+
+   !> The same with the event functions there, into `g` and `rate`.
+   subroutine step_by(self, system, h, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the part [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      call make_part(self, system, h, status)
+      if (status == 0) call system%events(self%step%t0 + h, self%trial, self%g, self%rate)
+   end subroutine step_by
+
+   !> Newton's iteration on the length of the step towards an event.
+   subroutine close_in(self, system, event, low, high, h, is_found, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(in) :: event                  !! the event function, by the interpolant
+      real(wp), intent(in) :: low                   !! place before it, by the interpolant [1]
+      real(wp), intent(in) :: high                  !! place after it [1]
+      real(wp), intent(out) :: h                    !! length of the step to the event [s]
+      logical, intent(out) :: is_found              !! whether it was found, and no other one comes clearly earlier
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: before, full, h_before, h_new
+      integer :: i
+
+      full = self%step%h
+      h = 0.5_wp*(low + high)*full
+      before = huge(1.0_wp)
+      h_before = h
+      is_found = .false.
+      do i = 1, n_newton
+         call step_by(self, system, h, status)
+         if (status /= 0) exit
+         if (self%rate(event) <= 0.0_wp) exit
+         h_new = h - self%g(event)/self%rate(event)
+         ! at round-off the function no longer falls
+         is_found = abs(h_new - h) <= near*full .and. abs(self%g(event)) >= 0.25_wp*before
+         is_found = is_found .or. abs(h_new - h) <= eps*h
+         if (is_found .or. h_new <= 0.0_wp .or. h_new > 1.5_wp*full) exit
+         before = abs(self%g(event))
+         h_before = h
+         h = h_new
+      end do
+      if (is_found .and. abs(self%g(event)) > before) then
+         h = h_before  ! the last correction was noise
+         call step_by(self, system, h, status)
+         is_found = status == 0
+      end if
+      ! another function that became positive clearly earlier?
+      if (is_found) is_found = .not. any(self%g > near*full*abs(self%rate) .and. [(i /= event, i=1, size(self%g))])
+   end subroutine close_in
+
+   !> A grazing contact, or another function comes first: halve between "none positive" and "one positive".
+   subroutine halve(self, system, high, h, event, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: high                  !! place after the event, by the interpolant [1]
+      real(wp), intent(out) :: h                    !! length of the step to the event [s]
+      integer, intent(out) :: event                 !! the first event function, 0: none after all
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: h_high, h_low
+      integer :: i
+
+      event = 0
+      h_low = 0.0_wp
+      h_high = high*self%step%h
+      call step_by(self, system, h_high, status)
+      if (status == 0 .and. all(self%g <= 0.0_wp)) then
+         h_high = self%step%h
+         if (all(self%g1 <= 0.0_wp)) return
+      end if
+      do i = 1, n_halving
+         h = 0.5_wp*(h_low + h_high)
+         if (h_high - h_low <= eps*abs(self%step%t0 + h)) exit
+         call step_by(self, system, h, status)
+         if (status /= 0) exit
+         if (any(self%g > 0.0_wp)) then
+            h_high = h
+         else
+            h_low = h
+         end if
+      end do
+      h = h_high
+      if (status == 0) call step_by(self, system, h, status)
+      event = maxloc(self%g, dim=1)
+   end subroutine halve
+
+   !> State within the last step by a shorter step of the method.
+   subroutine one_step_refine(self, system, s, y, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: s                     !! place in the step, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)                 !! (n) state [any]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      call make_part(self, system, s*self%step%h, status)
+      if (status /= 0) then
+         status = advance_failed_evaluation
+         return
+      end if
+      status = advance_step
+      y = self%trial
+   end subroutine one_step_refine
+
+   !> Numbers that a checkpoint needs.
+   integer function one_step_memory_size(self) result(n)
+      class(one_step_t), intent(in) :: self  !! the integrator
+
+      n = self%base_memory_size() + 2
+   end function one_step_memory_size
+
+   !> Write what the integrator remembers.
+   subroutine one_step_save(self, row, place)
+      class(one_step_t), intent(in) :: self   !! the integrator
+      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
+      integer, intent(inout) :: place         !! last place used
+
+      call self%save_base(row, place)
+      call put(row, place, [self%h_next, self%h_before])
+   end subroutine one_step_save
+
+   !> Read what the integrator remembers.
+   subroutine one_step_load(self, row, place)
+      class(one_step_t), intent(inout) :: self  !! the integrator
+      real(wp), intent(in) :: row(:)            !! (any) checkpoint [any]
+      integer, intent(inout) :: place           !! last place used
+
+      call self%load_base(row, place)
+      call get(row, place, self%h_next)
+      call get(row, place, self%h_before)
+   end subroutine one_step_load
+
+end module one_step

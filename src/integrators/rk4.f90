@@ -1,0 +1,104 @@
+!> The classical Runge-Kutta method of order 4 with fixed steps, as programs of old use it.
+!>
+!> $$ y_1 = y_0 + h (k_1 + 2 k_2 + 2 k_3 + k_4)/6 $$
+!> $$ k_1 = f(t, y_0), k_2 = f(t + h/2, y_0 + h k_1/2), k_3 = f(t + h/2, y_0 + h k_2/2), k_4 = f(t + h, y_0 + h k_3) $$
+!>
+!> It has no error estimate: the deck must give `step`. Events and stops are met by a shorter step
+!> of the same method, so that they are of order 4 too; the grid goes on from there.
+!>
+!> Source: W. Kutta, Beitrag zur naeherungsweisen Integration totaler Differentialgleichungen,
+!> Z. Math. Phys. 46 (1901) 435-453. Limits: not for stiff equations; no control of the error.
+module rk4
+   use integrator, only: steps_fixed
+   use kind_info, only: kind_info_t
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   use one_step, only: one_step_t
+   implicit none (type, external)
+   private
+   public :: rk4_t
+
+   !> The method with its workspace.
+   type, extends(one_step_t) :: rk4_t
+      real(wp), allocatable :: k(:, :)   !! (n, 2:4) derivatives of the stages; the first is step%f0 [any]
+      real(wp), allocatable :: y(:)      !! (n) state of a stage [any]
+   contains
+      procedure, nopass :: info => rk4_info
+      procedure, nopass :: steps => rk4_steps
+      procedure :: prepare => rk4_prepare
+      procedure :: make_stages => rk4_make_stages
+      procedure :: error_norm => rk4_error_norm
+   end type rk4_t
+
+contains
+
+   !> What the method says of itself.
+   function rk4_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "rk4"
+      info%help = "classical Runge-Kutta 4 with the fixed step of `step`, as legacy programs: no error control, " &
+                  //"events by re-stepping"
+      info%source = "Kutta (1901)"
+   end function rk4_info
+
+   !> Fixed steps only.
+   pure integer function rk4_steps() result(steps)
+      steps = steps_fixed
+   end function rk4_steps
+
+   !> Room for the stages.
+   subroutine rk4_prepare(self, n)
+      class(rk4_t), intent(inout) :: self  !! the integrator
+      integer, intent(in) :: n             !! entries of the state
+
+      self%order = 4
+      self%n_new_stage = 3
+      if (.not. allocated(self%k)) allocate (self%k(n, 2:4), self%y(n), source=0.0_wp)
+   end subroutine rk4_prepare
+
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`.
+   subroutine rk4_make_stages(self, system, h, status)
+      class(rk4_t), intent(inout) :: self           !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the step [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: t
+      integer :: i, n
+
+      n = size(self%y)
+      t = self%step%t0
+      associate (y0 => self%step%y0, k1 => self%step%f0, k => self%k, y => self%y)
+         self%n_evaluations = self%n_evaluations + 3
+         do concurrent(i=1:n)
+            y(i) = y0(i) + 0.5_wp*h*k1(i)
+         end do
+         call system%evaluate(t + 0.5_wp*h, y, k(:, 2), status)
+         if (status /= 0) return
+         do concurrent(i=1:n)
+            y(i) = y0(i) + 0.5_wp*h*k(i, 2)
+         end do
+         call system%evaluate(t + 0.5_wp*h, y, k(:, 3), status)
+         if (status /= 0) return
+         do concurrent(i=1:n)
+            y(i) = y0(i) + h*k(i, 3)
+         end do
+         call system%evaluate(t + h, y, k(:, 4), status)
+         if (status /= 0) return
+         do concurrent(i=1:n)
+            self%trial(i) = y0(i) + h/6.0_wp*(k1(i) + 2.0_wp*(k(i, 2) + k(i, 3)) + k(i, 4))
+         end do
+      end associate
+   end subroutine rk4_make_stages
+
+   !> There is no estimate: a step that is not fixed is refused.
+   real(wp) function rk4_error_norm(self, system, h) result(norm)
+      class(rk4_t), intent(inout) :: self        !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: h                  !! length of the step [s]
+
+      norm = huge(1.0_wp)
+   end function rk4_error_norm
+
+end module rk4

@@ -1,0 +1,35 @@
+!> Whether the method of a scene can make the steps that its deck asks for.
+module step_check
+   use diagnostics, only: diagnostics_t
+   use integrator, only: integrator_t, steps_fixed, steps_variable
+   use integrator_registry, only: find_integrator
+   use kinds, only: wp
+   use scene, only: scene_t
+   use section_info, only: column_of
+   implicit none (type, external)
+   private
+   public :: check_steps
+
+contains
+
+   !> A method with fixed steps needs their length; one that chooses its steps must not be given any.
+   subroutine check_steps(scene, diagnostics)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      class(integrator_t), allocatable :: method
+
+      associate (word => scene%dynamic%values(column_of(scene%dynamic_kind, "method")), &
+                 step => scene%dynamic%values(column_of(scene%dynamic_kind, "step")))
+         call find_integrator(word%text, method)
+         if (method%steps() == steps_fixed .and. step%number <= 0.0_wp) then
+            call diagnostics%add(word%location, "method '"//word%text//"' needs the length of its steps", &
+                                 "makes fixed steps only", "add 'step' to [analysis.dynamic], as in: step = 10 us")
+         else if (method%steps() == steps_variable .and. step%number > 0.0_wp) then
+            call diagnostics%add(step%location, "method '"//word%text//"' cannot make steps of one length", &
+                                 "it chooses its steps", "leave 'step' out; 'maximum_step' bounds the steps")
+         end if
+      end associate
+   end subroutine check_steps
+
+end module step_check
