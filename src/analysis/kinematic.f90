@@ -232,17 +232,17 @@ contains
       case (open_rows)
          message = new_line("a")//"  = '"//system%row_name(row)//"' would stay open by "// &
                    real_text(abs(system%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%rows%is_angle(row)))// &
-                   " at t = "//real_text(t, 9)//" s"
+                   " at t = "//real_text(t, 9)//" s: a dead point, or a jump of a driver"
       case (singular)
-         message = new_line("a")//"  = rows depend on each other there: branches of the motion meet"
+         message = new_line("a")//"  = rows depend on each other there: a dead point, or branches of the motion meet"
       case default
-         message = new_line("a")//"  = no velocities or accelerations fulfil all rows there"
+         message = new_line("a")//"  = no finite velocities and accelerations fulfil all rows there"
       end select
       call evaluate_rows(system, state%t, state%q, state%v)
       call find_mobility(system, mobility)
       driver = system%row_name(stiffest_driver(mobility))
       call set_error(error, exit_integration, "the mechanism cannot follow driver '"//driver//"' beyond t = "// &
-                     real_text(state%t, 9)//" s: a dead point, or a jump of a driver"//message//new_line("a")// &
+                     real_text(state%t, 9)//" s"//message//new_line("a")// &
                      "  = everything up to the last output instant was saved; end the motion before, let the driver turn back "// &
                      "earlier, drive another joint, or put the output instants beside the dead point")
    end subroutine describe_failure

@@ -177,17 +177,21 @@ contains
    end subroutine scaled_jacobian
 
    !> Least change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
-   subroutine least_correction(system, right, ease, x, rank)
+   subroutine least_correction(system, right, ease, x, rank, tolerance)
       class(planar_system_t), intent(in) :: system  !! the system, rows evaluated
       real(wp), intent(in) :: right(:)              !! (rows) what the rows should change by [m or rad, or rates]
       real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each of them changes [1]
       real(wp), intent(out) :: x(:)                 !! (3 bodies) change [m, m, rad, or rates]
       integer, intent(out) :: rank                  !! independent rows
+      real(wp), intent(in), optional :: tolerance   !! least ratio of singular values of theirs, if another than usual [1]
 
       real(wp), allocatable :: b(:, :), jac(:, :), s(:), work(:)
+      real(wp) :: least
       integer, allocatable :: iwork(:)
       integer :: info, k, length, m, n
 
+      least = rank_tolerance
+      if (present(tolerance)) least = tolerance
       m = system%rows%n
       n = size(x)
       call scaled_jacobian(system, jac)
@@ -197,11 +201,11 @@ contains
       allocate (b(max(m, n), 1), s(min(m, n)), work(1), source=0.0_wp)
       allocate (iwork(max(1, 40*min(m, n))), source=0)
       b(1:m, 1) = right*row_scale(system)
-      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, rank_tolerance, rank, work, -1, iwork, info)
+      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, -1, iwork, info)
       length = int(work(1))
       deallocate (work)
       allocate (work(length), source=0.0_wp)
-      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, rank_tolerance, rank, work, size(work), iwork, info)
+      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, size(work), iwork, info)
       x = b(1:n, 1)*ease
       x(1:n:3) = x(1:n:3)*system%length_scale
       x(2:n:3) = x(2:n:3)*system%length_scale

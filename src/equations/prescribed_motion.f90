@@ -2,7 +2,9 @@
 !>
 !> Positions by Newton's iteration, Phi_q dq = -Phi(q, t), until Phi is at round-off; velocities
 !> Phi_q v = -Phi_t and accelerations Phi_q a = gamma in one step each, with one refinement.
-!> Redundant rows do no harm as long as they agree (least squares by singular values).
+!> Redundant rows do no harm as long as they agree (least squares by singular values). Where branches of the
+!> motion meet the rows are closed to second order by any position nearby, so that positions are known only to the
+!> square root of round-off, and rates not at all: such an instant is called singular.
 !>
 !> Source: Flores et al. (2008), section 2.2, eqs. (2.9)-(2.11), figure 2.5. Limits: as many independent rows as
 !> coordinates; a position near the one given.
@@ -23,6 +25,8 @@ module prescribed_motion
    integer, parameter :: not_finite_rows = 4   !! outcome: a row is not a finite number
 
    real(wp), parameter :: round_off = 1.0e-15_wp     !! scaled violation at which Newton stops early [1]
+   real(wp), parameter :: near_singular = 1.0e-6_wp  !! ratio of singular values below which positions, known to round-off, do
+                                                     !! not tell rates any more, because they sit where the ratio is zero [1]
    real(wp), parameter :: contradiction = 1.0e-8_wp  !! scaled rate left, of the largest, that cannot be round-off [1]
 
    !> Controls and cost of Newton's iteration.
@@ -110,17 +114,17 @@ contains
       none = system%rows%phi_t
       do k = 1, 2
          call rates(system, x, left)
-         call least_correction(system, right - (left - none), ease, correction, rank)
+         call least_correction(system, right - (left - none), ease, correction, rank, near_singular)
          newton%n_solved = newton%n_solved + 1_i8
          x = x + correction
       end do
       call rates(system, x, left)
       left = right - (left - none)
       outcome = solved
-      if (rank < size(x)) outcome = singular
       if (maxval(abs(left)*row_scale(system)) > contradiction*(1.0_wp + maxval(abs(right)*row_scale(system)))) then
          outcome = contradictory
       end if
+      if (rank < size(x)) outcome = singular
    end subroutine refine
 
 end module prescribed_motion

@@ -11,11 +11,12 @@ module test_mobility
    private
    public :: run_test_mobility
 
+   !> A bar on the x axis with three points on the ground below, and a puck.
    character(*), parameter :: bar = "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"bar 1 0.1 0 0"//nl// &
       "puck 1 0.1 3 0"//nl//"[points]"//nl//"name body xi[m] eta[m]"//nl// &
       "g1 ground -0.4 0"//nl//"g2 ground 0.1 0"//nl//"g3 ground 0.5 0"//nl//"g4 ground 3 0"//nl// &
       "b1 bar -0.4 0"//nl//"b2 bar 0.1 0"//nl//"b3 bar 0.5 0"//nl//"p bar 0 0"//nl//"mid puck 0 0"//nl// &
-      "[analysis.dynamic]"//nl//"end = 1 s"//nl//"driven_bodies = unknown"//nl  !! a bar on the x axis with three points on the ground below, and a puck
+      "[analysis.dynamic]"//nl//"end = 1 s"//nl//"driven_bodies = unknown"//nl
 
 contains
 
