@@ -40,7 +40,6 @@ module dynamic
       real(wp) :: potential_0 = 0.0_wp           !! potential energy at the start [J]
       real(wp) :: residual = 0.0_wp              !! of the ledger at the last step [J]
       real(wp) :: aside = 0.0_wp                 !! CPU time spent on output [s]
-      real(wp), allocatable :: weight(:)         !! (rows) one over the size of the bodies, or one for angles [1/m or 1/rad]
       real(wp) :: worst = 0.0_wp                 !! greatest violation so far, over the size of the bodies or one radian [1]
       integer :: worst_row = 0                   !! the row it belongs to
       integer(i8) :: n_sample = 0                !! output instants done
@@ -70,11 +69,10 @@ contains
       call system_clock(clock_0, ticks)
       call build_catalogue(system, run%catalogue)
       call new_contact_watch(system, run%watch)
-      run%weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
       allocate (run%y(system%n), run%ydot(system%n), source=0.0_wp)
       run%summary%method = method_name(method)
       run%summary%solver = system%solver%name()
-      run%summary%stabilisation = stabilisation_text(system)
+      run%summary%stabilisation = system%way%words()
       run%summary%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
       run%summary%ledger = system%with_ledger
       run%n_last_sample = last_instant(plan)
@@ -172,7 +170,7 @@ contains
       integer :: k
 
       do k = 1, system%rows%n_solve
-         scaled = run%weight(k)*abs(system%rows%phi(k))
+         scaled = system%row_weight(k)*abs(system%rows%phi(k))
          if (scaled > run%worst) then
             run%worst = scaled
             run%worst_row = k
@@ -261,18 +259,6 @@ contains
       info = method%info()
       name = info%name
    end function method_name
-
-   !> How the constraints are held, in words.
-   function stabilisation_text(system) result(words)
-      type(planar_system_t), intent(in) :: system   !! the system
-      character(:), allocatable :: words            !! as in a deck
-
-      if (system%alpha > 0.0_wp .or. system%beta > 0.0_wp) then
-         words = "baumgarte alpha="//to_text(system%alpha)//"s^-1 beta="//to_text(system%beta)//"s^-1"
-      else
-         words = "none"
-      end if
-   end function stabilisation_text
 
    !> What a careful reader of the results should know.
    subroutine warn(system, run)

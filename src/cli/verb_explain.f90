@@ -348,7 +348,7 @@ contains
    subroutine explain_method(loaded)
       type(loaded_t), intent(in) :: loaded  !! the deck
 
-      character(:), allocatable :: fixed, solver
+      character(:), allocatable :: fixed, hold, solver
 
       call say("")
       call say("method")
@@ -365,7 +365,7 @@ contains
       end select
       associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
          solver = values(column_of(kind, "solver"))%text
-         if (solver == "auto") solver = loaded%system%solver%name()//" (auto: equal to pivoting to round-off, and faster)"
+         if (solver == "auto") solver = loaded%system%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
          fixed = "variable steps"
          if (values(column_of(kind, "step"))%number > 0.0_wp) then
             fixed = "fixed steps of "//to_text(values(column_of(kind, "step"))%number)//" s: the tolerance is not used"
@@ -374,8 +374,9 @@ contains
                   to_text(values(column_of(kind, "tolerance"))%number), 2)
          call say(fixed, 2)
          call say("solver "//solver, 2)
-         call say("stabilisation alpha = "//to_text(loaded%system%alpha)//" 1/s, beta = "// &
-                  to_text(loaded%system%beta)//" 1/s", 2)
+         hold = loaded%system%way%words()
+         if (values(column_of(kind, "stabilise"))%text == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
+         call say("stabilisation "//hold, 2)
       end associate
       call explain_times(loaded)
    end subroutine explain_method
@@ -388,5 +389,35 @@ contains
                " s every "//to_text(loaded%plan%every)//" s, "// &
                counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
    end subroutine explain_times
+
+   !> Why `auto` has chosen the solver.
+   function reason_of_solver(system) result(words)
+      type(planar_system_t), intent(in) :: system   !! the system
+      character(:), allocatable :: words            !! the reason
+
+      select case (system%solver%name())
+      case ("schur")
+         words = "equal to pivoting to round-off, and the fastest for these rows"
+      case ("sparse")
+         words = "bodies carry so many joints that the Schur complement fills up"
+      case default
+         words = "as the stabilisation"
+      end select
+   end function reason_of_solver
+
+   !> Why `auto` has chosen the stabilisation.
+   function reason_of_hold(system) result(words)
+      type(planar_system_t), intent(in) :: system   !! the system
+      character(:), allocatable :: words            !! the reason
+
+      select case (system%way%name())
+      case ("none")
+         words = "there is nothing to hold, or the integrator holds by itself"
+      case ("baumgarte")
+         words = "a driver jumps, and a jump cannot be projected"
+      case default
+         words = "no violation is left, and no gains disturb the motion"
+      end select
+   end function reason_of_hold
 
 end module verb_explain

@@ -60,18 +60,17 @@ module augmented
          type(rows_t), intent(in) :: rows           !! rows, of which the bodies are read
       end subroutine prepare_interface
 
-      !> Accelerations and multipliers. No allocation.
+      !> Accelerations of the unknown bodies and multipliers of the solved rows. The inverse masses of the ground and of
+      !> known bodies are zero. No allocation.
       subroutine solve_interface(self, inverse_mass, rows, g, b, a, lambda, bad_row)
          import :: augmented_t, rows_t, wp
          implicit none (type, external)
          class(augmented_t), intent(inout) :: self   !! the solver
-         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses, 0 of the ground and of known
-                                                                  !! bodies [1/kg, 1/kg, 1/(kg.m^2)]
+         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
          type(rows_t), intent(in) :: rows            !! rows, of which the Jacobian is read
          real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
          real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
-         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations, set of unknown bodies
-                                                                  !! [m/s^2, m/s^2, rad/s^2]
+         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
          real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
          integer, intent(out) :: bad_row             !! row that depends on others, or nearly so, 0: none
       end subroutine solve_interface
@@ -87,8 +86,7 @@ module augmented
          real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
          real(wp), intent(in) :: damping             !! of S, relative to its diagonal [1]
          integer, intent(in) :: n_refinement         !! refinements after the first solution, at most
-         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations, set of unknown bodies
-                                                                  !! [m/s^2, m/s^2, rad/s^2]
+         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
          real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
          integer, intent(out) :: bad_row             !! row at which there is no solution, 0: none
       end subroutine solve_damped_interface
@@ -124,8 +122,7 @@ contains
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
       real(wp), intent(in) :: damping             !! of S, relative to its diagonal [1]
       integer, intent(in) :: n_refinement         !! refinements after the first solution, at most
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations, set of unknown bodies
-                                                               !! [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
       integer, intent(out) :: bad_row             !! row at which there is no solution, 0: none
 

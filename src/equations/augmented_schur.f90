@@ -71,7 +71,7 @@ contains
       type(rows_t), intent(in) :: rows                  !! rows, declared
       integer, allocatable, intent(out) :: order(:)     !! (solved rows) rows in their order
       integer, allocatable, intent(out) :: first(:)     !! (solved rows) first column of each place
-      real, intent(out) :: cost                         !! operations of one factorisation, about
+      real, intent(out) :: cost                         !! operations of one factorisation, about [1]
 
       integer, allocatable :: neighbour(:), other(:), other_first(:), start(:)
       real :: other_cost

@@ -7,11 +7,12 @@ module build_system
    use augmented_schur, only: schur_is_cheap
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_slot_t
-   use find_known, only: find_known_bodies, joint_points, link_t
+   use find_known, only: find_known_bodies, has_smooth_cells, joint_points, link_t
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_slot_t
    use friction_law, only: friction_law_t
-   use item, only: item_t
+   use hold_registry, only: n_hold_kinds, new_hold
+   use item, only: item_t, option_t
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t, list_sides, new_rows
    use kinds, only: wp
@@ -54,7 +55,6 @@ contains
       system%with_ledger = scene%dynamic%values(column_of(scene%dynamic_kind, "ledger"))%flag &
                            .and. scene%analysis == analysis_dynamic
       system%with_energies = system%with_ledger .or. scene%analysis /= analysis_dynamic
-      call set_stabilisation(scene, system)
       allocate (system%mass(3, n), system%inverse_mass(3, 0:n), system%weight(3, 0:n), source=0.0_wp)
       do k = 1, n
          system%mass(:, k) = [scene%bodies%mass(k), scene%bodies%mass(k), scene%bodies%inertia(k)]
@@ -72,32 +72,16 @@ contains
       call set_known(scene, links, choices, system)
       call add_forces(scene, system)
       call declare_rows(system)
+      call choose_hold(scene, system)
       call choose_solver(scene, system)
       allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_loose), source=0.0_wp)
       system%n_position = 3*system%rows%n_unknown
       system%n_quadrature = merge(n_ledger + 2*system%n_loose, 0, system%with_ledger)
       system%n = 2*system%n_position + system%n_quadrature
       system%n_event = system%n_loose
+      allocate (system%held(2*system%n_position), source=0.0_wp)
+      system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
    end subroutine new_system
-
-   !> Baumgarte's gains.
-   subroutine set_stabilisation(scene, system)
-      type(scene_t), intent(in) :: scene              !! the scene
-      type(planar_system_t), intent(inout) :: system  !! gains are set
-
-      integer :: k
-
-      associate (value => scene%dynamic%values(column_of(scene%dynamic_kind, "stabilise")))
-         if (value%text /= "baumgarte") return
-         system%alpha = 5.0_wp
-         system%beta = 5.0_wp
-         if (.not. allocated(value%options)) return
-         do k = 1, size(value%options)
-            if (value%options(k)%name == "alpha") system%alpha = value%options(k)%number
-            if (value%options(k)%name == "beta") system%beta = value%options(k)%number
-         end do
-      end associate
-   end subroutine set_stabilisation
 
    !> Size of the bodies: the greatest distance of a point from its body's centre of mass, or radius of
    !> gyration. It does not depend on where the mechanism stands.
@@ -429,6 +413,53 @@ contains
       allocate (system%phi_dot(n), system%b(n), system%lambda(n), source=0.0_wp)
    end subroutine declare_rows
 
+   !> The way of holding the constraints that the deck asks for. `auto` is projection, which leaves neither violations nor the
+   !> traces of gains in the motion; nothing where there is nothing to hold or the integrator holds by itself; Baumgarte's
+   !> stabilisation where a driver jumps, because a jump cannot be projected.
+   subroutine choose_hold(scene, system)
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(planar_system_t), intent(inout) :: system  !! the way is set
+
+      character(:), allocatable :: word
+      integer :: k
+
+      associate (value => scene%dynamic%values(column_of(scene%dynamic_kind, "stabilise")))
+         word = value%text
+         if (word == "auto") then
+            word = "projection"
+            if (.not. all_smooth(scene)) word = "baumgarte"
+            if (system%rows%n_solve == 0 .or. scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text == "ida") then
+               word = "none"
+            end if
+         end if
+         do k = 1, n_hold_kinds
+            call new_hold(k, system%way)
+            if (system%way%name() == word) exit
+         end do
+         if (allocated(value%options)) then
+            call system%way%configure(value%options, scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number)
+         else
+            call system%way%configure([option_t ::], scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number)
+         end if
+      end associate
+      system%holds = system%way%at_steps
+      call system%set_step(huge(1.0_wp))  ! gains that do not wait for a step
+   end subroutine choose_hold
+
+   !> Whether no driver jumps.
+   pure logical function all_smooth(scene)
+      type(scene_t), intent(in) :: scene  !! the scene
+
+      integer :: i, k
+
+      all_smooth = .true.
+      do k = 1, n_joint_kinds
+         do i = 1, size(scene%joints(k)%items)
+            all_smooth = all_smooth .and. has_smooth_cells(scene%joints(k)%items(i))
+         end do
+      end do
+   end function all_smooth
+
    !> The solver the deck asks for; `auto` is the cheaper of the Schur complement and the sparse matrix.
    subroutine choose_solver(scene, system)
       type(scene_t), intent(in) :: scene              !! the scene
@@ -438,10 +469,14 @@ contains
       integer :: k
 
       word = scene%dynamic%values(column_of(scene%dynamic_kind, "solver"))%text
-      if (word == "auto") word = merge("schur ", "sparse", schur_is_cheap(system%rows))
+      if (word == "auto") then
+         word = "sparse"
+         if (schur_is_cheap(system%rows)) word = "schur"
+         if (system%way%name() == "augmented_lagrangian") word = system%way%name()
+      end if
       do k = 1, n_solver_kinds
          call new_solver(k, system%solver)
-         if (system%solver%name() == trim(word)) exit
+         if (system%solver%name() == word) exit
       end do
       call system%solver%prepare(system%n_body, system%rows)
    end subroutine choose_solver

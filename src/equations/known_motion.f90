@@ -78,7 +78,7 @@ contains
    pure subroutine find_multipliers(known, rows, mass, g, a, rest, lambda)
       type(known_t), intent(in) :: known          !! the bodies
       type(rows_t), intent(in) :: rows            !! all rows
-      real(wp), intent(in) :: mass(3, *)          !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: mass(:, :)          !! (3, bodies) masses [kg, kg, kg.m^2]
       real(wp), intent(in) :: g(:, 0:)            !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: a(:, 0:)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(inout) :: rest(:, 0:)      !! (3, 0:bodies) scratch: what the rows of a body have to carry [N, N, N.m]

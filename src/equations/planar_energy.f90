@@ -8,7 +8,7 @@ module planar_energy
    use planar_system, only: n_ledger, planar_system_t, work_drive, work_load, work_stabilisation
    implicit none (type, external)
    private
-   public :: energy_t, energy_of
+   public :: energy_t, energy_of, mechanical_energy
 
    !> Energies and work done since the start.
    type :: energy_t
@@ -42,14 +42,23 @@ contains
                 + self%dissipated_contact + self%dissipated_friction
    end function balance
 
-   !> Energies at a state. Works without a ledger too; then the work terms are zero.
-   function energy_of(system, y) result(energy)
-      class(planar_system_t), intent(in) :: system     !! the system; its motion must be that of the state
-      real(wp), intent(in) :: y(:)                     !! (n) state [any]
-      type(energy_t) :: energy                         !! energies
+   !> Mechanical energy of the present motion.
+   real(wp) function mechanical_energy(system) result(total)
+      class(planar_system_t), intent(in) :: system     !! the system, its motion set
+
+      type(energy_t) :: energy
+
+      call add_mechanical(system, energy)
+      total = energy%mechanical()
+   end function mechanical_energy
+
+   !> Kinetic, potential and elastic energy of the present motion.
+   subroutine add_mechanical(system, energy)
+      class(planar_system_t), intent(in) :: system     !! the system, its motion set
+      type(energy_t), intent(inout) :: energy          !! energies
 
       real(wp) :: m
-      integer :: k, z
+      integer :: k
 
       associate (motion => system%motion)
          do k = 1, system%n_body
@@ -59,11 +68,21 @@ contains
             energy%potential = energy%potential - m*(system%gravity(1)*motion%r(1, k) + system%gravity(2)*motion%r(2, k))
          end do
       end associate
-      if (any_touching(system)) then
-         do k = 1, size(system%clearances)
-            energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%motion)
-         end do
-      end if
+      if (.not. any_touching(system)) return
+      do k = 1, size(system%clearances)
+         energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%motion)
+      end do
+   end subroutine add_mechanical
+
+   !> Energies at a state. Works without a ledger too; then the work terms are zero.
+   function energy_of(system, y) result(energy)
+      class(planar_system_t), intent(in) :: system     !! the system; its motion must be that of the state
+      real(wp), intent(in) :: y(:)                     !! (n) state [any]
+      type(energy_t) :: energy                         !! energies
+
+      integer :: k, z
+
+      call add_mechanical(system, energy)
       if (.not. system%with_ledger) return
       z = 2*system%n_position
       energy%drive_work = y(z + work_drive)

@@ -11,17 +11,18 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module planar_system
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use augmented, only: augmented_t
    use bodies, only: bodies_t
    use clearance_set, only: clearance_slot_t
    use force_set, only: force_slot_t
+   use hold, only: hold_t
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
    use known_motion, only: find_multipliers, known_t, move_known
    use memory, only: get, put
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
    use ode_system, only: ode_system_t
+   use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates
    implicit none (type, external)
    private
    public :: planar_system_t
@@ -32,10 +33,10 @@ module planar_system
    integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
    integer, parameter :: n_ledger = 3            !! quadratures before those of the loose joints
 
-   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! of rows that are nearly dependent, or always, of the diagonal of
-                                                               !! S: round-off over this shows in reactions that are not unique [1]
+   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
+                                                               !! shows in reactions that are not unique [1]
    integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
-   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of the damped rows, of the greatest term, that is an error [1]
+   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
 
    !> A planar scene.
    type, extends(ode_system_t) :: planar_system_t
@@ -44,8 +45,7 @@ module planar_system
       logical, allocatable :: is_known(:)                !! (bodies) whether the motion of a body is a known function of time
       type(known_t) :: known                             !! those of them whose motion is a known function of time
       real(wp), allocatable :: mass(:, :)                !! (3, bodies) masses [kg, kg, kg.m^2]
-      real(wp), allocatable :: inverse_mass(:, :)        !! (3, 0:bodies) inverse masses, 0 of the ground and of known bodies
-                                                         !! [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), allocatable :: inverse_mass(:, :)        !! (3, 0:bodies) the same inverted, 0 if known [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), allocatable :: weight(:, :)              !! (3, 0:bodies) force of gravity [N]
       real(wp) :: gravity(3) = 0.0_wp                    !! (3) acceleration of free fall [m/s^2]
       real(wp) :: length_scale = 1.0_wp                  !! size of the bodies, for error scales [m]
@@ -59,6 +59,7 @@ module planar_system
       type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
       integer :: n_loose = 0                             !! loose joints in all
       class(augmented_t), allocatable :: solver          !! way of solving the augmented equations
+      class(hold_t), allocatable :: way                  !! way of holding the constraints
       logical :: is_redundant = .false.                  !! whether rows depend on one another from the start
       integer(i8) :: n_evaluations = 0                   !! evaluations made
       integer(i8) :: n_damped = 0                        !! those of them in which rows were dependent, or nearly so
@@ -71,6 +72,8 @@ module planar_system
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       real(wp), allocatable :: g(:, :)                   !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
       real(wp), allocatable :: a(:, :)                   !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), allocatable :: held(:)                   !! (2 positions) state corrected for an evaluation [any]
+      real(wp), allocatable :: row_weight(:)             !! (rows) one over the size of the bodies, or one for angles [1/m or 1/rad]
       real(wp), allocatable :: rest(:, :)                !! (3, 0:bodies) scratch of `find_reactions` [N, N, N.m]
       real(wp), allocatable :: losses(:, :)              !! (2, loose joints) power lost by contact and friction [W]
       real(wp) :: load_power = 0.0_wp                    !! power of applied loads [W]
@@ -80,6 +83,10 @@ module planar_system
       procedure :: weights => planar_weights
       procedure :: events => planar_events
       procedure :: last_events => planar_last_events
+      procedure :: set_step => planar_set_step
+      procedure :: hold => planar_hold
+      procedure :: solve_rows => planar_solve_rows
+      procedure :: evaluate_rows => planar_evaluate_rows
       procedure :: set_motion => planar_set_motion
       procedure :: find_reactions => planar_find_reactions
       procedure :: set_acceleration => planar_set_acceleration
@@ -101,10 +108,57 @@ contains
       real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
+      class(hold_t), allocatable :: way
+
+      self%n_evaluations = self%n_evaluations + 1
+      if (.not. self%way%at_stages) then
+         call evaluate_state(self, t, y, ydot, status)
+         return
+      end if
+      self%held = y(:2*self%n_position)
+      call move_alloc(self%way, way)  ! the system that it corrects must not hold it too
+      call way%correct_stage(self, t, self%held, status)
+      call move_alloc(way, self%way)
+      if (status == 0) call evaluate_state(self, t, self%held, ydot, status)
+   end subroutine planar_evaluate
+
+   !> The length of the step that begins, for gains that follow it.
+   subroutine planar_set_step(self, h)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: h                      !! length of the step [s]
+
+      class(hold_t), allocatable :: way
+
+      call move_alloc(self%way, way)
+      call way%begin_step(self, h)
+      call move_alloc(way, self%way)
+   end subroutine planar_set_step
+
+   !> Correct a state at the end of a step.
+   subroutine planar_hold(self, t, y, status)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(inout) :: y(:)                !! (n) state [any]
+      integer, intent(out) :: status                 !! 0: done
+
+      class(hold_t), allocatable :: way
+
+      call move_alloc(self%way, way)
+      call way%correct_step(self, t, y, status)
+      call move_alloc(way, self%way)
+   end subroutine planar_hold
+
+   !> The right-hand side at coordinates and rates as they are.
+   subroutine evaluate_state(self, t, y, ydot, status)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: y(:)       !! (2 positions or more) coordinates and rates [any]
+      real(wp), intent(out), contiguous :: ydot(:)   !! (n) derivative of the state [any]
+      integer, intent(out) :: status                 !! outcome
+
       integer :: k, nq
 
       nq = self%n_position
-      self%n_evaluations = self%n_evaluations + 1
       call self%set_motion(t, y)
       self%bad_row = 0
       status = merge(0, 1, self%known%is_finite)
@@ -117,6 +171,23 @@ contains
       do k = 1, size(self%clearances)
          call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
       end do
+      call self%evaluate_rows(t)
+      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
+      call find_accelerations(self, self%g, status)
+      if (status /= 0) return
+      call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, y(nq + 1:2*nq), self%a, ydot, status)
+      if (.not. self%with_ledger) return
+      if (self%known%n > 0) call self%find_reactions(t)
+      call ledger_rates(self, ydot(2*nq + 1:))
+   end subroutine evaluate_state
+
+   !> Solved rows, rates of their violations and right-hand sides at the present motion.
+   subroutine planar_evaluate_rows(self, t)
+      class(planar_system_t), intent(inout) :: self  !! the system, its motion set
+      real(wp), intent(in) :: t                      !! time [s]
+
+      integer :: k
+
       do k = 1, size(self%joints)
          if (self%joints(k)%set%is_solved) call self%joints(k)%set%evaluate(t, self%motion, self%rows)
       end do
@@ -126,19 +197,23 @@ contains
       call right_hand_side(self%n_body, self%rows%n, self%rows%n_solve, self%rows%n_side, self%rows%side, self%rows%n_known, &
                            self%rows%known, self%rows%phi, self%rows%phi_t, self%rows%jac, self%rows%gam, self%motion%v, &
                            self%motion%omega, self%motion%a, self%motion%alpha, self%alpha, self%beta, self%phi_dot, self%b)
-      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
-      call find_accelerations(self, status)
-      if (status /= 0) return
-      call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, y(nq + 1:2*nq), self%a, ydot, status)
-      if (.not. self%with_ledger) return
-      if (self%known%n > 0) call self%find_reactions(t)
-      call ledger_rates(self, ydot(2*nq + 1:))
-   end subroutine planar_evaluate
+   end subroutine planar_evaluate_rows
+
+   !> Least change of coordinates or rates in the metric of the masses, into `a`: Phi_q a = b for the b that is set.
+   subroutine planar_solve_rows(self, status)
+      class(planar_system_t), intent(inout) :: self  !! the system, rows evaluated, b set
+      integer, intent(out) :: status                 !! 0: found
+
+      self%rest = 0.0_wp
+      call find_accelerations(self, self%rest, status)
+   end subroutine planar_solve_rows
 
    !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: through a singular
-   !> position it stays finite and accurate as long as the rows do not contradict each other. Status 1 if they do.
-   subroutine find_accelerations(self, status)
-      class(planar_system_t), intent(inout) :: self  !! the system, rows and loads evaluated
+   !> position it stays finite, and the control of the step decides what is good enough. Status 1 if rows that are always
+   !> dependent contradict each other.
+   subroutine find_accelerations(self, g, status)
+      class(planar_system_t), intent(inout) :: self  !! the system, rows evaluated
+      real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
       integer, intent(out) :: status                 !! 0: found
 
       integer :: k
@@ -146,14 +221,14 @@ contains
       self%bad_row = 1
       status = 0
       if (.not. self%is_redundant) then
-         call self%solver%solve(self%inverse_mass, self%rows, self%g, self%b, self%a, self%lambda, self%bad_row)
+         call self%solver%solve(self%inverse_mass, self%rows, g, self%b, self%a, self%lambda, self%bad_row)
       end if
       if (self%bad_row == 0) return
       self%n_damped = self%n_damped + 1
       k = merge(2, 1, self%is_redundant)
-      call self%solver%solve_damped(self%inverse_mass, self%rows, self%g, self%b, damping(k), n_refinement(k), self%a, &
+      call self%solver%solve_damped(self%inverse_mass, self%rows, g, self%b, damping(k), n_refinement(k), self%a, &
                                     self%lambda, self%bad_row)
-      if (self%bad_row == 0 .and. .not. self%solver%left_over <= contradiction) then
+      if (self%is_redundant .and. self%bad_row == 0 .and. .not. self%solver%left_over <= contradiction) then
          self%bad_row = maxloc(abs(self%solver%residual(:self%rows%n_solve)), dim=1)
       end if
       if (self%bad_row > 0) status = 1
@@ -175,113 +250,6 @@ contains
       end do
       call find_multipliers(self%known, self%rows, self%mass, self%g, self%a, self%rest, self%lambda)
    end subroutine planar_find_reactions
-
-   !> Loads of gravity.
-   pure subroutine start_loads(n, weight, force, moment)
-      integer, intent(in) :: n                      !! number of bodies
-      real(wp), intent(in) :: weight(3, 0:n)        !! (3, 0:n) force of gravity [N]
-      real(wp), intent(out) :: force(3, 0:n)        !! (3, 0:n) forces [N]
-      real(wp), intent(out) :: moment(3, 0:n)       !! (3, 0:n) moments about the centres of mass [N.m]
-
-      integer :: k
-
-      do k = 0, n
-         force(:, k) = weight(:, k)
-         moment(:, k) = 0.0_wp
-      end do
-   end subroutine start_loads
-
-   !> Loads on the planar coordinates.
-   pure subroutine planar_loads(n, force, moment, g)
-      integer, intent(in) :: n                      !! number of bodies
-      real(wp), intent(in) :: force(3, 0:n)         !! (3, 0:n) forces [N]
-      real(wp), intent(in) :: moment(3, 0:n)        !! (3, 0:n) moments about the centres of mass [N.m]
-      real(wp), intent(out) :: g(3, 0:n)            !! (3, 0:n) loads on x, y, angle [N, N, N.m]
-
-      integer :: k
-
-      do k = 0, n
-         g(1, k) = force(1, k)
-         g(2, k) = force(2, k)
-         g(3, k) = moment(3, k)
-      end do
-   end subroutine planar_loads
-
-   !> Derivative of coordinates and rates. Status 1 if an acceleration is not a finite number.
-   pure subroutine state_rates(n, unknown, n_body, v, a, ydot, status)
-      integer, intent(in) :: n                      !! number of unknown bodies
-      integer, intent(in) :: unknown(n)             !! (n) their numbers
-      integer, intent(in) :: n_body                 !! number of bodies
-      real(wp), intent(in) :: v(3, n)               !! (3, n) rates [m/s, m/s, rad/s]
-      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout) :: ydot(3, 2*n)       !! (3, 2 n) derivatives [any]
-      integer, intent(out) :: status                !! 0: all finite
-
-      real(wp) :: sum
-      integer :: body, k
-
-      sum = 0.0_wp
-      do k = 1, n
-         body = unknown(k)
-         ydot(:, k) = v(:, k)
-         ydot(:, n + k) = a(:, body)
-         sum = sum + abs(a(1, body)) + abs(a(2, body)) + abs(a(3, body))
-      end do
-      status = merge(0, 1, ieee_is_finite(sum))
-   end subroutine state_rates
-
-   !> Rate of the violation and stabilised right-hand side of the solved rows.
-   pure subroutine right_hand_side(n_body, n_row, n_solve, n_side, side, n_known, known, phi, phi_t, jac, gam, v, omega, a, &
-                                   angular, alpha, beta, phi_dot, b)
-      integer, intent(in) :: n_body                 !! number of bodies
-      integer, intent(in) :: n_row                  !! number of rows
-      integer, intent(in) :: n_solve                !! rows that are solved for
-      integer, intent(in) :: n_side                 !! their sides that are unknown bodies
-      integer, intent(in) :: side(3, n_side)        !! (3, sides) row, place in the Jacobian, body
-      integer, intent(in) :: n_known                !! their sides that are known bodies
-      integer, intent(in) :: known(3, n_known)      !! (3, known sides) row, place in the Jacobian, body
-      real(wp), intent(in) :: phi(n_row)            !! (rows) violation [m or rad]
-      real(wp), intent(in) :: phi_t(n_row)          !! (rows) its partial time derivative [m/s or rad/s]
-      real(wp), intent(in) :: jac(6*n_row)          !! (6 rows) Phi_q, row by row [1 or m]
-      real(wp), intent(in) :: gam(n_row)            !! (rows) gamma [m/s^2 or rad/s^2]
-      real(wp), intent(in) :: v(3, 0:n_body)        !! (3, 0:bodies) velocities [m/s]
-      real(wp), intent(in) :: omega(3, 0:n_body)    !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations, of known bodies [m/s^2]
-      real(wp), intent(in) :: angular(3, 0:n_body)  !! (3, 0:bodies) angular accelerations, of known bodies [rad/s^2]
-      real(wp), intent(in) :: alpha                 !! gain on the rate [1/s]
-      real(wp), intent(in) :: beta                  !! gain on the violation [1/s]
-      real(wp), intent(inout) :: phi_dot(n_row)     !! (rows) rate of the violation [m/s or rad/s]
-      real(wp), intent(inout) :: b(n_row)           !! (rows) right-hand side [m/s^2 or rad/s^2]
-
-      integer :: body, k, place, row
-
-      !GCC$ novector
-      do row = 1, n_solve
-         phi_dot(row) = phi_t(row)
-         b(row) = gam(row)
-      end do
-      !GCC$ novector
-      do k = 1, n_side
-         row = side(1, k)
-         place = side(2, k)
-         body = side(3, k)
-         phi_dot(row) = phi_dot(row) &
-                        + (jac(place + 1)*v(1, body) + jac(place + 2)*v(2, body) + jac(place + 3)*omega(3, body))
-      end do
-      !GCC$ novector
-      do k = 1, n_known
-         row = known(1, k)
-         place = known(2, k)
-         body = known(3, k)
-         phi_dot(row) = phi_dot(row) &
-                        + (jac(place + 1)*v(1, body) + jac(place + 2)*v(2, body) + jac(place + 3)*omega(3, body))
-         b(row) = b(row) - (jac(place + 1)*a(1, body) + jac(place + 2)*a(2, body) + jac(place + 3)*angular(3, body))
-      end do
-      !GCC$ novector
-      do row = 1, n_solve
-         b(row) = b(row) - 2.0_wp*alpha*phi_dot(row) - beta*beta*phi(row)
-      end do
-   end subroutine right_hand_side
 
    !> Powers of the ledger.
    pure subroutine ledger_rates(self, power)
@@ -452,7 +420,7 @@ contains
 
       integer :: k
 
-      n = 3
+      n = 3 + self%way%memory_size()
       do k = 1, size(self%joints)
          n = n + self%joints(k)%set%memory_size()
       end do
@@ -474,6 +442,7 @@ contains
 
       call put(row, place, self%n_evaluations)
       call put(row, place, self%n_damped)
+      call self%way%save(row, place)
       call put(row, place, self%solver%n_factorisations)
       do k = 1, size(self%joints)
          call self%joints(k)%set%save(row, place)
@@ -496,6 +465,7 @@ contains
 
       call get(row, place, self%n_evaluations)
       call get(row, place, self%n_damped)
+      call self%way%load(row, place)
       call get(row, place, self%solver%n_factorisations)
       do k = 1, size(self%joints)
          call self%joints(k)%set%load(row, place)

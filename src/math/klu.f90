@@ -9,7 +9,7 @@ module klu
    private
    public :: sparse_lu_t
 
-   real(wp), parameter :: least_rcond = 1.0e-13_wp  !! ratio of pivots below which they are chosen anew, or the matrix is singular [1]
+   real(wp), parameter :: least_rcond = 1.0e-13_wp  !! ratio of pivots that is too small: new pivots, or singular [1]
    integer(c_int), parameter :: amd = 0_c_int       !! KLU's number of the minimum degree ordering
    integer(c_int), parameter :: no_scaling = -1_c_int  !! KLU's number for none: the caller scales
 

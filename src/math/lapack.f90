@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgelsd, dgeqp3, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
+   public :: dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
 
    interface
       !> Least-norm least-squares solution by singular values, with the rank.
@@ -20,6 +20,29 @@ module lapack
          integer, intent(out) :: iwork(*)                    !! scratch
          integer, intent(out) :: info                        !! 0: done
       end subroutine dgelsd
+
+      !> Least-squares solution of a matrix of full rank.
+      subroutine dgels(trans, m, n, nrhs, a, lda, b, ldb, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: trans                      !! "N": not transposed
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork  !! sizes
+         real(wp), intent(inout) :: a(lda, *)                !! (lda, n) matrix, then its factors [any]
+         real(wp), intent(inout) :: b(ldb, *)                !! (ldb, nrhs) right-hand sides, then solutions [any]
+         real(wp), intent(out) :: work(*)                    !! (lwork) scratch [any]
+         integer, intent(out) :: info                        !! 0: done
+      end subroutine dgels
+
+      !> QR factorisation.
+      subroutine dgeqrf(m, n, a, lda, tau, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: m, n, lda, lwork  !! sizes
+         real(wp), intent(inout) :: a(lda, *)     !! (lda, n) matrix, then its factors [any]
+         real(wp), intent(out) :: tau(*)          !! (min(m, n)) reflectors [any]
+         real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
+         integer, intent(out) :: info             !! 0: done
+      end subroutine dgeqrf
 
       !> QR factorisation with column pivoting.
       subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)

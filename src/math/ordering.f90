@@ -134,7 +134,7 @@ contains
       integer, intent(in) :: neighbour(:)   !! (any) neighbours of all rows
       integer, intent(in) :: order(:)       !! (n) rows in their order
       integer, intent(out) :: first(:)      !! (n) first column of each place
-      real, intent(out) :: cost             !! operations, about
+      real, intent(out) :: cost             !! operations, about [1]
 
       integer :: k, place(size(order)), row
 

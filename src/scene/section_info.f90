@@ -51,8 +51,11 @@ contains
       call add_word(info, "solver", "of the augmented equations: schur (complement, in its envelope), sparse (KLU), lapack (full " &
                     //"matrix, partial pivoting), complete (complete pivoting), augmented_lagrangian (penalties), or auto", &
                     default="auto", choices="auto schur sparse lapack complete augmented_lagrangian")
-      call add_word(info, "stabilise", "how the constraints are held: baumgarte with gains alpha and beta, or none", &
-                    default="baumgarte alpha=5s^-1 beta=5s^-1", choices="none baumgarte", options="alpha beta")
+      call add_word(info, "stabilise", "how the constraints are held: none; baumgarte (alpha, beta); baumgarte_step (alpha/h, " &
+                    //"beta/h); baumgarte_adaptive (target); partitioning; augmented_lagrangian (penalty, omega, mu); " &
+                    //"projection; or auto", default="auto", choices="auto none baumgarte baumgarte_step " &
+                    //"baumgarte_adaptive partitioning augmented_lagrangian projection", &
+                    options="alpha beta target penalty omega mu")
       call add_word(info, "driven_bodies", "bodies that drivers and rigid joints leave no freedom: known functions of time, or " &
                     //"unknown as the others", default="known", choices="known unknown")
       call add_flag(info, "ledger", "whether the energy ledger is kept", default="on")

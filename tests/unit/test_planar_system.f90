@@ -25,7 +25,6 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       call check_gains("stabilise = none", 0.0_wp, 0.0_wp)
-      call check_gains("", 5.0_wp, 5.0_wp)
       call check_gains("stabilise = baumgarte", 5.0_wp, 5.0_wp)
       call check_gains("stabilise = baumgarte alpha=7s^-1", 7.0_wp, 5.0_wp)
       call check_gains("stabilise = baumgarte beta=11s^-1 alpha=7s^-1", 7.0_wp, 11.0_wp)

@@ -100,7 +100,8 @@ contains
 
       random%state = 12_i8
       do solver = 1, 2
-         call start_text(slider_crank("solver = "//words(solver), "damped", "none", "ideal"), system, y, error)
+         call start_text(slider_crank("stabilise = baumgarte"//nl//"solver = "//words(solver), "damped", "none", "ideal"), &
+                         system, y, error)
          if (allocated(error)) return
          ydot = y
          call disturb(random, y)
@@ -123,7 +124,7 @@ contains
                      right = right + dot_product(jac, v(:, body))
                   end associate
                end do
-               ! the default gains are 5 per second
+               ! Baumgarte's default gains are 5 per second
                right = system%rows%gam(row) - 10.0_wp*right - 25.0_wp*system%rows%phi(row)
                call check_close(error, row_left, right, 1.0e-12_wp*maxval(abs(a)), "row of "//system%row_name(row))
             end do
@@ -142,8 +143,9 @@ contains
       integer :: k, solver, status
 
       do solver = 1, size(solvers)
-         call system_of_text(two_pins(trim(solvers(solver))), system, error)
+         call start_text(two_pins(trim(solvers(solver))), system, y, error)
          if (allocated(error)) return
+         deallocate (y)
          allocate (y(system%n), ydot(system%n), source=0.0_wp)
          do k = 1, 20
             y(3) = 0.3_wp*k
@@ -191,7 +193,7 @@ contains
              "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"nail ground 1 0"//nl// &
              "eye bob {-1 m/3} 0"//nl//"toe bob {2 m/3} 0"//nl// &
              "[joint.revolute]"//nl//"name i j"//nl//"first hook eye"//nl//"second nail toe"//nl// &
-             "[analysis.dynamic]"//nl//"end = 1 s"//nl//"solver = "//solver
+             "[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte"//nl//"solver = "//solver
    end function two_pins
 
    !> Without joints a body just falls, by either solver.

@@ -1,0 +1,108 @@
+!> The contract of ways of holding the constraints against the drift of an integration.
+!>
+!> A way may set Baumgarte's gains as a step begins, correct the coordinates and rates that an evaluation begins with, and
+!> correct the state at the end of a step. What a correction does to the energy is work of the stabilisation in the ledger.
+!> Source: Flores et al. (2008), section 2.5.
+module hold
+   use item, only: option_t
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   implicit none (type, external)
+   private
+   public :: hold_t, option_number
+
+   !> A way of holding the constraints.
+   type, abstract :: hold_t
+      logical :: at_stages = .false.  !! whether `correct_stage` is to be called
+      logical :: at_steps = .false.   !! whether `correct_step` is to be called
+   contains
+      procedure(name_interface), nopass, deferred :: name
+      procedure(words_interface), deferred :: words
+      procedure :: configure => hold_configure
+      procedure :: begin_step => hold_begin_step
+      procedure :: correct_stage => hold_correct
+      procedure :: correct_step => hold_correct
+      procedure :: memory_size => hold_memory_size
+      procedure :: save => hold_save
+      procedure :: load => hold_load
+   end type hold_t
+
+   abstract interface
+      !> The word for it in a deck.
+      function name_interface() result(name)
+         implicit none (type, external)
+         character(:), allocatable :: name  !! as in `stabilise = name`
+      end function name_interface
+
+      !> What is done, in words.
+      function words_interface(self) result(words)
+         import :: hold_t
+         implicit none (type, external)
+         class(hold_t), intent(in) :: self     !! the way
+         character(:), allocatable :: words    !! as in a deck
+      end function words_interface
+   end interface
+
+contains
+
+   !> Value of an option of a deck, or what stands for it.
+   pure real(wp) function option_number(options, name, default) result(number)
+      type(option_t), intent(in) :: options(:)  !! (any) options after the word
+      character(*), intent(in) :: name          !! its name
+      real(wp), intent(in) :: default           !! its value if it is not there [any]
+
+      integer :: k
+
+      number = default
+      do k = 1, size(options)
+         if (options(k)%name == name) number = options(k)%number
+      end do
+   end function option_number
+
+   !> Take the options of a deck: there are none, unless the way says otherwise.
+   subroutine hold_configure(self, options, tolerance)
+      class(hold_t), intent(inout) :: self      !! the way
+      type(option_t), intent(in) :: options(:)  !! (any) options after its word
+      real(wp), intent(in) :: tolerance         !! of the integrator [1]
+   end subroutine hold_configure
+
+   !> Nothing to change as a step begins, unless the way says otherwise.
+   subroutine hold_begin_step(self, system, h)
+      class(hold_t), intent(inout) :: self           !! the way
+      class(ode_system_t), intent(inout) :: system   !! the system, last evaluated at the start of the step
+      real(wp), intent(in) :: h                      !! length of the step [s]
+   end subroutine hold_begin_step
+
+   !> Nothing to correct, unless the way says otherwise.
+   subroutine hold_correct(self, system, t, y, status)
+      class(hold_t), intent(inout) :: self           !! the way
+      class(ode_system_t), intent(inout) :: system   !! the system
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(inout), contiguous :: y(:)    !! (2 positions or more) coordinates and rates, corrected [any]
+      integer, intent(out) :: status                 !! 0: done
+
+      status = 0
+   end subroutine hold_correct
+
+   !> Numbers that a checkpoint needs: none, unless the way says otherwise.
+   integer function hold_memory_size(self) result(n)
+      class(hold_t), intent(in) :: self  !! the way
+
+      n = merge(0, 0, self%at_steps)
+   end function hold_memory_size
+
+   !> Write what the way remembers.
+   subroutine hold_save(self, row, place)
+      class(hold_t), intent(in) :: self     !! the way
+      real(wp), intent(inout) :: row(:)     !! (any) checkpoint [any]
+      integer, intent(inout) :: place       !! last place used
+   end subroutine hold_save
+
+   !> Read what the way remembers.
+   subroutine hold_load(self, row, place)
+      class(hold_t), intent(inout) :: self  !! the way
+      real(wp), intent(in) :: row(:)        !! (any) checkpoint [any]
+      integer, intent(inout) :: place       !! last place used
+   end subroutine hold_load
+
+end module hold

@@ -1,0 +1,76 @@
+!> Augmented Lagrangian: penalties on the violations, iterated until the rows are fulfilled.
+!>
+!> b = gamma - 2 omega mu Phi' - omega^2 Phi, solved by `solver = augmented_lagrangian` with the given penalty: the converged
+!> iteration is Baumgarte's stabilisation with alpha = omega mu, beta = omega.
+!> Source: Flores et al. (2008), section 2.5, eqs. (2.32)-(2.35), with Phi_q v + Phi_t where (2.34) prints Phi_q a;
+!> J. Garcia de Jalon, E. Bayo (1994). Limits: as augmented_lagrangian and hold_baumgarte.
+module hold_augmented_lagrangian
+   use augmented_lagrangian, only: augmented_lagrangian_t
+   use hold, only: hold_t, option_number
+   use hold_baumgarte, only: set_gains
+   use item, only: option_t
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   use planar_system, only: planar_system_t
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: hold_augmented_lagrangian_t
+
+   !> Gains and penalty.
+   type, extends(hold_t) :: hold_augmented_lagrangian_t
+      real(wp) :: penalty = 1.0e5_wp  !! of a violated row, of its inverse effective mass [1]
+      real(wp) :: omega = 10.0_wp     !! natural frequency of a violation [1/s]
+      real(wp) :: mu = 1.0_wp         !! its damping ratio [1]
+   contains
+      procedure, nopass :: name => lagrangian_name
+      procedure :: words => lagrangian_words
+      procedure :: configure => lagrangian_configure
+      procedure :: begin_step => lagrangian_begin_step
+   end type hold_augmented_lagrangian_t
+
+contains
+
+   !> The word for it in a deck.
+   function lagrangian_name() result(name)
+      character(:), allocatable :: name  !! as in `stabilise = name`
+
+      name = "augmented_lagrangian"
+   end function lagrangian_name
+
+   !> What is done, in words.
+   function lagrangian_words(self) result(words)
+      class(hold_augmented_lagrangian_t), intent(in) :: self  !! the way
+      character(:), allocatable :: words                      !! as in a deck
+
+      words = self%name()//" penalty="//to_text(self%penalty)//" omega="//to_text(self%omega)//"s^-1 mu="//to_text(self%mu)
+   end function lagrangian_words
+
+   !> Take the numbers of a deck.
+   subroutine lagrangian_configure(self, options, tolerance)
+      class(hold_augmented_lagrangian_t), intent(inout) :: self  !! the way
+      type(option_t), intent(in) :: options(:)                   !! (any) penalty, omega, mu
+      real(wp), intent(in) :: tolerance                          !! of the integrator [1]
+
+      self%penalty = option_number(options, "penalty", self%penalty)
+      self%omega = option_number(options, "omega", self%omega)
+      self%mu = option_number(options, "mu", self%mu)
+   end subroutine lagrangian_configure
+
+   !> Gains, and the penalty of the solver.
+   subroutine lagrangian_begin_step(self, system, h)
+      class(hold_augmented_lagrangian_t), intent(inout) :: self  !! the way
+      class(ode_system_t), intent(inout) :: system               !! the system
+      real(wp), intent(in) :: h                                  !! length of the step [s]
+
+      call set_gains(system, self%omega*self%mu, self%omega)
+      select type (system)
+      class is (planar_system_t)
+         select type (solver => system%solver)
+         type is (augmented_lagrangian_t)
+            solver%penalty = self%penalty
+         end select
+      end select
+   end subroutine lagrangian_begin_step
+
+end module hold_augmented_lagrangian

@@ -1,0 +1,77 @@
+!> Baumgarte's stabilisation with constant gains: b = gamma - 2 alpha Phi' - beta^2 Phi.
+!>
+!> Critical damping is alpha = beta. Gains of the order of one over the step hold best and pollute the motion most.
+!> Source: Flores et al. (2008), eqs. (2.23), (2.24); J. Baumgarte (1972). Limits: gain times step below about 2.7
+!> (Runge-Kutta of order 4).
+module hold_baumgarte
+   use hold, only: hold_t, option_number
+   use item, only: option_t
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   use planar_system, only: planar_system_t
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: hold_baumgarte_t, set_gains
+
+   !> Constant gains.
+   type, extends(hold_t) :: hold_baumgarte_t
+      real(wp) :: alpha = 5.0_wp  !! gain on the rate of violation [1/s]
+      real(wp) :: beta = 5.0_wp   !! gain on the violation [1/s]
+   contains
+      procedure, nopass :: name => baumgarte_name
+      procedure :: words => baumgarte_words
+      procedure :: configure => baumgarte_configure
+      procedure :: begin_step => baumgarte_begin_step
+   end type hold_baumgarte_t
+
+contains
+
+   !> The word for it in a deck.
+   function baumgarte_name() result(name)
+      character(:), allocatable :: name  !! as in `stabilise = name`
+
+      name = "baumgarte"
+   end function baumgarte_name
+
+   !> What is done, in words.
+   function baumgarte_words(self) result(words)
+      class(hold_baumgarte_t), intent(in) :: self  !! the way
+      character(:), allocatable :: words           !! as in a deck
+
+      words = self%name()//" alpha="//to_text(self%alpha)//"s^-1 beta="//to_text(self%beta)//"s^-1"
+   end function baumgarte_words
+
+   !> Take the gains of a deck.
+   subroutine baumgarte_configure(self, options, tolerance)
+      class(hold_baumgarte_t), intent(inout) :: self  !! the way
+      type(option_t), intent(in) :: options(:)        !! (any) alpha, beta
+      real(wp), intent(in) :: tolerance               !! of the integrator [1]
+
+      self%alpha = option_number(options, "alpha", self%alpha)
+      self%beta = option_number(options, "beta", self%beta)
+   end subroutine baumgarte_configure
+
+   !> The gains do not change.
+   subroutine baumgarte_begin_step(self, system, h)
+      class(hold_baumgarte_t), intent(inout) :: self  !! the way
+      class(ode_system_t), intent(inout) :: system    !! the system
+      real(wp), intent(in) :: h                       !! length of the step [s]
+
+      call set_gains(system, self%alpha, self%beta)
+   end subroutine baumgarte_begin_step
+
+   !> Set the gains of a system.
+   subroutine set_gains(system, alpha, beta)
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: alpha                 !! gain on the rate of violation [1/s]
+      real(wp), intent(in) :: beta                  !! gain on the violation [1/s]
+
+      select type (system)
+      class is (planar_system_t)
+         system%alpha = alpha
+         system%beta = beta
+      end select
+   end subroutine set_gains
+
+end module hold_baumgarte

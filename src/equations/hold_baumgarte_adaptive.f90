@@ -1,0 +1,112 @@
+!> Baumgarte's stabilisation with gains that follow the violation, alpha = beta (critical damping).
+!>
+!> With e the greatest scaled violation at the start of a step and e_0 the target, the gain of the next step is
+!>
+!> alpha = min( 0.3/h, alpha_before sqrt(e/e_0) ), the root between 1/2 and 2, alpha at least 1/s:
+!>
+!> strong gains where the violation calls for them, weak ones that leave the motion alone elsewhere; never so strong that
+!> gain times step endangers the integration. Lengths are scaled by the size of the bodies. The option `target` is e_0; left
+!> out it is the tolerance of the integrator.
+!> Source: the idea, gains that follow the error at critical damping, is that of Chang and Nikravesh (1985), cited by Flores
+!> et al. (2008), section 2.5; the rule is gudgeon's own. Limits: the target must be above round-off.
+module hold_baumgarte_adaptive
+   use hold, only: hold_t, option_number
+   use hold_baumgarte, only: set_gains
+   use item, only: option_t
+   use kinds, only: wp
+   use memory, only: get, put
+   use ode_system, only: ode_system_t
+   use planar_system, only: planar_system_t
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: hold_baumgarte_adaptive_t
+
+   real(wp), parameter :: most = 0.3_wp          !! gain times step [1]
+   real(wp), parameter :: least = 1.0_wp         !! gain [1/s]
+   real(wp), parameter :: smallest = 1.0e-14_wp  !! target [1]
+
+   !> A gain that follows.
+   type, extends(hold_t) :: hold_baumgarte_adaptive_t
+      real(wp) :: target = 1.0e-8_wp  !! scaled violation to be kept [1]
+      real(wp) :: alpha = 5.0_wp      !! present gain [1/s]
+   contains
+      procedure, nopass :: name => adaptive_name
+      procedure :: words => adaptive_words
+      procedure :: configure => adaptive_configure
+      procedure :: begin_step => adaptive_begin_step
+      procedure :: memory_size => adaptive_memory_size
+      procedure :: save => adaptive_save
+      procedure :: load => adaptive_load
+   end type hold_baumgarte_adaptive_t
+
+contains
+
+   !> The word for it in a deck.
+   function adaptive_name() result(name)
+      character(:), allocatable :: name  !! as in `stabilise = name`
+
+      name = "baumgarte_adaptive"
+   end function adaptive_name
+
+   !> What is done, in words.
+   function adaptive_words(self) result(words)
+      class(hold_baumgarte_adaptive_t), intent(in) :: self  !! the way
+      character(:), allocatable :: words                    !! as in a deck
+
+      words = self%name()//" target="//to_text(self%target)
+   end function adaptive_words
+
+   !> Take the target of a deck.
+   subroutine adaptive_configure(self, options, tolerance)
+      class(hold_baumgarte_adaptive_t), intent(inout) :: self  !! the way
+      type(option_t), intent(in) :: options(:)                 !! (any) target
+      real(wp), intent(in) :: tolerance                        !! of the integrator [1]
+
+      self%target = max(smallest, option_number(options, "target", tolerance))
+   end subroutine adaptive_configure
+
+   !> The gain of a step.
+   subroutine adaptive_begin_step(self, system, h)
+      class(hold_baumgarte_adaptive_t), intent(inout) :: self  !! the way
+      class(ode_system_t), intent(inout) :: system             !! the system, last evaluated at the start of the step
+      real(wp), intent(in) :: h                                !! length of the step [s]
+
+      real(wp) :: worst
+
+      select type (system)
+      class is (planar_system_t)
+         if (system%rows%n_solve == 0) return
+         worst = maxval(system%row_weight(:system%rows%n_solve)*abs(system%rows%phi(:system%rows%n_solve)))
+         self%alpha = self%alpha*min(2.0_wp, max(0.5_wp, sqrt(worst/self%target)))
+         self%alpha = max(least, min(self%alpha, most/h))
+      end select
+      call set_gains(system, self%alpha, self%alpha)
+   end subroutine adaptive_begin_step
+
+   !> Numbers that a checkpoint needs: the gain.
+   integer function adaptive_memory_size(self) result(n)
+      class(hold_baumgarte_adaptive_t), intent(in) :: self  !! the way
+
+      n = merge(1, 1, self%alpha > 0.0_wp)
+   end function adaptive_memory_size
+
+   !> Write what the way remembers.
+   subroutine adaptive_save(self, row, place)
+      class(hold_baumgarte_adaptive_t), intent(in) :: self  !! the way
+      real(wp), intent(inout) :: row(:)                     !! (any) checkpoint [any]
+      integer, intent(inout) :: place                       !! last place used
+
+      call put(row, place, self%alpha)
+   end subroutine adaptive_save
+
+   !> Read what the way remembers.
+   subroutine adaptive_load(self, row, place)
+      class(hold_baumgarte_adaptive_t), intent(inout) :: self  !! the way
+      real(wp), intent(in) :: row(:)                           !! (any) checkpoint [any]
+      integer, intent(inout) :: place                          !! last place used
+
+      call get(row, place, self%alpha)
+   end subroutine adaptive_load
+
+end module hold_baumgarte_adaptive

@@ -1,0 +1,64 @@
+!> Baumgarte's stabilisation with gains from the step h: alpha = 1/h, beta = sqrt(2)/h.
+!>
+!> From a second-order step to zero violation, Phi + h Phi' + h^2/2 Phi'' = 0. The options alpha and beta are the factors
+!> before 1/h; 0.1 holds nearly as well and pollutes the motion much less.
+!> Source: Flores et al. (2008), section 2.5 (table 2.3). Limits: made for fixed steps; with variable ones the gains follow.
+module hold_baumgarte_step
+   use hold, only: hold_t, option_number
+   use hold_baumgarte, only: set_gains
+   use item, only: option_t
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: hold_baumgarte_step_t
+
+   !> Gains over the step.
+   type, extends(hold_t) :: hold_baumgarte_step_t
+      real(wp) :: alpha = 1.0_wp           !! factor of the gain on the rate of violation [1]
+      real(wp) :: beta = sqrt(2.0_wp)      !! factor of the gain on the violation [1]
+   contains
+      procedure, nopass :: name => step_name
+      procedure :: words => step_words
+      procedure :: configure => step_configure
+      procedure :: begin_step => step_begin_step
+   end type hold_baumgarte_step_t
+
+contains
+
+   !> The word for it in a deck.
+   function step_name() result(name)
+      character(:), allocatable :: name  !! as in `stabilise = name`
+
+      name = "baumgarte_step"
+   end function step_name
+
+   !> What is done, in words.
+   function step_words(self) result(words)
+      class(hold_baumgarte_step_t), intent(in) :: self  !! the way
+      character(:), allocatable :: words                !! as in a deck
+
+      words = self%name()//" alpha="//to_text(self%alpha)//" beta="//to_text(self%beta)
+   end function step_words
+
+   !> Take the factors of a deck.
+   subroutine step_configure(self, options, tolerance)
+      class(hold_baumgarte_step_t), intent(inout) :: self  !! the way
+      type(option_t), intent(in) :: options(:)             !! (any) alpha, beta
+      real(wp), intent(in) :: tolerance                    !! of the integrator [1]
+
+      self%alpha = option_number(options, "alpha", self%alpha)
+      self%beta = option_number(options, "beta", self%beta)
+   end subroutine step_configure
+
+   !> Gains of a step.
+   subroutine step_begin_step(self, system, h)
+      class(hold_baumgarte_step_t), intent(inout) :: self  !! the way
+      class(ode_system_t), intent(inout) :: system         !! the system
+      real(wp), intent(in) :: h                            !! length of the step [s]
+
+      call set_gains(system, self%alpha/h, self%beta/h)
+   end subroutine step_begin_step
+
+end module hold_baumgarte_step

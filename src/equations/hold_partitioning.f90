@@ -1,0 +1,271 @@
+!> Coordinate partitioning: only independent coordinates are integrated, the dependent ones follow from the constraints.
+!>
+!> Columns of Phi_q are sorted by QR with column pivoting, lengths in sizes of the bodies: the first `rank` are the dependent
+!> coordinates u, the others the independent ones v. Before every evaluation and at the end of every step
+!>
+!> Phi(u, v, t) = 0 by Newton's iteration over u,   Phi_u u' = -Phi_t - Phi_v v',
+!>
+!> both as least squares, so that redundant rows do no harm. Newton begins with the u that the integrator has carried along,
+!> which is a better prediction than eq. (2.31) makes from the last step. When the ratio of the pivots of Phi_u has become
+!> ten times worse than it was, the coordinates are sorted anew; the integrator carries all of them, so nothing else changes.
+!> Source: Flores et al. (2008), section 2.5, eqs. (2.25)-(2.31); R. A. Wehage, E. J. Haug (1982). Limits: dense, for
+!> mechanisms of moderate size; at a singular position Phi_u has no inverse, and the step fails.
+module hold_partitioning
+   use hold, only: hold_t
+   use item, only: option_t
+   use kinds, only: wp
+   use lapack, only: dgels, dgeqp3, dgeqrf
+   use memory, only: get, put
+   use ode_system, only: ode_system_t
+   use planar_energy, only: mechanical_energy
+   use planar_system, only: planar_system_t, work_stabilisation
+   implicit none (type, external)
+   private
+   public :: hold_partitioning_t
+
+   real(wp), parameter :: rank_tolerance = 1.0e-9_wp  !! least ratio of pivots [1]
+   real(wp), parameter :: worse = 0.1_wp              !! of that ratio since the coordinates were sorted: sort anew [1]
+   real(wp), parameter :: round_off = 1.0e-14_wp      !! scaled violation at which Newton's iteration ends [1]
+   real(wp), parameter :: closed = 1.0e-9_wp          !! scaled violation that counts as fulfilled [1]
+   integer, parameter :: n_newton = 10                !! corrections of the positions, at most
+
+   !> Which coordinates are dependent.
+   type, extends(hold_t) :: hold_partitioning_t
+      integer :: rank = -1                        !! dependent coordinates; -1: not sorted yet
+      integer, allocatable :: order(:)            !! (coordinates) dependent ones first
+      real(wp) :: quality = 0.0_wp                !! ratio of the least to the greatest pivot when they were sorted [1]
+      real(wp), allocatable :: jac(:, :)          !! (rows, coordinates) scaled Jacobian, then factors [1]
+      real(wp), allocatable :: right(:, :)        !! (rows or coordinates, 1) right-hand side and solution [1]
+      real(wp), allocatable :: tau(:), work(:)    !! (any) scratch of LAPACK [any]
+   contains
+      procedure, nopass :: name => partitioning_name
+      procedure :: words => partitioning_words
+      procedure :: configure => partitioning_configure
+      procedure :: correct_stage => partitioning_correct
+      procedure :: correct_step => partitioning_correct_step
+      procedure :: memory_size => partitioning_memory_size
+      procedure :: save => partitioning_save
+      procedure :: load => partitioning_load
+   end type hold_partitioning_t
+
+contains
+
+   !> The word for it in a deck.
+   function partitioning_name() result(name)
+      character(:), allocatable :: name  !! as in `stabilise = name`
+
+      name = "partitioning"
+   end function partitioning_name
+
+   !> What is done, in words.
+   function partitioning_words(self) result(words)
+      class(hold_partitioning_t), intent(in) :: self  !! the way
+      character(:), allocatable :: words              !! as in a deck
+
+      words = self%name()
+   end function partitioning_words
+
+   !> No options; evaluations and the ends of steps are corrected.
+   subroutine partitioning_configure(self, options, tolerance)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      type(option_t), intent(in) :: options(:)           !! (any) none
+      real(wp), intent(in) :: tolerance                  !! of the integrator [1]
+
+      self%at_stages = .true.
+      self%at_steps = .true.
+   end subroutine partitioning_configure
+
+   !> Correct the end of a step; sort anew if the dependent coordinates have become bad ones.
+   subroutine partitioning_correct_step(self, system, t, y, status)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      class(ode_system_t), intent(inout) :: system       !! the system
+      real(wp), intent(in) :: t                          !! time [s]
+      real(wp), intent(inout), contiguous :: y(:)        !! (n) state, corrected [any]
+      integer, intent(out) :: status                     !! 0: done
+
+      real(wp) :: before
+      integer :: z
+
+      status = 0
+      select type (system)
+      class is (planar_system_t)
+         call system%set_motion(t, y)
+         before = 0.0_wp
+         if (system%with_ledger) before = mechanical_energy(system)
+         call partitioning_correct(self, system, t, y, status)
+         if (status /= 0) return
+         if (self%rank > 0) call check_quality(self, system)
+         if (.not. system%with_ledger) return
+         z = 2*system%n_position + work_stabilisation
+         y(z) = y(z) + (mechanical_energy(system) - before)
+      end select
+   end subroutine partitioning_correct_step
+
+   !> Dependent coordinates and rates from the independent ones. The motion of the system is that afterwards.
+   subroutine partitioning_correct(self, system, t, y, status)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      class(ode_system_t), intent(inout) :: system       !! the system
+      real(wp), intent(in) :: t                          !! time [s]
+      real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates, corrected [any]
+      integer, intent(out) :: status                     !! 0: done
+
+      real(wp) :: before, now
+      integer :: k
+
+      status = 0
+      select type (system)
+      class is (planar_system_t)
+         if (system%rows%n_solve == 0) return
+         if (.not. allocated(self%jac)) call make_room(self, system%rows%n_solve, system%n_position)
+         if (self%rank < 0) then
+            call system%set_motion(t, y)
+            call system%evaluate_rows(t)
+            call sort_coordinates(self, system)
+         end if
+         before = huge(1.0_wp)
+         associate (n => system%rows%n_solve)
+            do k = 0, n_newton
+               call system%set_motion(t, y)
+               call system%evaluate_rows(t)
+               now = maxval(system%row_weight(:n)*abs(system%rows%phi(:n)))
+               if (k == n_newton .or. now <= round_off .or. (now <= closed .and. now > 0.5_wp*before)) exit
+               before = now
+               self%right(:n, 1) = -system%rows%phi(:n)*system%row_weight(:n)
+               call change_dependent(self, system, 0, y, status)
+               if (status /= 0) return
+            end do
+            status = merge(0, 1, now <= closed)
+            if (status /= 0) return
+            self%right(:n, 1) = -system%phi_dot(:n)*system%row_weight(:n)
+         end associate
+         call change_dependent(self, system, system%n_position, y, status)
+         call system%set_motion(t, y)
+      end select
+   end subroutine partitioning_correct
+
+   !> Workspace.
+   subroutine make_room(self, m, n)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      integer, intent(in) :: m                           !! solved rows
+      integer, intent(in) :: n                           !! coordinates
+
+      allocate (self%jac(m, n), self%right(max(m, n), 1), self%tau(min(m, n)), self%work(64*(m + n + 1)), source=0.0_wp)
+   end subroutine make_room
+
+   !> Change of the dependent coordinates, or of their rates, that the right-hand side asks for.
+   subroutine change_dependent(self, system, place, y, status)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way, right-hand side set
+      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+      integer, intent(in) :: place                       !! before what is changed in the state
+      real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates [any]
+      integer, intent(out) :: status                     !! 0: done
+
+      integer :: c, info, k
+
+      call scaled_jacobian(self, system)
+      call dgels("N", system%rows%n_solve, self%rank, 1, self%jac, size(self%jac, 1), self%right, size(self%right, 1), &
+                 self%work, size(self%work), info)
+      status = merge(0, 1, info == 0)
+      if (status /= 0) return
+      do k = 1, self%rank
+         c = self%order(k)
+         y(place + c) = y(place + c) + self%right(k, 1)*merge(1.0_wp, system%length_scale, modulo(c, 3) == 0)
+      end do
+   end subroutine change_dependent
+
+   !> The Jacobian, rows and coordinates scaled, in the order of the coordinates.
+   subroutine scaled_jacobian(self, system)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+
+      integer :: body, c, column, k, place(0:system%n_body), position(3*system%rows%n_unknown), row
+
+      place = 0
+      place(system%rows%unknown) = [(3*k - 3, k=1, system%rows%n_unknown)]
+      position(self%order) = [(k, k=1, size(self%order))]
+      self%jac = 0.0_wp
+      do k = 1, system%rows%n_side
+         row = system%rows%side(1, k)
+         body = system%rows%side(3, k)
+         do c = 1, 3
+            column = position(place(body) + c)
+            self%jac(row, column) = system%rows%jac(system%rows%side(2, k) - 6*(row - 1) + c, row)*system%row_weight(row) &
+                                    *merge(1.0_wp, system%length_scale, c == 3)
+         end do
+      end do
+   end subroutine scaled_jacobian
+
+   !> Choose the dependent coordinates at the present position.
+   subroutine sort_coordinates(self, system)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+
+      integer, allocatable :: pivots(:)
+      integer :: info, k, m, n
+
+      m = system%rows%n_solve
+      n = system%n_position
+      if (.not. allocated(self%order)) self%order = [(k, k=1, n)]
+      call scaled_jacobian(self, system)
+      allocate (pivots(n), source=0)
+      call dgeqp3(m, n, self%jac, m, pivots, self%tau, self%work, size(self%work), info)
+      self%rank = count([(abs(self%jac(k, k)) > rank_tolerance*abs(self%jac(1, 1)), k=1, min(m, n))])
+      self%order = self%order(pivots)
+      self%quality = abs(self%jac(max(1, self%rank), max(1, self%rank)))/abs(self%jac(1, 1))
+   end subroutine sort_coordinates
+
+   !> Sort anew if the least pivot of the dependent columns has become too small.
+   subroutine check_quality(self, system)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+
+      real(wp) :: greatest, least
+      integer :: info, k
+
+      call scaled_jacobian(self, system)
+      call dgeqrf(size(self%jac, 1), self%rank, self%jac, size(self%jac, 1), self%tau, self%work, size(self%work), info)
+      least = minval([(abs(self%jac(k, k)), k=1, self%rank)])
+      greatest = maxval([(abs(self%jac(k, k)), k=1, self%rank)])
+      if (least < worse*self%quality*greatest) call sort_coordinates(self, system)
+   end subroutine check_quality
+
+   !> Numbers that a checkpoint needs: rank, quality and order, once there are any.
+   integer function partitioning_memory_size(self) result(n)
+      class(hold_partitioning_t), intent(in) :: self  !! the way
+
+      n = 3
+      if (allocated(self%order)) n = n + size(self%order)
+   end function partitioning_memory_size
+
+   !> Write what the way remembers.
+   subroutine partitioning_save(self, row, place)
+      class(hold_partitioning_t), intent(in) :: self  !! the way
+      real(wp), intent(inout) :: row(:)               !! (any) checkpoint [any]
+      integer, intent(inout) :: place                 !! last place used
+
+      call put(row, place, real(self%rank, wp))
+      call put(row, place, self%quality)
+      call put(row, place, real(merge(size(self%order), 0, allocated(self%order)), wp))
+      if (allocated(self%order)) call put(row, place, real(self%order, wp))
+   end subroutine partitioning_save
+
+   !> Read what the way remembers.
+   subroutine partitioning_load(self, row, place)
+      class(hold_partitioning_t), intent(inout) :: self  !! the way
+      real(wp), intent(in) :: row(:)                     !! (any) checkpoint [any]
+      integer, intent(inout) :: place                    !! last place used
+
+      real(wp), allocatable :: order(:)
+      real(wp) :: n, rank
+
+      call get(row, place, rank)
+      call get(row, place, self%quality)
+      call get(row, place, n)
+      self%rank = nint(rank)
+      if (nint(n) == 0) return
+      allocate (order(nint(n)))
+      call get(row, place, order)
+      self%order = nint(order)
+   end subroutine partitioning_load
+
+end module hold_partitioning
