@@ -13,7 +13,7 @@ module dynamic
    use planar_system, only: planar_system_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
    use text, only: append_text, real_text, to_text
-   use time_plan, only: time_plan_t
+   use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
    private
    public :: limits_t, run_dynamic
@@ -75,7 +75,7 @@ contains
       run%summary%stabilisation = system%way%words()
       run%summary%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
       run%summary%ledger = system%with_ledger
-      run%n_last_sample = floor((plan%end - plan%first_output)/plan%every*(1.0_wp + 1.0e-12_wp) + 1.0e-9_wp, i8)
+      run%n_last_sample = last_instant(plan)
       allocate (run%summary%warnings(0))
       call recorder%start(run%catalogue, error)
       call cpu_time(cpu_0)
@@ -198,7 +198,7 @@ contains
       real(wp) :: cpu_0, cpu_1, t
       integer :: status
 
-      t = sample_time(plan, run)
+      t = instant(plan, run%n_sample)
       if (run%n_sample > run%n_last_sample .or. t > method%t) return
       call cpu_time(cpu_0)
       if (t < method%t) call method%prepare_output(system, status)
@@ -212,20 +212,11 @@ contains
          call recorder%sample(t, run%catalogue, error)
          if (allocated(error)) return
          run%n_sample = run%n_sample + 1
-         t = sample_time(plan, run)
+         t = instant(plan, run%n_sample)
       end do
       call cpu_time(cpu_1)
       run%aside = run%aside + (cpu_1 - cpu_0)
    end subroutine take_samples
-
-   !> Time of the next sample; the last of a grid that fits the motion is its end.
-   pure real(wp) function sample_time(plan, run) result(t)
-      type(time_plan_t), intent(in) :: plan  !! times
-      type(run_t), intent(in) :: run         !! samples done
-
-      t = plan%first_output + real(run%n_sample, wp)*plan%every
-      if (abs(t - plan%end) < 1.0e-9_wp*plan%every) t = plan%end
-   end function sample_time
 
    !> Handle the events at the end of the last step, and go on from there.
    subroutine handle_events(system, method, recorder, run, error)

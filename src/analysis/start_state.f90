@@ -7,20 +7,37 @@ module start_state
    use planar_system, only: planar_system_t
    use scene, only: scene_t
    use section_info, only: column_of
+   use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: find_start, redundancy_text
+   public :: deck_positions, find_start, redundancy_text
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
 
 contains
 
+   !> Positions and velocities as the deck gives them.
+   pure subroutine deck_positions(scene, q, v)
+      type(scene_t), intent(in) :: scene            !! the scene
+      real(wp), allocatable, intent(out) :: q(:)    !! (3 bodies) positions [m, m, rad]
+      real(wp), allocatable, intent(out) :: v(:)    !! (3 bodies) velocities [m/s, m/s, rad/s]
+
+      integer :: k
+
+      allocate (q(3*scene%bodies%n), v(3*scene%bodies%n), source=0.0_wp)
+      do k = 1, scene%bodies%n
+         q(3*k - 2:3*k) = [scene%bodies%r(1:2, k), scene%bodies%angle(k)]
+         v(3*k - 2:3*k) = [scene%bodies%v(1:2, k), scene%bodies%omega(k)]
+      end do
+   end subroutine deck_positions
+
    !> State at t = 0 of a system of the scene.
    !>
    !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
-   !> only the ideal joints; both move the bodies as little as possible. What holds only at the start is there
-   !> while assembling, then no more. Rows of the system that runs may depend on one another: it is told.
+   !> only the ideal joints; both move the bodies as little as possible, with what holds only at the start there while
+   !> assembling, then no more. `start = static` searches the equilibrium at t = 0. Rows of the system that runs may depend
+   !> on one another: it is told.
    subroutine find_start(scene, system, y, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that will run
@@ -30,20 +47,18 @@ contains
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
-      integer :: k, levels, n
+      integer :: k, levels
 
-      n = 3*system%n_body
-      allocate (q(n), v(n), source=0.0_wp)
-      do k = 1, system%n_body
-         q(3*k - 2:3*k) = [scene%bodies%r(1:2, k), scene%bodies%angle(k)]
-         v(3*k - 2:3*k) = [scene%bodies%v(1:2, k), scene%bodies%omega(k)]
-      end do
-      levels = levels_as_written
-      if (system%n_loose == 0 .or. scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "ideal") then
-         levels = levels_ideal
-      end if
-      call new_system(scene, levels, twin, is_for_start=.true.)
-      call assemble(twin, q, v, report, error)
+      call deck_positions(scene, q, v)
+      associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
+         if (start == "static") then
+            call start_at_rest(scene, system, q, v, report, error)
+         else
+            levels = merge(levels_ideal, levels_as_written, system%n_loose == 0 .or. start == "ideal")
+            call new_system(scene, levels, twin, is_for_start=.true.)
+            call assemble(twin, q, v, report, error)
+         end if
+      end associate
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
       system%is_redundant = size(report%dependent) > 0
@@ -56,6 +71,33 @@ contains
       end do
       call refuse_overlap(system, y, error)
    end subroutine find_start
+
+   !> The static equilibrium at t = 0, its contacts begun. The velocities are zero but for what drivers move.
+   subroutine start_at_rest(scene, system, q, v, report, error)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(planar_system_t), intent(inout) :: system        !! the system that will run
+      real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions of the deck, then at rest [m, m, rad]
+      real(wp), intent(inout) :: v(:)                       !! (3 bodies) velocities [m/s, m/s, rad/s]
+      type(assembly_t), intent(out) :: report               !! how the assembly went
+      type(error_t), allocatable, intent(out) :: error      !! no equilibrium
+
+      type(equilibrium_t) :: equilibrium
+      integer :: i, k
+
+      call find_equilibrium(scene, system, q, report, equilibrium, error)
+      if (allocated(error)) return
+      v = 0.0_wp
+      call assemble(system, q, v, report, error)
+      report%rate_changed = 0.0_wp  ! no velocity of the deck is used
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            set%n_touching = 0
+            do i = 1, set%n
+               if (set%contact(i)%is_touching) call set%begin_contact(i, 0.0_wp, 0.0_wp, 0.0_wp)
+            end do
+         end associate
+      end do
+   end subroutine start_at_rest
 
    !> How many rows depend on others, and whose reactions are not unique; blank if none.
    function redundancy_text(system, report) result(words)

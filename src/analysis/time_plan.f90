@@ -2,14 +2,14 @@
 module time_plan
    use diagnostics, only: diagnostics_t
    use item, only: value_t
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use planar_system, only: planar_system_t
-   use scene, only: scene_t
+   use scene, only: analysis_kinematic, analysis_static, scene_t
    use section_info, only: column_of
    use text, only: append_text, join, nearest_word, text_t
    implicit none (type, external)
    private
-   public :: new_time_plan, time_plan_t
+   public :: instant, last_instant, new_time_plan, time_plan_t
 
    real(wp), parameter :: intervals = 1000.0_wp  !! output intervals of a motion if the deck gives none [1]
 
@@ -22,17 +22,20 @@ module time_plan
 
 contains
 
-   !> Times from the settings of a scene.
+   !> Times from the settings of a scene; all zero for an equilibrium.
    subroutine new_time_plan(scene, system, plan, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
       type(planar_system_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(out) :: plan              !! times
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
+      type(value_t) :: end
       real(wp) :: last
 
-      associate (end => scene%dynamic%values(column_of(scene%dynamic_kind, "end")), &
-                 from => scene%output%values(column_of(scene%output_kind, "from")), &
+      if (scene%analysis == analysis_static) return
+      end = scene%dynamic%values(column_of(scene%dynamic_kind, "end"))
+      if (scene%analysis == analysis_kinematic) end = scene%kinematic%values(column_of(scene%kinematic_kind, "end"))
+      associate (from => scene%output%values(column_of(scene%output_kind, "from")), &
                  stretch => scene%output%values(column_of(scene%output_kind, "last")), &
                  every => scene%output%values(column_of(scene%output_kind, "every")))
          plan%end = seconds(end, "end", -1.0_wp, system, diagnostics)
@@ -61,6 +64,22 @@ contains
          end if
       end associate
    end subroutine new_time_plan
+
+   !> Output instant number k, from 0; the last of a grid that fits the motion is its end.
+   pure real(wp) function instant(plan, k) result(t)
+      type(time_plan_t), intent(in) :: plan  !! times
+      integer(i8), intent(in) :: k           !! its number
+
+      t = plan%first_output + real(k, wp)*plan%every
+      if (abs(t - plan%end) < 1.0e-9_wp*plan%every) t = plan%end
+   end function instant
+
+   !> Number of the last output instant.
+   pure integer(i8) function last_instant(plan) result(k)
+      type(time_plan_t), intent(in) :: plan  !! times
+
+      k = floor((plan%end - plan%first_output)/plan%every*(1.0_wp + 1.0e-12_wp) + 1.0e-9_wp, i8)
+   end function last_instant
 
    !> Seconds of a duration: turns since the start, or those that end at t_end.
    function seconds(value, key, t_end, system, diagnostics) result(t)

@@ -1,19 +1,20 @@
 !> From a deck on disk to a scene, its system and its times; every mistake of the deck in one error.
 module load
-   use build_system, only: levels_as_written, levels_loose, new_system
+   use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
    use catalogue, only: catalogue_t
    use channels, only: select_channels, selection_t
    use deck_reader, only: deck_t, diagnostics_t, read_deck
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
    use function_range, only: check_function_ranges
-   use item, only: location_t, value_t
+   use item, only: item_t, location_t, value_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use options, only: options_t
    use planar_report, only: build_catalogue
    use planar_system, only: planar_system_t
    use read_scene, only: scene_from_deck
-   use scene, only: scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
    use section_info, only: column_of
    use step_check, only: check_steps
    use time_plan, only: new_time_plan, time_plan_t
@@ -52,18 +53,43 @@ contains
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
       if (allocated(error)) return
-      ! channels and figures are words of the loose joints, whatever the level is in this run
+      ! channels and figures are words of the loose joints and of the deck's first analysis, whatever this run has of them
       call new_system(loaded%scene, levels_loose, loose)
       call build_catalogue(loose, catalogue)
+      call choose_analysis(options, loaded%scene, error)
+      if (allocated(error)) return
       call apply_options(options, loaded%scene, error)
       if (allocated(error)) return
-      call new_system(loaded%scene, levels_as_written, loaded%system)
+      call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
+                      loaded%system)
       call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       call check_words(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
+
+   !> The analysis that the command line names; else the first of the list that the deck has.
+   subroutine choose_analysis(options, scene, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(scene_t), intent(inout) :: scene                !! the analysis is set
+      type(error_t), allocatable, intent(out) :: error     !! the deck has no such analysis
+
+      character(:), allocatable :: known
+      integer :: k
+
+      if (.not. allocated(options%analysis)) return
+      known = ""
+      do k = 1, n_analysis
+         if (.not. scene%has_analysis(k)) cycle
+         known = known//" "//trim(analysis_names(k))
+         if (analysis_names(k) /= options%analysis) cycle
+         scene%analysis = k
+         return
+      end do
+      call set_error(error, exit_usage, "the deck has no section [analysis."//options%analysis//"]"//new_line("a")// &
+                     "  = analyses of the deck:"//known)
+   end subroutine choose_analysis
 
    !> What the command line changes in the deck.
    subroutine apply_options(options, scene, error)
@@ -84,9 +110,19 @@ contains
          end do
       end if
       if (options%tolerance > 0.0_wp) then
-         c = column_of(scene%dynamic_kind, "tolerance")
-         scene%dynamic%values(c)%number = options%tolerance
-         scene%dynamic%values(c)%given = .true.
+         select case (scene%analysis)
+         case (analysis_dynamic)
+            call set_tolerance(scene%dynamic_kind, scene%dynamic)
+         case (analysis_kinematic)
+            call set_tolerance(scene%kinematic_kind, scene%kinematic)
+         case default
+            call set_tolerance(scene%static_kind, scene%static)
+         end select
+      end if
+      if (allocated(options%method) .and. scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "option --method is for [analysis.dynamic], not for [analysis."// &
+                        trim(analysis_names(scene%analysis))//"]")
+         return
       end if
       if (allocated(options%method)) then
          c = column_of(scene%dynamic_kind, "method")
@@ -98,6 +134,20 @@ contains
          scene%dynamic%values(c)%text = options%method
          scene%dynamic%values(c)%location = location_t()
       end if
+
+   contains
+
+      !> Give the settings the tolerance of the command line.
+      subroutine set_tolerance(kind, settings)
+         type(kind_info_t), intent(in) :: kind      !! keys
+         type(item_t), intent(inout) :: settings    !! settings
+
+         associate (value => settings%values(column_of(kind, "tolerance")))
+            value%number = options%tolerance
+            value%given = .true.
+         end associate
+      end subroutine set_tolerance
+
    end subroutine apply_options
 
    !> Channels and figures must name what the scene has.

@@ -17,6 +17,7 @@ module options
       type(text_t), allocatable :: overrides(:)      !! (n) `--set NAME=VALUE`
       character(:), allocatable :: directory         !! `--out DIR`; unallocated: outputs/NAME
       character(:), allocatable :: method            !! `--method M`; unallocated: as the deck says
+      character(:), allocatable :: analysis          !! `--analysis A`; unallocated: the first that the deck has
       character(:), allocatable :: command           !! the whole command line
       real(wp) :: tolerance = 0.0_wp                 !! `--tolerance X`; 0: as the deck says [1]
       logical :: is_ideal = .false.                  !! `--ideal`
@@ -34,9 +35,9 @@ contains
 
       select case (verb)
       case ("run")
-         words = "--out --set --ideal --tolerance --method --quiet --json"
+         words = "--out --set --ideal --analysis --tolerance --method --quiet --json"
       case ("check", "explain")
-         words = "--set --ideal --tolerance --method"
+         words = "--set --ideal --analysis --tolerance --method"
       case ("help")
          words = "--manual"
       case default
@@ -114,6 +115,7 @@ contains
          select case (word)
          case ("--out"); options%directory = value
          case ("--method"); options%method = value
+         case ("--analysis"); options%analysis = value
          case ("--set"); call append_text(options%overrides, value)
          case ("--tolerance")
             is_finite = number_length(value) == len(value) .and. len(value) > 0

@@ -10,13 +10,17 @@ module verb_explain
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use kinematic_start, only: find_kinematic_start
    use load, only: load_deck, loaded_t
+   use mobility, only: find_mobility, mobility_t
    use options, only: options_t
    use planar_system, only: planar_system_t
-   use scene, only: scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use section_info, only: column_of
-   use start_state, only: find_start, redundancy_text
+   use start_state, only: deck_positions, find_start, redundancy_text
+   use static, only: equilibrium_t, find_equilibrium
    use text, only: real_text, text_t, to_text
+   use time_plan, only: last_instant
    implicit none (type, external)
    private
    public :: check_deck, explain_deck
@@ -33,13 +37,37 @@ contains
       real(wp), allocatable :: y(:)
 
       call load_deck(options, loaded, error)
-      if (.not. allocated(error)) call find_start(loaded%scene, loaded%system, y, assembly, error)
+      if (.not. allocated(error)) call find_begin(loaded, y, assembly, error)
       if (allocated(error)) return
       call say(loaded%path//": no mistakes; "//counted(loaded%system%n_body, "body", "bodies")//", "// &
                counted(loaded%system%rows%n, "constraint row", "constraint rows")//", "// &
                counted(loaded%system%n_loose, "loose joint", "loose joints")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad")
    end subroutine check_deck
+
+   !> Where the analysis of the deck begins; the equilibrium of a static one.
+   subroutine find_begin(loaded, y, assembly, error)
+      type(loaded_t), intent(inout) :: loaded              !! the deck
+      real(wp), allocatable, intent(out) :: y(:)           !! (at least 6 bodies) positions and velocities [any]
+      type(assembly_t), intent(out) :: assembly            !! how it was found
+      type(error_t), allocatable, intent(out) :: error     !! there is none
+
+      type(equilibrium_t) :: equilibrium
+      type(mobility_t) :: mobility
+      real(wp), allocatable :: q(:), v(:)
+
+      select case (loaded%scene%analysis)
+      case (analysis_kinematic)
+         call find_kinematic_start(loaded%scene, loaded%system, q, assembly, mobility, error)
+         if (.not. allocated(error)) y = [q, 0.0_wp*q]
+      case (analysis_static)
+         call deck_positions(loaded%scene, q, v)
+         call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
+         if (.not. allocated(error)) y = [q, 0.0_wp*q]
+      case default
+         call find_start(loaded%scene, loaded%system, y, assembly, error)
+      end select
+   end subroutine find_begin
 
    !> Say what is modelled and what was dropped.
    subroutine explain_deck(options, error)
@@ -57,7 +85,7 @@ contains
       call load_deck(options, loaded, error)
       if (allocated(error)) return
       call new_system(loaded%scene, levels_ideal, twin)
-      call find_start(loaded%scene, loaded%system, y, assembly, start_error)
+      call find_begin(loaded, y, assembly, start_error)
       call say(loaded%path//": "//loaded%scene%title)
       call explain_size(loaded%scene, loaded%system, twin)
       call explain_start(loaded, assembly, allocated(start_error))
@@ -82,6 +110,12 @@ contains
       integer :: k
 
       is_worth = .true.
+      do k = 1, n_analysis
+         if (index(line, "analysis."//trim(analysis_names(k))//" ") == 0) cycle
+         is_worth = k == scene%analysis .or. (k == analysis_static .and. scene%analysis == analysis_dynamic .and. &
+                                              scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "static")
+      end do
+      if (.not. is_worth) return
       do k = 1, size(scene%dynamic_kind%columns)
          associate (name => scene%dynamic_kind%columns(k)%name)
             if (index(line, "analysis.dynamic "//name//" = ") == 0) cycle
@@ -143,12 +177,20 @@ contains
       type(assembly_t), intent(in) :: assembly   !! how the start was found
       logical, intent(in) :: has_failed          !! there is no start
 
+      type(mobility_t) :: mobility
+
       if (has_failed) then
-         call say("NOT assembled: the error below says why", 2)
+         call say(trim(merge("NOT assembled   ", "NOT ready to run", loaded%scene%analysis == analysis_dynamic))// &
+                  ": the error below says why", 2)
          return
       end if
       call say(counted(3*loaded%system%n_body - loaded%system%rows%n + size(assembly%dependent), &
                        "degree of freedom", "degrees of freedom"), 2)
+      if (loaded%scene%analysis == analysis_kinematic) then
+         call find_mobility(loaded%system, mobility)
+         call say(counted(mobility%n_freedom, "degree of freedom", "degrees of freedom")//" without drivers, "// &
+                  counted(mobility%n_driver, "driver", "drivers"), 2)
+      end if
       if (loaded%system%is_redundant) then
          call say(redundancy_text(loaded%system, assembly), 2)
       else
@@ -202,6 +244,7 @@ contains
                call say(set%names(i)%s//": radial clearance "//to_text(1.0e3_wp*set%clearance(i))//" mm, law "//law// &
                         ", stiffness "//real_text(set%stiffness(i), 6)//" N/m^1.5", 2)
                if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*delta(set%first + i), 6)//" mm", 4)
+               if (loaded%scene%analysis /= analysis_dynamic) cycle
                do v = 1, size(speeds)
                   call say("an elastic impact at "//to_text(speeds(v))//" m/s lasts about "// &
                            real_text(1.0e6_wp*contact_time(loaded%system, set, i, speeds(v)), 3)//" us, "// &
@@ -281,6 +324,9 @@ contains
          call say("material '"//scene%materials(k)%name%s//"': used by no joint", 2)
       end do
       if (.not. system%with_ledger) call say("energy ledger: off", 2)
+      if (scene%analysis == analysis_kinematic .and. size(system%ideal) > 0) then
+         call say("clearances: joints are ideal in a kinematic analysis", 2)
+      end if
 
    contains
 
@@ -308,6 +354,19 @@ contains
 
       character(:), allocatable :: fixed, hold, solver
 
+      call say("")
+      call say("method")
+      select case (loaded%scene%analysis)
+      case (analysis_kinematic)
+         call say("positions by Newton's iteration, forces by inverse dynamics, at every output instant", 2)
+         call explain_times(loaded)
+         return
+      case (analysis_static)
+         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%values( &
+                                                       column_of(loaded%scene%static_kind, "tolerance"))%number)// &
+                  " of the largest load", 2)
+         return
+      end select
       associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
          solver = values(column_of(kind, "solver"))%text
          if (solver == "auto") solver = loaded%system%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
@@ -315,8 +374,6 @@ contains
          if (values(column_of(kind, "step"))%number > 0.0_wp) then
             fixed = "fixed steps of "//to_text(values(column_of(kind, "step"))%number)//" s: the tolerance is not used"
          end if
-         call say("")
-         call say("method")
          call say("integrator "//values(column_of(kind, "method"))%text//", tolerance "// &
                   to_text(values(column_of(kind, "tolerance"))%number), 2)
          call say(fixed, 2)
@@ -324,12 +381,18 @@ contains
          hold = loaded%system%way%words()
          if (values(column_of(kind, "stabilise"))%text == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
          call say("stabilisation "//hold, 2)
-         call say("from 0 to "//to_text(loaded%plan%end)//" s; output from "//to_text(loaded%plan%first_output)// &
-                  " s every "//to_text(loaded%plan%every)//" s, "// &
-                  counted(1 + int((loaded%plan%end - loaded%plan%first_output)/loaded%plan%every*(1.0_wp + 1.0e-9_wp)), &
-                          "instant", "instants"), 2)
       end associate
+      call explain_times(loaded)
    end subroutine explain_method
+
+   !> Times of the motion and of its output.
+   subroutine explain_times(loaded)
+      type(loaded_t), intent(in) :: loaded  !! the deck
+
+      call say("from 0 to "//to_text(loaded%plan%end)//" s; output from "//to_text(loaded%plan%first_output)// &
+               " s every "//to_text(loaded%plan%every)//" s, "// &
+               counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
+   end subroutine explain_times
 
    !> Why `auto` has chosen the solver.
    function reason_of_solver(system) result(words)

@@ -40,7 +40,7 @@ contains
          kinds(n + k)%name = "integrator."//kinds(n + k)%name
          kinds(n + k)%is_table = .false.
       end do
-      kinds(n + n_integrator_kinds + 1) = energy_info()
+      kinds(n + n_integrator_kinds + 1) = energy_info(with_works=.true.)
    end subroutine known_kinds
 
    !> `gudgeon list`: one line per kind.
@@ -113,8 +113,9 @@ contains
    subroutine write_usage()
       call say("gudgeon simulates mechanisms whose joints are not perfect.")
       call say("")
-      call say("  gudgeon run DECK [--out DIR] [--set NAME=VALUE]... [--ideal] [--tolerance X] [--method M] [--quiet] [--json]")
-      call say("                              integrate the motion; writes outputs/NAME/")
+      call say("  gudgeon run DECK [--out DIR] [--set NAME=VALUE]... [--ideal] [--analysis A]")
+      call say("          [--tolerance X] [--method M] [--quiet] [--json]")
+      call say("                              run the analysis; writes outputs/NAME/")
       call say("  gudgeon check DECK          find every mistake without integrating")
       call say("  gudgeon explain DECK        what is modelled, what was dropped, every default taken")
       call say("  gudgeon new NAME            write a commented deck NAME.deck to start from")
@@ -123,8 +124,9 @@ contains
       call say("  gudgeon help --manual       the whole manual")
       call say("  gudgeon --version           versions of the program and its libraries")
       call say("")
-      call say("--set changes a parameter of the deck, --ideal takes every loose joint as ideal, --tolerance and")
-      call say("--method override the deck, --json prints summary.json and nothing else, --quiet prints errors only.")
+      call say("--set changes a parameter of the deck, --ideal takes every loose joint as ideal, --analysis takes")
+      call say("another of the deck's analyses than the first of dynamic, kinematic and static, --tolerance and --method")
+      call say("override the deck, --json prints summary.json and nothing else, --quiet prints errors only.")
       call say("")
       call say("Exit codes: 0 done, 2 usage, 3 deck, 4 assembly, 5 integration, 6 audit failed, 9 file or disk, 70 internal.")
    end subroutine write_usage

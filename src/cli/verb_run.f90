@@ -1,4 +1,4 @@
-!> `gudgeon run DECK`: the motion, its ideal twin for the figures, everything written.
+!> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
 module verb_run
    use build_info, only: compiler, git_sha1
    use build_system, only: levels_ideal, new_system
@@ -11,20 +11,25 @@ module verb_run
    use figure_words, only: check_figures
    use integrator, only: integrator_t, read_controls
    use integrator_registry, only: find_integrator
+   use kinematic, only: run_kinematic
+   use kinematic_start, only: find_kinematic_start
    use kinds, only: wp
    use libraries, only: library_versions
    use load, only: load_deck, loaded_t
+   use mobility, only: mobility_t
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
    use planar_report, only: build_catalogue
    use planar_system, only: planar_system_t
+   use prescribed_motion, only: newton_t
    use recorder, only: summary_t
    use run_recorder, only: run_recorder_t
-   use scene, only: scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
    use section_info, only: column_of
-   use start_state, only: find_start, redundancy_text
+   use start_state, only: deck_positions, find_start, redundancy_text
+   use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use text, only: append_text, real_text, text_t
    use version, only: program_version
    implicit none (type, external)
@@ -35,23 +40,40 @@ module verb_run
 
 contains
 
-   !> Run a deck.
+   !> Run the analysis of a deck.
    subroutine run_deck(options, error)
       type(options_t), intent(in) :: options               !! the command line
+      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+
+      type(loaded_t) :: loaded
+
+      call load_deck(options, loaded, error)
+      if (allocated(error)) return
+      select case (loaded%scene%analysis)
+      case (analysis_kinematic)
+         call run_prescribed(options, loaded, error)
+      case (analysis_static)
+         call run_equilibrium(options, loaded, error)
+      case default
+         call run_motion(options, loaded, error)
+      end select
+   end subroutine run_deck
+
+   !> Motion in time under forces.
+   subroutine run_motion(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(inout) :: loaded              !! the deck
       type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
       type(error_t), allocatable :: twin_error
-      type(loaded_t) :: loaded
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(run_recorder_t) :: keeper
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)
 
-      call load_deck(options, loaded, error)
-      if (allocated(error)) return
       call new_method(loaded%scene, method)
       call find_start(loaded%scene, loaded%system, y, assembly, error)
       if (allocated(error)) return
@@ -66,7 +88,63 @@ contains
       keeper%plan = plan
       call run_dynamic(loaded%system, method, y, loaded%plan, limits_of(loaded%scene), keeper, summary, error)
       call directory%close()
-   end subroutine run_deck
+   end subroutine run_motion
+
+   !> Motion prescribed by drivers.
+   subroutine run_prescribed(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(inout) :: loaded              !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+
+      type(assembly_t) :: assembly
+      type(mobility_t) :: mobility
+      type(newton_t) :: newton
+      type(output_directory_t) :: directory
+      type(run_recorder_t) :: keeper
+      type(summary_t) :: summary
+      real(wp), allocatable :: q(:)
+
+      associate (kind => loaded%scene%kinematic_kind, values => loaded%scene%kinematic%values)
+         newton%tolerance = values(column_of(kind, "tolerance"))%number
+         newton%most = nint(values(column_of(kind, "maximum_iterations"))%number)
+      end associate
+      call find_kinematic_start(loaded%scene, loaded%system, q, assembly, mobility, error)
+      if (allocated(error)) return
+      call directory%open(directory_of(options, loaded%path), error)
+      if (allocated(error)) return
+      call make_plan(options, loaded, directory%path, assembly, keeper%plan)
+      call run_kinematic(loaded%system, q, loaded%plan, newton, keeper, summary, error)
+      call directory%close()
+   end subroutine run_prescribed
+
+   !> Equilibrium at rest.
+   subroutine run_equilibrium(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(inout) :: loaded              !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+
+      type(assembly_t) :: assembly
+      type(equilibrium_t) :: equilibrium
+      type(output_directory_t) :: directory
+      type(run_recorder_t) :: keeper
+      type(summary_t) :: summary
+      real(wp), allocatable :: q(:), v(:)
+
+      call deck_positions(loaded%scene, q, v)
+      call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
+      if (allocated(error)) return
+      call directory%open(directory_of(options, loaded%path), error)
+      if (allocated(error)) return
+      call make_plan(options, loaded, directory%path, assembly, keeper%plan)
+      if (size(keeper%plan%figures) > 0) then
+         call append_text(keeper%plan%warnings, "figures left out: an equilibrium is one instant")
+         keeper%plan%with_figures = .false.
+         deallocate (keeper%plan%figures)
+         allocate (keeper%plan%figures(0))
+      end if
+      call record_equilibrium(loaded%system, equilibrium, keeper, summary, error)
+      call directory%close()
+   end subroutine run_equilibrium
 
    !> The integrator that a scene asks for, with its controls.
    subroutine new_method(scene, method)
@@ -153,7 +231,12 @@ contains
       type(output_plan_t), intent(inout) :: plan     !! words are set, dropped ones become warnings
 
       type(catalogue_t) :: catalogue
+      character(:), allocatable :: reason
 
+      reason = "the joint is ideal"
+      if (loaded%scene%analysis /= analysis_dynamic) then
+         reason = "not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+      end if
       call build_catalogue(loaded%system, catalogue)
       allocate (plan%channels(0), plan%figures(0))
       call keep("channel", "channels", plan%channels)
@@ -181,7 +264,7 @@ contains
                if (bad == 0) then
                   call append_text(kept, words(k)%s)
                else
-                  call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: the joint is ideal")
+                  call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: "//reason)
                end if
             end do
          end associate

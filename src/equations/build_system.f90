@@ -18,7 +18,7 @@ module build_system
    use kinds, only: wp
    use motion, only: new_loads, new_motion, set_planar_motion
    use planar_system, only: n_ledger, planar_system_t
-   use scene, only: scene_t
+   use scene, only: analysis_dynamic, scene_t
    use section_info, only: column_of
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
@@ -54,7 +54,9 @@ contains
       system%n_body = n
       system%bodies = scene%bodies
       system%gravity = scene%gravity
-      system%with_ledger = scene%dynamic%values(column_of(scene%dynamic_kind, "ledger"))%flag
+      system%with_ledger = scene%dynamic%values(column_of(scene%dynamic_kind, "ledger"))%flag &
+                           .and. scene%analysis == analysis_dynamic
+      system%with_energies = system%with_ledger .or. scene%analysis /= analysis_dynamic
       allocate (system%mass(3, n), system%inverse_mass(3, 0:n), system%weight(3, 0:n), source=0.0_wp)
       do k = 1, n
          system%mass(:, k) = [scene%bodies%mass(k), scene%bodies%mass(k), scene%bodies%inertia(k)]
@@ -121,6 +123,7 @@ contains
    end function start_positions
 
    !> The bodies that are known functions of time, unless the deck wants them among the unknowns, and the rows that fix them.
+   !> Only an integration has unknowns: elsewhere all bodies stay together.
    subroutine choose_known(scene, links, choices)
       type(scene_t), intent(in) :: scene                       !! the scene
       type(link_t), allocatable, intent(out) :: links(:)       !! (known bodies) how they are fixed
@@ -132,6 +135,7 @@ contains
          allocate (choices(k)%is_fixing(size(scene%joints(k)%items)), source=.false.)
       end do
       allocate (links(0))
+      if (scene%analysis /= analysis_dynamic) return
       if (scene%dynamic%values(column_of(scene%dynamic_kind, "driven_bodies"))%text == "unknown") return
       call find_known_bodies(scene, links)
       ! without any unknown nothing would control the step, and the works would be as good as chance

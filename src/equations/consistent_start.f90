@@ -18,6 +18,7 @@ module consistent_start
    implicit none (type, external)
    private
    public :: assemble, assembly_t, find_dependent
+   public :: evaluate_rows, least_correction, limit_step, rank_tolerance, rates, row_scale, scaled_jacobian, worst_violation
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
    real(wp), parameter :: share = 1.0e-6_wp             !! least part of a scaled row in a combination that vanishes [1]
@@ -60,7 +61,7 @@ contains
       q_given = q
       before = huge(1.0_wp)
       do k = 1, n_newton
-         call evaluate_rows(system, q, v)
+         call evaluate_rows(system, 0.0_wp, q, v)
          now = worst_violation(system)
          if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
          before = now
@@ -68,7 +69,7 @@ contains
          q = q + limit_step(correction)
          report%corrections = k
       end do
-      call evaluate_rows(system, q, v)
+      call evaluate_rows(system, 0.0_wp, q, v)
       report%residual = maxval(abs(system%rows%phi))
       report%moved = maxval(abs(q - q_given)*coordinate_scale(system, n))
       if (.not. worst_violation(system) <= closed) then
@@ -92,8 +93,9 @@ contains
    end subroutine assemble
 
    !> Rows at a state, without accelerations.
-   subroutine evaluate_rows(system, q, v)
+   subroutine evaluate_rows(system, t, q, v)
       class(planar_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
 
@@ -102,10 +104,10 @@ contains
       call set_planar_motion(system%n_body, q, v, system%motion)
       system%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
       do k = 1, size(system%joints)
-         call system%joints(k)%set%evaluate(0.0_wp, system%motion, system%rows)
+         call system%joints(k)%set%evaluate(t, system%motion, system%rows)
       end do
       do k = 1, size(system%ideal)
-         call system%ideal(k)%set%evaluate(0.0_wp, system%motion, system%rows)
+         call system%ideal(k)%set%evaluate(t, system%motion, system%rows)
       end do
    end subroutine evaluate_rows
 
@@ -175,17 +177,21 @@ contains
    end subroutine scaled_jacobian
 
    !> Least change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
-   subroutine least_correction(system, right, ease, x, rank)
+   subroutine least_correction(system, right, ease, x, rank, tolerance)
       class(planar_system_t), intent(in) :: system  !! the system, rows evaluated
       real(wp), intent(in) :: right(:)              !! (rows) what the rows should change by [m or rad, or rates]
       real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each of them changes [1]
       real(wp), intent(out) :: x(:)                 !! (3 bodies) change [m, m, rad, or rates]
       integer, intent(out) :: rank                  !! independent rows
+      real(wp), intent(in), optional :: tolerance   !! least ratio of singular values of theirs, if another than usual [1]
 
       real(wp), allocatable :: b(:, :), jac(:, :), s(:), work(:)
+      real(wp) :: least
       integer, allocatable :: iwork(:)
       integer :: info, k, length, m, n
 
+      least = rank_tolerance
+      if (present(tolerance)) least = tolerance
       m = system%rows%n
       n = size(x)
       call scaled_jacobian(system, jac)
@@ -195,11 +201,11 @@ contains
       allocate (b(max(m, n), 1), s(min(m, n)), work(1), source=0.0_wp)
       allocate (iwork(max(1, 40*min(m, n))), source=0)
       b(1:m, 1) = right*row_scale(system)
-      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, rank_tolerance, rank, work, -1, iwork, info)
+      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, -1, iwork, info)
       length = int(work(1))
       deallocate (work)
       allocate (work(length), source=0.0_wp)
-      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, rank_tolerance, rank, work, size(work), iwork, info)
+      call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, size(work), iwork, info)
       x = b(1:n, 1)*ease
       x(1:n:3) = x(1:n:3)*system%length_scale
       x(2:n:3) = x(2:n:3)*system%length_scale
@@ -234,7 +240,7 @@ contains
       report%dependent = [integer ::]
       report%shared = [integer ::]
       if (system%rows%n == 0) return
-      call evaluate_rows(system, q, v)
+      call evaluate_rows(system, 0.0_wp, q, v)
       call scaled_jacobian(system, jac)
       transposed = transpose(jac)
       n = size(transposed, 1)

@@ -11,16 +11,17 @@ module planar_report
    use planar_system, only: planar_system_t
    implicit none (type, external)
    private
-   public :: build_catalogue, energy_info, report_state
+   public :: build_catalogue, energy_info, fill_catalogue, report_state
 
    character(*), parameter :: contact_channels = " penetration penetration_rate normal_force friction_force state "
       !! channels of a loose joint that belong to its contact
 
 contains
 
-   !> The channels of the ledger.
-   function energy_info() result(info)
-      type(kind_info_t) :: info  !! name and channels
+   !> The channels of the ledger; without its works only the energies, which are functions of the state.
+   function energy_info(with_works) result(info)
+      logical, intent(in) :: with_works   !! whether works and losses are integrated
+      type(kind_info_t) :: info           !! name and channels
 
       info%name = "energy"
       info%help = "the energy ledger"
@@ -29,6 +30,7 @@ contains
       call add_channel(info, "kinetic", "J", "none", 1, "kinetic energy")
       call add_channel(info, "potential", "J", "none", 1, "potential energy of gravity, zero at the origin")
       call add_channel(info, "elastic", "J", "none", 1, "elastic energy stored in contacts and springs")
+      if (.not. with_works) return
       call add_channel(info, "drive_work", "J", "none", 1, "work done by drivers since the start")
       call add_channel(info, "load_work", "J", "none", 1, "work done by applied loads since the start")
       call add_channel(info, "stabilisation_work", "J", "none", 1, "work of constraint forces on the drift since the start")
@@ -85,9 +87,9 @@ contains
             end do
          end associate
       end do
-      if (system%with_ledger) then
+      if (system%with_energies) then
          call catalogue%add_item(room_energy, "energy")
-         call catalogue%add_kind(room_energy, energy_info())
+         call catalogue%add_kind(room_energy, energy_info(system%with_ledger))
       end if
       call catalogue%allocate_data()
    end subroutine build_catalogue
@@ -157,14 +159,26 @@ contains
       type(catalogue_t), intent(inout) :: catalogue     !! values
       integer, intent(out) :: status                    !! of the evaluation
 
-      type(energy_t) :: energy
-      integer :: k
-
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
       if (.not. system%with_ledger .and. system%known%n > 0) call system%find_reactions(t)
       call system%set_state(t, y, ydot)
-      if (system%with_ledger) energy = energy_of(system, y)
+      call fill_catalogue(system, t, y, residual, catalogue)
+   end subroutine report_state
+
+   !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
+   !> violations, multipliers, states of the contacts.
+   subroutine fill_catalogue(system, t, y, residual, catalogue)
+      class(planar_system_t), intent(in) :: system      !! the system at the state
+      real(wp), intent(in) :: t                         !! time [s]
+      real(wp), intent(in) :: y(:)                      !! (n) state; without a ledger positions and velocities suffice [any]
+      real(wp), intent(in) :: residual                  !! of the ledger at the last step [J]
+      type(catalogue_t), intent(inout) :: catalogue     !! values
+
+      type(energy_t) :: energy
+      integer :: k
+
+      if (system%with_energies) energy = energy_of(system, y)
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
             select case (group%room)
@@ -183,7 +197,7 @@ contains
             end select
          end associate
       end do
-   end subroutine report_state
+   end subroutine fill_catalogue
 
    !> Values of a channel of the bodies.
    subroutine report_bodies(system, channel, values)

@@ -53,6 +53,7 @@ module planar_system
       real(wp) :: alpha = 0.0_wp                         !! Baumgarte's gain on the rate of violation [1/s]
       real(wp) :: beta = 0.0_wp                          !! Baumgarte's gain on the violation [1/s]
       logical :: with_ledger = .true.                    !! whether the ledger is kept
+      logical :: with_energies = .true.                  !! whether energies are reported, with or without a ledger
       type(joint_slot_t), allocatable :: joints(:)       !! ideal joints and drivers, one set per kind
       type(joint_slot_t), allocatable :: ideal(:)        !! joints with clearance taken as ideal: at most one set
       type(force_slot_t), allocatable :: forces(:)       !! force elements, one set per kind

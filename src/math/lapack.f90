@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgetc2, dgetrf, dgetrs, dtrtrs
+   public :: dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
 
    interface
       !> Least-norm least-squares solution by singular values, with the rank.
@@ -55,6 +55,46 @@ module lapack
          real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
          integer, intent(out) :: info             !! 0: done
       end subroutine dgeqp3
+
+      !> Singular values and vectors.
+      subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: jobu, jobvt                 !! A: all vectors
+         integer, intent(in) :: m, n, lda, ldu, ldvt, lwork   !! sizes
+         real(wp), intent(inout) :: a(lda, *)                 !! (lda, n) matrix, destroyed [any]
+         real(wp), intent(out) :: s(*)                        !! (min(m, n)) singular values, descending [any]
+         real(wp), intent(out) :: u(ldu, *)                   !! (ldu, m) left vectors, column by column [1]
+         real(wp), intent(out) :: vt(ldvt, *)                 !! (ldvt, n) right vectors, row by row [1]
+         real(wp), intent(out) :: work(*)                     !! (lwork) scratch [any]
+         integer, intent(out) :: info                         !! 0: done
+      end subroutine dgesvd
+
+      !> Eigenvalues and vectors of a symmetric matrix.
+      subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: jobz, uplo      !! V: vectors too; U: upper triangle
+         integer, intent(in) :: n, lda, lwork     !! sizes
+         real(wp), intent(inout) :: a(lda, *)     !! (lda, n) matrix, then its eigenvectors [any]
+         real(wp), intent(out) :: w(*)            !! (n) eigenvalues, ascending [any]
+         real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
+         integer, intent(out) :: info             !! 0: done
+      end subroutine dsyev
+
+      !> Eigenvalues of a symmetric matrix against a positive definite one.
+      subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: itype                !! 1: a x = w b x
+         character, intent(in) :: jobz, uplo         !! N: no vectors; U: upper triangles
+         integer, intent(in) :: n, lda, ldb, lwork   !! sizes
+         real(wp), intent(inout) :: a(lda, *)        !! (lda, n) symmetric matrix, destroyed [any]
+         real(wp), intent(inout) :: b(ldb, *)        !! (ldb, n) positive definite matrix, destroyed [any]
+         real(wp), intent(out) :: w(*)               !! (n) eigenvalues, ascending [any]
+         real(wp), intent(out) :: work(*)            !! (lwork) scratch [any]
+         integer, intent(out) :: info                !! 0: done
+      end subroutine dsygv
 
       !> LU factorisation with complete pivoting; pivots that are too small are raised.
       subroutine dgetc2(n, a, lda, ipiv, jpiv, info)

@@ -41,6 +41,7 @@ module recorder
       character(:), allocatable :: method          !! integrator
       character(:), allocatable :: solver          !! way of solving the augmented system
       character(:), allocatable :: stabilisation   !! way of holding the constraints
+      character(:), allocatable :: equilibrium     !! of a static analysis: stable, unstable or indifferent, and why; else blank
       real(wp) :: tolerance = 0.0_wp               !! local error tolerance, 0 with fixed steps [1]
       real(wp) :: time_start = 0.0_wp              !! first instant [s]
       real(wp) :: time_end = 0.0_wp                !! last instant reached [s]

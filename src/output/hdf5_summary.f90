@@ -26,6 +26,7 @@ contains
       call text_attribute(group, "method", summary%method, status)
       call text_attribute(group, "solver", summary%solver, status)
       call text_attribute(group, "stabilisation", summary%stabilisation, status)
+      call text_attribute(group, "equilibrium", summary%equilibrium, status)
       call real_attribute(group, "tolerance", summary%tolerance, status)
       call real_attribute(group, "time_start", summary%time_start, status)
       call real_attribute(group, "time_end", summary%time_end, status)

@@ -38,6 +38,7 @@ contains
       if (.not. allocated(full%method)) full%method = ""
       if (.not. allocated(full%solver)) full%solver = ""
       if (.not. allocated(full%stabilisation)) full%stabilisation = ""
+      if (.not. allocated(full%equilibrium)) full%equilibrium = ""
    end function complete_summary
 
    !> Time per evaluation of the right-hand side, output aside; NaN if not known.
@@ -76,6 +77,7 @@ contains
       if (len_trim(plan%title) > 0) call lines%line(one_line(valid_utf8(plan%title)))
       call lines%line(headline(summary))
       if (len_trim(summary%message) > 0) call lines%line(trim(summary%message))
+      if (len(summary%equilibrium) > 0) call lines%line("equilibrium: "//summary%equilibrium)
       call lines%line("")
       call cost_lines(lines, summary)
       call accuracy_lines(lines, summary)
@@ -239,6 +241,7 @@ contains
       call json%put_text("method", summary%method)
       call json%put_text("solver", summary%solver)
       call json%put_text("stabilisation", summary%stabilisation)
+      call json%put_text("equilibrium", summary%equilibrium)
       call json%put_real("tolerance", summary%tolerance)
       call json%put_real("time_start", summary%time_start)
       call json%put_real("time_end", summary%time_end)

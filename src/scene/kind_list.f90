@@ -13,7 +13,7 @@ module kind_list
    use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
    use normal_law, only: normal_law_t
-   use section_info, only: dynamic_info, output_info, scene_info
+   use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    implicit none (type, external)
    private
    public :: all_kinds, clearance_info, force_info, friction_info, function_info, joint_info, law_info
@@ -92,7 +92,7 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(6 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(8 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
@@ -125,7 +125,9 @@ contains
       end do
       n = n + n_friction_kinds
       kinds(n + 1) = dynamic_info()
-      kinds(n + 2) = output_info()
+      kinds(n + 2) = kinematic_info()
+      kinds(n + 3) = static_info()
+      kinds(n + 4) = output_info()
    end subroutine all_kinds
 
 end module kind_list

@@ -4,7 +4,7 @@ module read_scene
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
-   use deck_reader, only: check_sections, read_items, read_settings
+   use deck_reader, only: check_sections, has_section, read_items, read_settings
    use deck_types, only: add_default, deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
@@ -16,8 +16,9 @@ module read_scene
    use kinds, only: wp
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
-   use scene, only: friction_slot_t, law_slot_t, n_base, scene_t, table_bodies, table_materials, table_points
-   use section_info, only: column_of, dynamic_info, output_info, scene_info
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
+      n_analysis, n_base, scene_t, table_bodies, table_materials, table_points
+   use section_info, only: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -40,12 +41,10 @@ contains
 
       call all_kinds(kinds)
       call check_sections(deck, kinds, diagnostics)
-      scene%dynamic_kind = dynamic_info()
       scene%output_kind = output_info()
       call functions_from_deck(deck, scene, diagnostics)
       call read_settings(deck, scene_info(), scene%header, is_present, diagnostics)
-      call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
-      call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
+      call read_analyses(deck, scene, diagnostics)
       call read_settings(deck, scene%output_kind, scene%output, is_present, diagnostics)
       call read_tables(deck, scene, diagnostics)
       call add_names(scene%base(table_bodies)%items, directory%bodies)
@@ -67,6 +66,36 @@ contains
       call new_materials(scene%base(table_materials)%items, scene%materials)
       call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck
+
+   !> The sections of the analyses. The one that runs is the first that the deck has; a deck without
+   !> any is a dynamic one whose section is missing.
+   subroutine read_analyses(deck, scene, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck
+      type(scene_t), intent(inout) :: scene               !! settings are set
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: k
+      logical :: is_present
+
+      do k = 1, n_analysis
+         scene%has_analysis(k) = has_section(deck, "analysis."//trim(analysis_names(k)))
+      end do
+      if (.not. any(scene%has_analysis)) scene%has_analysis(analysis_dynamic) = .true.
+      scene%analysis = findloc(scene%has_analysis, .true., dim=1)
+      scene%dynamic_kind = dynamic_info()
+      scene%kinematic_kind = kinematic_info()
+      scene%static_kind = static_info()
+      ! what the equations ask of [analysis.dynamic] has defaults in the other analyses
+      if (.not. scene%has_analysis(analysis_dynamic)) then
+         scene%dynamic_kind%columns(column_of(scene%dynamic_kind, "end"))%default = "0 s"
+      end if
+      call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
+      call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
+      call read_settings(deck, scene%static_kind, scene%static, is_present, diagnostics)
+      if (scene%has_analysis(analysis_kinematic)) then
+         call read_settings(deck, scene%kinematic_kind, scene%kinematic, is_present, diagnostics)
+      end if
+   end subroutine read_analyses
 
    !> The tables of joints, forces and clearances.
    subroutine read_tables(deck, scene, diagnostics)

@@ -13,12 +13,21 @@ module scene
    use normal_law, only: normal_law_t
    implicit none (type, external)
    private
+   public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
    public :: friction_slot_t, law_slot_t, n_base, scene_t, table_t, table_bodies, table_materials, table_points
 
    integer, parameter :: table_bodies = 1     !! base table: bodies
    integer, parameter :: table_points = 2     !! base table: points
    integer, parameter :: table_materials = 3  !! base table: materials
    integer, parameter :: n_base = 3           !! base tables
+
+   integer, parameter :: analysis_dynamic = 1    !! motion in time under forces
+   integer, parameter :: analysis_kinematic = 2  !! motion prescribed by drivers
+   integer, parameter :: analysis_static = 3     !! equilibrium at rest
+   integer, parameter :: n_analysis = 3          !! analyses
+
+   !> Their names: section [analysis.NAME].
+   character(*), parameter :: analysis_names(n_analysis) = [character(9) :: "dynamic", "kinematic", "static"]
 
    !> The rows of one kind.
    type :: table_t
@@ -53,8 +62,14 @@ module scene
       type(table_t) :: joints(n_joint_kinds)                 !! (kinds) joints and drivers
       type(table_t) :: forces(n_force_kinds)                 !! (kinds) force elements
       type(table_t) :: clearances(n_clearance_kinds)         !! (kinds) joints with clearance
-      type(kind_info_t) :: dynamic_kind                      !! keys of the analysis
-      type(item_t) :: dynamic                                !! settings of the analysis
+      integer :: analysis = analysis_dynamic                 !! which analysis runs
+      logical :: has_analysis(n_analysis) = .false.          !! (analyses) which of them the deck has
+      type(kind_info_t) :: dynamic_kind                      !! keys of [analysis.dynamic]
+      type(item_t) :: dynamic                                !! its settings, defaults if the deck has none
+      type(kind_info_t) :: kinematic_kind                    !! keys of [analysis.kinematic]
+      type(item_t) :: kinematic                              !! its settings, if the deck has it
+      type(kind_info_t) :: static_kind                       !! keys of [analysis.static]
+      type(item_t) :: static                                 !! its settings, defaults if the deck has none
       type(kind_info_t) :: output_kind                       !! keys of the output
       type(item_t) :: output                                 !! settings of the output
    end type scene_t

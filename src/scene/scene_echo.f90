@@ -1,7 +1,7 @@
 !> The deck as understood: every table and setting, every default written out, in SI.
 module scene_echo
    use deck_reader, only: deck_t, echo_items, echo_settings, echo_start
-   use scene, only: scene_t, table_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t, table_t
    use section_info, only: scene_info
    implicit none (type, external)
    private
@@ -24,7 +24,10 @@ contains
       call add(scene%clearances)
       call add(scene%law_tables)
       call add(scene%friction_tables)
-      text = text//echo_settings(scene%dynamic_kind, scene%dynamic)//echo_settings(scene%output_kind, scene%output)
+      if (scene%has_analysis(analysis_dynamic)) text = text//echo_settings(scene%dynamic_kind, scene%dynamic)
+      if (scene%has_analysis(analysis_kinematic)) text = text//echo_settings(scene%kinematic_kind, scene%kinematic)
+      if (scene%has_analysis(analysis_static)) text = text//echo_settings(scene%static_kind, scene%static)
+      text = text//echo_settings(scene%output_kind, scene%output)
 
    contains
 

@@ -1,4 +1,4 @@
-!> The sections of settings of a deck: [scene], [analysis.dynamic], [output].
+!> The sections of settings of a deck: [scene], [analysis.*], [output].
 module section_info
    use integrator, only: add_control_columns, integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
@@ -7,7 +7,7 @@ module section_info
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: column_of, dynamic_info, output_info, scene_info
+   public :: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
 
 contains
 
@@ -44,7 +44,8 @@ contains
       info%source = "Flores et al. (2008), section 2.4"
       info%is_table = .false.
       call add_word(info, "start", "ideal: positions and velocities of the mechanism with ideal joints; given: as the deck " &
-                    //"gives them, the ideal joints assembled", default="ideal", choices="ideal given")
+                    //"gives them, the ideal joints assembled; static: at rest in the static equilibrium at t = 0", &
+                    default="ideal", choices="ideal given static")
       call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
       call add_word(info, "method", "integrator", default="verner", choices=trim(adjustl(methods)))
       call add_word(info, "solver", "of the augmented equations: schur (complement, in its envelope), sparse (KLU), lapack (full " &
@@ -64,6 +65,37 @@ contains
                       default="0 m", lower=0.0_wp)
       call add_control_columns(info)
    end function dynamic_info
+
+   !> The section [analysis.kinematic].
+   function kinematic_info() result(info)
+      type(kind_info_t) :: info  !! keys
+
+      info%name = "analysis.kinematic"
+      info%help = "motion prescribed by drivers, one for each degree of freedom; forces by inverse dynamics"
+      info%source = "Flores et al. (2008), section 2.2, figure 2.5"
+      info%is_table = .false.
+      call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
+      call add_number(info, "tolerance", dim_none, "greatest violation of a constraint at which Newton's iteration has " &
+                      //"converged, of the size of the bodies or a radian; it goes on to round-off", default="1e-10", &
+                      lower=0.0_wp, upper=1.0e-4_wp, open_lower=.true.)
+      call add_number(info, "maximum_iterations", dim_none, "corrections of the positions allowed at an instant", default="25", &
+                      lower=1.0_wp)
+   end function kinematic_info
+
+   !> The section [analysis.static].
+   function static_info() result(info)
+      type(kind_info_t) :: info  !! keys
+
+      info%name = "analysis.static"
+      info%help = "equilibrium at rest under the forces at t = 0, drivers held where they are at t = 0"
+      info%source = "Flores et al. (2008), section 2.3, with velocities and accelerations zero; SUNDIALS KINSOL"
+      info%is_table = .false.
+      call add_word(info, "start", "ideal: search from the mechanism with ideal joints; given: from where the deck puts the " &
+                    //"bodies, the ideal joints assembled", default="ideal", choices="ideal given")
+      call add_number(info, "tolerance", dim_none, "greatest load left unbalanced, of the largest load", default="1e-10", &
+                      lower=0.0_wp, upper=1.0e-4_wp, open_lower=.true.)
+      call add_number(info, "maximum_iterations", dim_none, "steps of the search allowed", default="500", lower=1.0_wp)
+   end function static_info
 
    !> The section [output].
    function output_info() result(info)

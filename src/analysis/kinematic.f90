@@ -1,0 +1,250 @@
+!> Kinematic analysis: positions, velocities and accelerations that joints and drivers determine, and the
+!> driving and reaction forces by inverse dynamics, at every output instant.
+!>
+!> From instant to instant the positions are predicted, q + h v + h^2/2 a, and corrected by Newton's iteration.
+!> A step in which a body would turn by more than 0.3 rad, or in which the correction turns one by more
+!> than 0.05 rad, is divided, so that the mechanism stays on its branch. When no step however small gets on,
+!> a driver has met a dead point (or jumps), and the run ends there.
+!>
+!> Source: Flores et al. (2008), section 2.2, figure 2.5. Limits: all joints ideal; no integrated works.
+module kinematic
+   use catalogue, only: catalogue_t
+   use consistent_start, only: evaluate_rows, row_scale
+   use errors, only: error_t, exit_integration, set_error
+   use inverse_dynamics, only: find_loads, find_reactions
+   use kinds, only: i8, not_a_number, wp
+   use mobility, only: find_mobility, mobility_t, stiffest_driver
+   use planar_energy, only: energy_of, energy_t
+   use planar_report, only: build_catalogue, fill_catalogue
+   use planar_system, only: planar_system_t
+   use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
+   use recorder, only: recorder_t, status_complete, status_failed, summary_t
+   use text, only: append_text, real_text
+   use time_plan, only: instant, last_instant, time_plan_t
+   implicit none (type, external)
+   private
+   public :: run_kinematic
+
+   real(wp), parameter :: longest_turn = 0.3_wp        !! predicted turn of a body in one step [rad]
+   real(wp), parameter :: longest_correction = 0.05_wp !! turn by which a prediction may be wrong [rad]
+   real(wp), parameter :: least_step = 1.0e-9_wp       !! shortest step, of the output interval [1]
+   integer(i8), parameter :: progress_every = 64_i8    !! instants between two reports of progress
+
+   !> The motion at one instant.
+   type :: state_t
+      real(wp) :: t = 0.0_wp            !! time [s]
+      real(wp), allocatable :: q(:)     !! (3 bodies) positions [m, m, rad]
+      real(wp), allocatable :: v(:)     !! (3 bodies) velocities [m/s, m/s, rad/s]
+      real(wp), allocatable :: a(:)     !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+   end type state_t
+
+contains
+
+   !> Run from assembled positions at t = 0 to the end.
+   subroutine run_kinematic(system, q, plan, newton, recorder, summary, error)
+      type(planar_system_t), intent(inout) :: system      !! the system, all joints ideal
+      real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
+      type(time_plan_t), intent(in) :: plan               !! times
+      type(newton_t), intent(inout) :: newton             !! controls
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(summary_t), intent(out) :: summary             !! cost and errors
+      type(error_t), allocatable, intent(out) :: error    !! a dead point, or a file could not be written
+
+      type(catalogue_t) :: catalogue
+      type(error_t), allocatable :: late_error
+      real(wp) :: cpu_0, cpu_1
+      integer(i8) :: clock_0, clock_1, ticks
+
+      call system_clock(clock_0, ticks)
+      call build_catalogue(system, catalogue)
+      summary%method = "newton"
+      summary%solver = "lapack (singular values)"
+      summary%tolerance = newton%tolerance
+      summary%ledger = .false.
+      summary%energy_residual_max = not_a_number()
+      allocate (summary%warnings(0))
+      if (size(system%ideal) > 0) then
+         call append_text(summary%warnings, "joints with clearance are taken as ideal in a kinematic analysis")
+      end if
+      call recorder%start(catalogue, error)
+      call cpu_time(cpu_0)
+      if (.not. allocated(error)) call follow(system, q, plan, newton, recorder, catalogue, summary, error)
+      call cpu_time(cpu_1)
+      call system_clock(clock_1)
+      summary%cpu_seconds = cpu_1 - cpu_0
+      summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
+      summary%factorisations = newton%n_solved
+      summary%status = status_complete
+      summary%message = ""
+      if (allocated(error)) then
+         summary%status = status_failed
+         summary%message = error%message
+      end if
+      call recorder%finish(summary, late_error)
+      if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
+   end subroutine run_kinematic
+
+   !> From output instant to output instant.
+   subroutine follow(system, q, plan, newton, recorder, catalogue, summary, error)
+      type(planar_system_t), intent(inout) :: system      !! the system
+      real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
+      type(time_plan_t), intent(in) :: plan               !! times
+      type(newton_t), intent(inout) :: newton             !! controls and cost
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(catalogue_t), intent(inout) :: catalogue       !! what is reported
+      type(summary_t), intent(inout) :: summary           !! cost and errors so far
+      type(error_t), allocatable, intent(out) :: error    !! a dead point, or a file could not be written
+
+      type(state_t) :: state
+      integer(i8) :: k
+      integer :: outcome
+
+      state%q = q
+      allocate (state%v(size(q)), state%a(size(q)), source=0.0_wp)
+      call solve_instant(system, newton, state, outcome)
+      if (outcome /= solved) then
+         call describe_failure(system, state, 0.0_wp, outcome, newton, error)
+         return
+      end if
+      do k = 0, last_instant(plan)
+         call move_to(system, instant(plan, k), least_step*plan%every, newton, state, summary, error)
+         if (allocated(error)) return
+         call report(system, state, catalogue, summary)
+         call recorder%sample(state%t, catalogue, error)
+         if (allocated(error)) return
+         summary%samples = summary%samples + 1
+         if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
+      end do
+   end subroutine follow
+
+   !> Move to a later time in as many steps as it takes to stay on the branch.
+   subroutine move_to(system, t, shortest, newton, state, summary, error)
+      type(planar_system_t), intent(inout) :: system      !! the system, evaluated at the state
+      real(wp), intent(in) :: t                           !! the time [s]
+      real(wp), intent(in) :: shortest                    !! step that is given up [s]
+      type(newton_t), intent(inout) :: newton             !! controls and cost
+      type(state_t), intent(inout) :: state               !! the motion, moved
+      type(summary_t), intent(inout) :: summary           !! steps are counted
+      type(error_t), allocatable, intent(out) :: error    !! there is no way on
+
+      type(state_t) :: next
+      real(wp) :: h
+      integer :: outcome
+
+      h = t - state%t
+      do while (state%t < t)
+         do while (turn_in(state, h) > longest_turn .and. h > shortest)
+            h = 0.5_wp*h
+         end do
+         next%t = state%t + h
+         if (h >= t - state%t) next%t = t
+         next%q = state%q + h*(state%v + 0.5_wp*h*state%a)
+         next%v = next%q  ! the prediction
+         next%a = state%a
+         call try(system, newton, next, outcome)
+         if (outcome == solved) then
+            state = next
+            summary%steps = summary%steps + 1_i8
+            summary%time_end = state%t
+            h = min(2.0_wp*h, t - state%t)
+         else
+            summary%rejected_steps = summary%rejected_steps + 1_i8
+            h = 0.5_wp*h
+            if (h < shortest) then
+               call describe_failure(system, state, next%t, outcome, newton, error)
+               return
+            end if
+         end if
+      end do
+   end subroutine move_to
+
+   !> Predicted turn of the body that turns most in a step.
+   pure real(wp) function turn_in(state, h) result(turn)
+      type(state_t), intent(in) :: state   !! the motion
+      real(wp), intent(in) :: h            !! the step [s]
+
+      turn = maxval(abs(h*state%v(3::3)) + abs(0.5_wp*h*h*state%a(3::3)))
+   end function turn_in
+
+   !> Solve a predicted instant; a correction that turns a body by much is not trusted.
+   subroutine try(system, newton, next, outcome)
+      type(planar_system_t), intent(inout) :: system  !! the system
+      type(newton_t), intent(inout) :: newton         !! controls and cost
+      type(state_t), intent(inout) :: next            !! predicted, then solved
+      integer, intent(out) :: outcome                 !! as of `prescribed_motion`
+
+      real(wp) :: predicted(size(next%q)/3)
+
+      predicted = next%q(3::3)
+      call solve_instant(system, newton, next, outcome)
+      if (outcome == solved .and. maxval(abs(next%q(3::3) - predicted)) > longest_correction) outcome = open_rows
+   end subroutine try
+
+   !> Positions, velocities and accelerations at the time of a state, from its positions.
+   subroutine solve_instant(system, newton, state, outcome)
+      type(planar_system_t), intent(inout) :: system  !! the system
+      type(newton_t), intent(inout) :: newton         !! controls and cost
+      type(state_t), intent(inout) :: state           !! guess, then solved
+      integer, intent(out) :: outcome                 !! as of `prescribed_motion`
+
+      call solve_positions(system, state%t, newton, state%q, outcome)
+      if (outcome == solved) call solve_rates(system, state%t, newton, state%q, state%v, state%a, outcome)
+   end subroutine solve_instant
+
+   !> Forces at a solved instant, and all values of the catalogue.
+   subroutine report(system, state, catalogue, summary)
+      type(planar_system_t), intent(inout) :: system    !! the system, rows evaluated at the state
+      type(state_t), intent(in) :: state                !! the motion
+      type(catalogue_t), intent(inout) :: catalogue     !! values
+      type(summary_t), intent(inout) :: summary         !! maxima are raised
+
+      type(energy_t) :: energy
+      real(wp) :: unbalanced, y(2*size(state%q))
+
+      call evaluate_rows(system, state%t, state%q, state%v)
+      call find_loads(system, state%t)
+      call find_reactions(system, state%a, unbalanced)
+      y = [state%q, state%v]
+      call fill_catalogue(system, state%t, y, 0.0_wp, catalogue)
+      energy = energy_of(system, y)
+      summary%energy_max = max(summary%energy_max, energy%kinetic + energy%elastic)
+      summary%violation_max = max(summary%violation_max, maxval(abs(system%rows%phi)))
+      summary%violation_rate_max = max(summary%violation_rate_max, maxval(abs(system%phi_dot)))
+   end subroutine report
+
+   !> Say when, where and why the motion cannot go on, and what to try.
+   subroutine describe_failure(system, state, t, outcome, newton, error)
+      type(planar_system_t), intent(inout) :: system      !! the system, rows evaluated at the instant that failed
+      type(state_t), intent(in) :: state                  !! the last motion found
+      real(wp), intent(in) :: t                           !! the instant that failed [s]
+      integer, intent(in) :: outcome                      !! how it failed
+      type(newton_t), intent(in) :: newton                !! controls
+      type(error_t), allocatable, intent(out) :: error    !! the message
+
+      type(mobility_t) :: mobility
+      character(:), allocatable :: driver, message
+      integer :: row
+
+      row = maxloc(abs(system%rows%phi)*row_scale(system), dim=1)
+      select case (outcome)
+      case (not_finite_rows)
+         message = new_line("a")//"  = a driver or a derivative of it is not a finite number there"
+      case (open_rows)
+         message = new_line("a")//"  = '"//system%row_name(row)//"' would stay open by "// &
+                   real_text(abs(system%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%rows%is_angle(row)))// &
+                   " at t = "//real_text(t, 9)//" s: a dead point, or a jump of a driver"
+      case (singular)
+         message = new_line("a")//"  = rows depend on each other there: a dead point, or branches of the motion meet"
+      case default
+         message = new_line("a")//"  = no finite velocities and accelerations fulfil all rows there"
+      end select
+      call evaluate_rows(system, state%t, state%q, state%v)
+      call find_mobility(system, mobility)
+      driver = system%row_name(stiffest_driver(mobility))
+      call set_error(error, exit_integration, "the mechanism cannot follow driver '"//driver//"' beyond t = "// &
+                     real_text(state%t, 9)//" s"//message//new_line("a")// &
+                     "  = everything up to the last output instant was saved; end the motion before, let the driver turn back "// &
+                     "earlier, drive another joint, or put the output instants beside the dead point")
+   end subroutine describe_failure
+
+end module kinematic

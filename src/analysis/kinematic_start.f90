@@ -1,0 +1,104 @@
+!> Where a kinematic analysis begins: assembled positions, and a driver for every degree of freedom.
+module kinematic_start
+   use consistent_start, only: assemble, assembly_t, evaluate_rows, find_dependent
+   use errors, only: error_t, exit_assembly, set_error
+   use kinds, only: wp
+   use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
+   use planar_system, only: planar_system_t
+   use scene, only: scene_t
+   use start_state, only: deck_positions
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: find_kinematic_start
+
+contains
+
+   !> Assemble at t = 0 and count freedoms against drivers.
+   !>
+   !> Drivers that contradict each other keep the mechanism from being assembled; then it is told which
+   !> of them is in excess, not which joint stays open.
+   subroutine find_kinematic_start(scene, system, q, report, mobility, error)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(planar_system_t), intent(inout) :: system        !! the system, all joints ideal
+      real(wp), allocatable, intent(out) :: q(:)            !! (3 bodies) positions at t = 0 [m, m, rad]
+      type(assembly_t), intent(out) :: report               !! how the assembly went
+      type(mobility_t), intent(out) :: mobility             !! freedoms and drivers at the start
+      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, a driver is missing or in excess
+
+      type(error_t), allocatable :: assembly_error
+      real(wp), allocatable :: v(:)
+
+      call deck_positions(scene, q, v)
+      call assemble(system, q, v, report, assembly_error)
+      call evaluate_rows(system, 0.0_wp, q, v)
+      call find_mobility(system, mobility)
+      call find_dependent(system, q, v, report)
+      system%is_redundant = size(report%dependent) > 0
+      if (any(mobility%is_excess)) then
+         call refuse_excess(system, mobility, error)
+      else if (allocated(assembly_error)) then
+         call move_alloc(assembly_error, error)
+      else if (mobility%n_left > 0) then
+         call refuse_missing(system, mobility, report, error)
+      end if
+   end subroutine find_kinematic_start
+
+   !> Drivers that prescribe what the joints and the other drivers do already.
+   subroutine refuse_excess(system, mobility, error)
+      type(planar_system_t), intent(in) :: system          !! the system
+      type(mobility_t), intent(in) :: mobility             !! freedoms and drivers
+      type(error_t), allocatable, intent(out) :: error     !! the message
+
+      character(:), allocatable :: left
+
+      left = ""
+      if (mobility%n_left > 0) left = new_line("a")//"  = and "//freedoms(mobility%n_left)//" left without a driver: "// &
+                                      moving_bodies(system, mobility%freedom)//" can still move"
+      call set_error(error, exit_assembly, "the mechanism is over-driven: "//drivers(mobility%n_driver)//" for "// &
+                     freedoms(mobility%n_freedom)//", and "//joint_names(system, mobility%is_excess)// &
+                     " prescribes what joints and other drivers determine already"//left//new_line("a")// &
+                     "  = drivers: "//joint_names(system, mobility%is_driver)//new_line("a")// &
+                     "  = a kinematic analysis needs one driver for each degree of freedom; remove the one in excess")
+   end subroutine refuse_excess
+
+   !> Freedoms that no driver prescribes.
+   subroutine refuse_missing(system, mobility, report, error)
+      type(planar_system_t), intent(in) :: system          !! the system
+      type(mobility_t), intent(in) :: mobility             !! freedoms and drivers
+      type(assembly_t), intent(in) :: report               !! dependent rows
+      type(error_t), allocatable, intent(out) :: error     !! the message
+
+      character(:), allocatable :: dead_point
+      logical :: is_shared(system%rows%n)
+
+      is_shared = .false.
+      is_shared(report%shared) = .true.
+      dead_point = ""
+      if (any(is_shared)) dead_point = new_line("a")//"  = rows of "//joint_names(system, is_shared)// &
+                                   " depend on each other here: if this is a dead point, start beside it"
+      call set_error(error, exit_assembly, "the motion is not determined: "//freedoms(mobility%n_left)//" left; "// &
+                     drivers(mobility%n_driver)//" for "//freedoms(mobility%n_freedom)//new_line("a")// &
+                     "  = bodies that can still move: "//moving_bodies(system, mobility%freedom)//dead_point//new_line("a")// &
+                     "  = add a driver for each freedom, or let forces move it: [analysis.dynamic]")
+   end subroutine refuse_missing
+
+   !> A number of freedoms in words.
+   function freedoms(n) result(words)
+      integer, intent(in) :: n               !! the number
+      character(:), allocatable :: words     !! as `2 degrees of freedom`
+
+      words = to_text(n)//" degrees of freedom"
+      if (n == 1) words = "1 degree of freedom"
+   end function freedoms
+
+   !> A number of drivers in words.
+   function drivers(n) result(words)
+      integer, intent(in) :: n               !! the number
+      character(:), allocatable :: words     !! as `2 drivers`
+
+      words = to_text(n)//" drivers"
+      if (n == 1) words = "1 driver"
+   end function drivers
+
+end module kinematic_start

@@ -1,0 +1,277 @@
+!> Static equilibrium: search, classification, and its record of one instant.
+!>
+!> The search goes downhill (see static_relaxation) until a thousandth of the loads is out of balance, then KINSOL
+!> polishes; where KINSOL fails or wanders off, as at an indifferent equilibrium, the descent goes on
+!> alone. The equilibrium is stable, unstable or indifferent by the least eigenvalue of the tangent stiffness
+!> against the motions that the joints leave free.
+!>
+!> Source and limits: static_problem.
+module static
+   use build_system, only: levels_ideal, new_system
+   use catalogue, only: catalogue_t
+   use consistent_start, only: assemble, assembly_t, find_dependent
+   use errors, only: error_t, exit_assembly, set_error
+   use inverse_dynamics, only: find_reactions
+   use kinds, only: i8, not_a_number, two_pi, wp
+   use mobility, only: moving_bodies
+   use planar_energy, only: energy_of, energy_t
+   use planar_report, only: build_catalogue, fill_catalogue
+   use planar_system, only: planar_system_t
+   use prescribed_motion, only: newton_t, solve_positions
+   use recorder, only: recorder_t, status_complete, status_failed, summary_t
+   use scene, only: scene_t
+   use section_info, only: column_of
+   use static_kinsol, only: polish
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale, square_frequencies
+   use static_relaxation, only: least_unbalance, relax
+   use text, only: append_text, real_text, to_text
+   implicit none (type, external)
+   private
+   public :: equilibrium_t, find_equilibrium, record_equilibrium
+
+   real(wp), parameter :: rough = 1.0e-3_wp         !! unbalanced load at which KINSOL takes over, of the largest [1]
+   real(wp), parameter :: nearby = 0.1_wp           !! how far KINSOL may move a coordinate, in sizes or radians [1]
+   real(wp), parameter :: no_stiffness = 1.0e-6_wp  !! stiffness that counts as none, of the largest load [1]
+   real(wp), parameter :: lost_digits = 1.0e-8_wp   !! stiffness lost in the differences, of the largest [1]
+   real(wp), parameter :: to_round_off = 1.0e-14_wp !! unbalanced load that is tried for in the end, of the largest [1]
+   integer, parameter :: n_last = 3                 !! steps from the tolerance towards it
+   integer, parameter :: n_polish = 50              !! iterations of KINSOL allowed
+
+   !> An equilibrium.
+   type :: equilibrium_t
+      real(wp), allocatable :: q(:)             !! (3 bodies) positions [m, m, rad]
+      character(:), allocatable :: words        !! stable, unstable or indifferent, and why
+      character(:), allocatable :: warning      !! what a careful reader should know; blank if it is stable
+      real(wp) :: unbalanced = 0.0_wp           !! load out of balance, of the largest [1]
+      real(wp) :: tolerance = 0.0_wp            !! that was allowed [1]
+      integer :: steps = 0                      !! steps of the descent
+      integer(i8) :: n_evaluations = 0_i8       !! evaluations of the loads
+      logical :: is_polished = .false.          !! KINSOL found it in the end
+      real(wp) :: cpu_seconds = 0.0_wp          !! of the search [s]
+   end type equilibrium_t
+
+contains
+
+   !> Search an equilibrium of a system of the scene.
+   subroutine find_equilibrium(scene, system, q, report, equilibrium, error)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(planar_system_t), intent(inout) :: system        !! the system; left at the equilibrium
+      real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions of the deck [m, m, rad]
+      type(assembly_t), intent(out) :: report               !! how the assembly went
+      type(equilibrium_t), intent(out) :: equilibrium       !! what was found
+      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or no equilibrium found
+
+      type(balance_t) :: balance
+      real(wp) :: cpu_0, cpu_1
+      integer :: most
+      logical :: is_exact, is_settled
+
+      call cpu_time(cpu_0)
+      equilibrium%tolerance = scene%static%values(column_of(scene%static_kind, "tolerance"))%number
+      most = nint(scene%static%values(column_of(scene%static_kind, "maximum_iterations"))%number)
+      call assemble_at_rest(scene, system, q, report, error)
+      if (allocated(error)) return
+      call relax(system, max(rough, equilibrium%tolerance), most, q, balance, equilibrium%steps, is_settled)
+      if (is_settled) then
+         call try_to_polish(system, q, balance, equilibrium)
+         if (.not. equilibrium%is_polished) then
+            call relax(system, equilibrium%tolerance, most, q, balance, equilibrium%steps, is_settled)
+            if (is_settled) call relax(system, to_round_off, equilibrium%steps + n_last, q, balance, equilibrium%steps, is_exact)
+         end if
+      end if
+      equilibrium%unbalanced = norm2(balance%load)/max(load_scale(system), tiny(1.0_wp))
+      if (.not. is_settled) then
+         call refuse(system, balance, equilibrium, error)
+         return
+      end if
+      equilibrium%q = q
+      equilibrium%n_evaluations = balance%n_evaluations
+      call classify(system, balance, equilibrium)
+      call cpu_time(cpu_1)
+      equilibrium%cpu_seconds = cpu_1 - cpu_0
+   end subroutine find_equilibrium
+
+   !> Positions to begin with.
+   subroutine assemble_at_rest(scene, system, q, report, error)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(planar_system_t), intent(inout) :: system        !! the system that is searched
+      real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions, assembled [m, m, rad]
+      type(assembly_t), intent(out) :: report               !! how the assembly went
+      type(error_t), allocatable, intent(out) :: error      !! cannot be assembled
+
+      type(planar_system_t) :: twin
+      real(wp) :: v(size(q))
+
+      v = 0.0_wp
+      if (scene%static%values(column_of(scene%static_kind, "start"))%text == "ideal") then
+         call new_system(scene, levels_ideal, twin)
+         call assemble(twin, q, v, report, error)
+      else
+         call assemble(system, q, v, report, error)
+      end if
+      if (allocated(error)) return
+      call find_dependent(system, q, v, report)
+      system%is_redundant = size(report%dependent) > 0
+   end subroutine assemble_at_rest
+
+   !> Let KINSOL polish; keep what it found if that is an equilibrium nearby.
+   subroutine try_to_polish(system, q, balance, equilibrium)
+      type(planar_system_t), intent(inout) :: system         !! the system, balance evaluated
+      real(wp), intent(inout) :: q(:)                        !! (3 bodies) positions, polished [m, m, rad]
+      type(balance_t), intent(inout) :: balance              !! at the positions
+      type(equilibrium_t), intent(inout) :: equilibrium      !! whether it was polished
+
+      type(assembly_t) :: rows
+      type(newton_t) :: newton
+      real(wp) :: load, q_new(size(q)), rest(size(q))
+      integer :: outcome
+
+      load = load_scale(system)
+      if (load <= 0.0_wp) return
+      q_new = q
+      rest = 0.0_wp
+      call find_dependent(system, q, rest, rows)
+      call polish(system, rows%dependent, load, to_round_off, n_polish, q_new, equilibrium%is_polished)
+      if (equilibrium%is_polished) equilibrium%is_polished = maxval(abs(q_new - q)/position_scale(system)) < nearby
+      if (.not. equilibrium%is_polished) q_new = q
+      call solve_positions(system, 0.0_wp, newton, q_new, outcome)
+      call evaluate_balance(system, q_new, balance)
+      call free_stiffness(system, q_new, balance)
+      equilibrium%is_polished = equilibrium%is_polished .and. &
+                                norm2(balance%load) <= equilibrium%tolerance*load_scale(system) + least_unbalance(balance)
+      q = q_new
+   end subroutine try_to_polish
+
+   !> Stable, unstable or indifferent.
+   subroutine classify(system, balance, equilibrium)
+      type(planar_system_t), intent(in) :: system            !! the system at the equilibrium
+      type(balance_t), intent(in) :: balance                 !! with stiffness and modes
+      type(equilibrium_t), intent(inout) :: equilibrium      !! words and warning are set
+
+      real(wp) :: limit, square(size(balance%stiffness))
+      integer :: n_flat, n_steep
+
+      equilibrium%warning = ""
+      associate (stiffness => balance%stiffness)
+         if (size(stiffness) == 0) then
+            equilibrium%words = "stable: no body can move"
+            return
+         end if
+         square = square_frequencies(system, balance)
+         limit = max(no_stiffness*load_scale(system), lost_digits*maxval(abs(stiffness)), tiny(1.0_wp))
+         n_steep = count(stiffness < -limit)
+         n_flat = count(abs(stiffness) <= limit)
+         if (n_steep > 0) then
+            equilibrium%words = "unstable in "//to_text(n_steep)//" of "//to_text(size(stiffness))// &
+                                " freedoms; a push grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)//" s"
+            equilibrium%warning = "the equilibrium is unstable: the least push moves "// &
+                                  moving_bodies(system, bodies_in(balance%modes(:, 1:1)))// &
+                                  "; begin the search beside it to find a stable one"
+         else if (n_flat > 0) then
+            equilibrium%words = "indifferent in "//to_text(n_flat)//" of "//to_text(size(stiffness))//" freedoms"
+            equilibrium%warning = "the equilibrium is indifferent: nothing holds "// &
+                                  moving_bodies(system, bodies_in(balance%modes(:, pack_range(abs(stiffness) <= limit))))// &
+                                  " where the search left them"
+         else
+            equilibrium%words = "stable; lowest natural frequency "//real_text(sqrt(square(1))/two_pi, 6)//" Hz"
+         end if
+      end associate
+   end subroutine classify
+
+   !> Numbers of the places that are true.
+   pure function pack_range(mask) result(places)
+      logical, intent(in) :: mask(:)         !! (n) places
+      integer, allocatable :: places(:)      !! (any) their numbers
+
+      integer :: k
+
+      places = pack([(k, k=1, size(mask))], mask)
+   end function pack_range
+
+   !> How much each body takes part in some motions.
+   pure function bodies_in(modes) result(part)
+      real(wp), intent(in) :: modes(:, :)    !! (3 bodies, motions) unit motions [1]
+      real(wp) :: part(size(modes, 1)/3)     !! (bodies) greatest part of each, 0 to 1 [1]
+
+      integer :: k
+
+      do k = 1, size(part)
+         part(k) = maxval(norm2(modes(3*k - 2:3*k, :), dim=1))
+      end do
+   end function bodies_in
+
+   !> The search did not settle: say what still moves, and what to try.
+   subroutine refuse(system, balance, equilibrium, error)
+      type(planar_system_t), intent(in) :: system          !! the system where the search ended
+      type(balance_t), intent(in) :: balance               !! there
+      type(equilibrium_t), intent(in) :: equilibrium       !! how far it came
+      type(error_t), allocatable, intent(out) :: error     !! the message
+
+      real(wp) :: part(system%n_body), free_load(size(balance%load))
+      integer :: k
+
+      free_load = matmul(balance%free, matmul(balance%load, balance%free))
+      do k = 1, system%n_body
+         part(k) = norm2(free_load(3*k - 2:3*k))
+      end do
+      part = part/max(maxval(part), tiny(1.0_wp))
+      where (part < 0.1_wp) part = 0.0_wp
+      call set_error(error, exit_assembly, "no static equilibrium was found: "//real_text(equilibrium%unbalanced, 3)// &
+                     " of the largest load is out of balance after "//to_text(equilibrium%steps)//" steps"//new_line("a")// &
+                     "  = loads still move "//moving_bodies(system, part)//new_line("a")// &
+                     "  = hold what can fall or turn freely by a joint, spring or driver; begin nearer to the equilibrium; or "// &
+                     "allow more maximum_iterations or a larger tolerance in [analysis.static]")
+   end subroutine refuse
+
+   !> One sample of all channels, at rest at t = 0.
+   subroutine record_equilibrium(system, equilibrium, recorder, summary, error)
+      type(planar_system_t), intent(inout) :: system      !! the system that was searched
+      type(equilibrium_t), intent(in) :: equilibrium      !! what was found
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(summary_t), intent(out) :: summary             !! cost and errors
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+
+      type(balance_t) :: balance
+      type(catalogue_t) :: catalogue
+      type(energy_t) :: energy
+      type(error_t), allocatable :: late_error
+      real(wp) :: rest(size(equilibrium%q)), unbalanced, y(2*size(equilibrium%q))
+
+      call build_catalogue(system, catalogue)
+      rest = 0.0_wp
+      y = [equilibrium%q, rest]
+      call evaluate_balance(system, equilibrium%q, balance)
+      call find_reactions(system, rest, unbalanced)
+      system%phi_dot = 0.0_wp
+      allocate (summary%warnings(0))
+      if (equilibrium%warning /= "") call append_text(summary%warnings, equilibrium%warning)
+      summary%method = "relaxation"
+      if (equilibrium%is_polished) summary%method = "kinsol"
+      summary%equilibrium = equilibrium%words//"; "//real_text(equilibrium%unbalanced, 2)//" of the largest load out of balance"
+      summary%tolerance = equilibrium%tolerance
+      summary%steps = int(equilibrium%steps, i8)
+      summary%rhs_evaluations = equilibrium%n_evaluations
+      summary%ledger = .false.
+      summary%energy_residual_max = not_a_number()
+      energy = energy_of(system, y)
+      summary%energy_max = energy%elastic
+      if (system%rows%n > 0) summary%violation_max = maxval(abs(system%rows%phi))
+      summary%cpu_seconds = equilibrium%cpu_seconds
+      summary%wall_seconds = equilibrium%cpu_seconds
+      call recorder%start(catalogue, error)
+      if (.not. allocated(error)) then
+         call fill_catalogue(system, 0.0_wp, y, 0.0_wp, catalogue)
+         call recorder%sample(0.0_wp, catalogue, error)
+         if (.not. allocated(error)) summary%samples = 1
+      end if
+      summary%status = status_complete
+      summary%message = ""
+      if (allocated(error)) then
+         summary%status = status_failed
+         summary%message = error%message
+      end if
+      call recorder%finish(summary, late_error)
+      if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
+   end subroutine record_equilibrium
+
+end module static

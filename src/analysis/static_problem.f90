@@ -1,0 +1,170 @@
+!> Equilibrium at rest: what is out of balance at a position, and how it changes with the position.
+!>
+!> $$ r = g(q) - \Phi_q^T \lambda = 0, \quad \Phi(q, 0) = 0 $$
+!>
+!> with velocities and accelerations zero and forces at t = 0. Loose joints act by the elastic force of their
+!> penetration. Positions are scaled, lengths by the size of the bodies, angles by a radian, so that
+!> every entry of r and of the tangent stiffness K = -dr/dq (lambda held) is a moment.
+!>
+!> The equilibrium is stable if the symmetric part of N^T K N is positive definite, N the motions that the
+!> rows leave free. Source: Flores et al. (2008), eq. (2.14) with v = a = 0; Nocedal and Wright, Numerical
+!> Optimization (2006), section 12.5 (second-order conditions). Limits: dense; friction and damping give no
+!> force at rest.
+module static_problem
+   use consistent_start, only: evaluate_rows, scaled_jacobian
+   use inverse_dynamics, only: find_loads, find_reactions
+   use kinds, only: i8, wp
+   use lapack, only: dsyev, dsygv
+   use mobility, only: split_space
+   use planar_system, only: planar_system_t
+   implicit none (type, external)
+   private
+   public :: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, square_frequencies
+   public :: unbalanced_load
+
+   real(wp), parameter :: difference = 1.0e-7_wp  !! step of the central differences, of the size or a radian [1]
+
+   !> The balance at a position.
+   type :: balance_t
+      real(wp), allocatable :: load(:)        !! (3 bodies) what is out of balance, r [N.m]
+      real(wp), allocatable :: free(:, :)     !! (3 bodies, freedoms) motions that the rows leave free, N [1]
+      real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
+      real(wp), allocatable :: modes(:, :)    !! (3 bodies, freedoms) the motions that belong to them [1]
+      integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
+   end type balance_t
+
+contains
+
+   !> Scales of the coordinates: the size of the bodies for lengths, one for angles.
+   pure function position_scale(system) result(scale)
+      class(planar_system_t), intent(in) :: system   !! the system
+      real(wp) :: scale(3*system%n_body)             !! (3 bodies) scales [m, m, rad]
+
+      scale = system%length_scale
+      scale(3::3) = 1.0_wp
+   end function position_scale
+
+   !> Rows and loads at rest at a position, contacts touching where they penetrate.
+   subroutine look_at(system, q)
+      class(planar_system_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
+      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+
+      real(wp) :: delta(system%n_loose), rate(system%n_loose), rest(size(q))
+      integer :: i, k
+
+      rest = 0.0_wp
+      call evaluate_rows(system, 0.0_wp, q, rest)
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            call set%gaps(system%motion, delta, rate)
+            do i = 1, set%n
+               set%contact(i)%is_touching = delta(set%first + i) > 0.0_wp
+            end do
+            set%n_touching = count(set%contact%is_touching)
+         end associate
+      end do
+      call find_loads(system, 0.0_wp)
+   end subroutine look_at
+
+   !> Loads less reactions for given multipliers, after `look_at`.
+   function unbalanced_load(system) result(load)
+      class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
+      real(wp) :: load(3*system%n_body)              !! (3 bodies) what is out of balance, scaled [N.m]
+
+      integer :: body, row, side
+
+      load = reshape(system%g(:, 1:), [size(load)])
+      do row = 1, system%rows%n
+         do side = 1, 2
+            body = system%rows%body(side, row)
+            if (body == 0) cycle
+            load(3*body - 2:3*body) = load(3*body - 2:3*body) - system%rows%jac(3*side - 2:3*side, row)*system%lambda(row)
+         end do
+      end do
+      load = load*position_scale(system)
+   end function unbalanced_load
+
+   !> The largest of weights, present loads and present reactions: what `unbalanced` is measured by.
+   real(wp) function load_scale(system)
+      class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
+
+      real(wp) :: rest(3*system%n_body), weights(3*system%n_body), loads(3*system%n_body)
+
+      rest = unbalanced_load(system)
+      weights = reshape(system%weight(:, 1:), [size(weights)])*position_scale(system)
+      loads = reshape(system%g(:, 1:), [size(loads)])*position_scale(system)
+      load_scale = max(norm2(weights), norm2(loads), norm2(loads - rest))
+   end function load_scale
+
+   !> The balance at a position, with the multipliers that fit it best. No stiffness yet.
+   subroutine evaluate_balance(system, q, balance)
+      class(planar_system_t), intent(inout) :: system  !! the system; all is set, lambda too
+      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+      type(balance_t), intent(inout) :: balance        !! the load out of balance is set
+
+      real(wp) :: rest(size(q)), unbalanced
+
+      rest = 0.0_wp
+      call look_at(system, q)
+      balance%n_evaluations = balance%n_evaluations + 1_i8
+      call find_reactions(system, rest, unbalanced)
+      balance%load = unbalanced_load(system)
+   end subroutine evaluate_balance
+
+   !> Free motions and the tangent stiffness against them, by central differences of r with lambda held.
+   subroutine free_stiffness(system, q, balance)
+      class(planar_system_t), intent(inout) :: system  !! the system, balance evaluated at the positions
+      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+      type(balance_t), intent(inout) :: balance        !! free motions, stiffness and modes are set
+
+      real(wp), allocatable :: jac(:, :), k_free(:, :), left(:, :), slope(:, :), work(:)
+      real(wp) :: above(size(q)), q_near(size(q)), scale(size(q))
+      integer :: info, k, n, rank
+
+      call scaled_jacobian(system, jac)
+      call split_space(jac, rank, left, balance%free)
+      n = size(balance%free, 2)
+      scale = position_scale(system)
+      allocate (slope(size(q), n), work(max(1, 64*n)), source=0.0_wp)
+      do k = 1, n
+         q_near = q + difference*scale*balance%free(:, k)
+         call look_at(system, q_near)
+         above = unbalanced_load(system)
+         q_near = q - difference*scale*balance%free(:, k)
+         call look_at(system, q_near)
+         slope(:, k) = (unbalanced_load(system) - above)/(2.0_wp*difference)
+      end do
+      call look_at(system, q)
+      balance%n_evaluations = balance%n_evaluations + int(2*n + 1, i8)
+      k_free = matmul(transpose(balance%free), slope)
+      k_free = 0.5_wp*(k_free + transpose(k_free))
+      if (allocated(balance%stiffness)) deallocate (balance%stiffness)
+      allocate (balance%stiffness(n), source=0.0_wp)
+      if (n > 0) call dsyev("V", "U", n, k_free, n, balance%stiffness, work, size(work), info)
+      balance%modes = matmul(balance%free, k_free)
+   end subroutine free_stiffness
+
+   !> Squares of the natural frequencies without damping, ascending; negative where a push grows.
+   !>
+   !> K w = omega^2 N^T M N w, K diagonal in the modes.
+   function square_frequencies(system, balance) result(square)
+      class(planar_system_t), intent(in) :: system      !! the system, for the masses
+      type(balance_t), intent(in) :: balance            !! with stiffness and modes
+      real(wp) :: square(size(balance%stiffness))       !! (freedoms) squares [1/s^2]
+
+      real(wp), allocatable :: k_free(:, :), m_free(:, :), mass(:), work(:)
+      integer :: info, k, n
+
+      n = size(square)
+      square = 0.0_wp
+      if (n == 0) return
+      mass = position_scale(system)**2*reshape(system%mass, [3*system%n_body])
+      allocate (k_free(n, n), work(64*n), source=0.0_wp)
+      do k = 1, n
+         k_free(k, k) = balance%stiffness(k)
+      end do
+      m_free = matmul(transpose(balance%modes), spread(mass, 2, n)*balance%modes)
+      call dsygv(1, "N", "U", n, k_free, n, m_free, n, square, work, size(work), info)
+   end function square_frequencies
+
+end module static_problem

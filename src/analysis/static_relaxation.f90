@@ -1,0 +1,140 @@
+!> Descent to an equilibrium from a poor start.
+!>
+!> Each step goes along s = sum of modes (f_k / |K_k|), f_k the load out of balance along mode k, K_k its tangent
+!> stiffness: Newton's step where the stiffness is positive, downhill where it is negative, so that an unstable
+!> equilibrium is left unless the search begins exactly in it. No body turns by more than 0.3 rad in a step, or
+!> moves by more than 0.3 of the extent of the mechanism and ten sizes of its bodies; a step is shortened until the
+!> loads at its end no longer work against it by more than half of what they do for it at its begin. Then
+!> the ideal joints are closed again.
+!>
+!> Source: Nocedal and Wright, Numerical Optimization (2006), sections 3.4 (modified Newton), 6.2 and 15.3 (null
+!> space); Dauphin et al. (2014), the absolute value of the curvature. Limits: loads that do work in a closed
+!> path may keep it from settling.
+module static_relaxation
+   use kinds, only: eps, wp
+   use planar_system, only: planar_system_t
+   use prescribed_motion, only: newton_t, not_finite_rows, open_rows, solve_positions
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale
+   implicit none (type, external)
+   private
+   public :: least_unbalance, relax
+
+   real(wp), parameter :: longest_step = 0.3_wp    !! turn of a body, or motion over the extent [1]
+   real(wp), parameter :: sizes = 10.0_wp          !! sizes of the bodies that count as extent at least [1]
+   real(wp), parameter :: least_part = 1.0e-13_wp  !! stiffness that counts, of the largest [1]
+   integer, parameter :: n_search = 60             !! lengths of a step tried
+
+contains
+
+   !> Go downhill until the unbalanced load is below a part of the loads.
+   subroutine relax(system, part, most, q, balance, steps, is_settled)
+      class(planar_system_t), intent(inout) :: system  !! the system, positions assembled
+      real(wp), intent(in) :: part                     !! unbalanced load allowed, of the largest [1]
+      integer, intent(in) :: most                      !! steps allowed
+      real(wp), intent(inout) :: q(:)                  !! (3 bodies) positions, moved [m, m, rad]
+      type(balance_t), intent(inout) :: balance        !! at the positions
+      integer, intent(inout) :: steps                  !! steps made so far
+      logical, intent(out) :: is_settled               !! the load is below
+
+      real(wp) :: direction(size(q))
+
+      call evaluate_balance(system, q, balance)
+      do
+         call free_stiffness(system, q, balance)
+         is_settled = norm2(balance%load) <= part*load_scale(system) + least_unbalance(balance)
+         if (is_settled .or. steps >= most) return
+         call downhill(balance, extent_of(system, q), direction)
+         call go_along(system, direction, q, balance)
+         steps = steps + 1
+      end do
+   end subroutine relax
+
+   !> Load that the round-off of the positions puts out of balance.
+   pure real(wp) function least_unbalance(balance) result(load)
+      type(balance_t), intent(in) :: balance  !! with its stiffness
+
+      load = 0.0_wp
+      if (size(balance%stiffness) > 0) load = 8.0_wp*eps*maxval(abs(balance%stiffness))
+   end function least_unbalance
+
+   !> Extent of the mechanism in sizes of its bodies.
+   pure real(wp) function extent_of(system, q) result(extent)
+      class(planar_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: q(:)                  !! (3 bodies) positions [m, m, rad]
+
+      extent = sizes + max(maxval(q(1::3)) - minval(q(1::3)), maxval(q(2::3)) - minval(q(2::3)))/system%length_scale
+   end function extent_of
+
+   !> The step, along each mode and in all not longer than allowed.
+   pure subroutine downhill(balance, extent, direction)
+      type(balance_t), intent(in) :: balance      !! load, stiffness and modes
+      real(wp), intent(in) :: extent              !! of the mechanism, in sizes of its bodies [1]
+      real(wp), intent(out) :: direction(:)       !! (3 bodies) scaled step [1]
+
+      real(wp) :: floor_stiffness, force, part(size(direction))
+      integer :: k
+
+      direction = 0.0_wp
+      floor_stiffness = max(least_part*maxval(abs(balance%stiffness)), norm2(balance%load)*least_part, tiny(1.0_wp))
+      do k = 1, size(balance%stiffness)
+         force = dot_product(balance%modes(:, k), balance%load)
+         part = balance%modes(:, k)*(force/max(abs(balance%stiffness(k)), floor_stiffness))
+         direction = direction + shortened(part, extent)
+      end do
+      direction = shortened(direction, extent)
+   end subroutine downhill
+
+   !> A step not longer than allowed.
+   pure function shortened(step, extent) result(short)
+      real(wp), intent(in) :: step(:)             !! (3 bodies) scaled step [1]
+      real(wp), intent(in) :: extent              !! of the mechanism, in sizes of its bodies [1]
+      real(wp) :: short(size(step))               !! (3 bodies) in the same direction [1]
+
+      real(wp) :: length
+
+      length = max(maxval(abs(step(3::3))), maxval(abs(step(1::3)))/extent, maxval(abs(step(2::3)))/extent)
+      short = step*(longest_step/max(length, longest_step))
+   end function shortened
+
+   !> Move along a step, shortened where the loads turn against it.
+   subroutine go_along(system, direction, q, balance)
+      class(planar_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: direction(:)             !! (3 bodies) scaled step [1]
+      real(wp), intent(inout) :: q(:)                  !! (3 bodies) positions, moved [m, m, rad]
+      type(balance_t), intent(inout) :: balance        !! at the positions
+
+      type(newton_t) :: newton
+      real(wp) :: high, low, part, push, push_0, push_high, push_low, q_new(size(q))
+      integer :: k, outcome
+
+      push_0 = dot_product(direction, balance%load)
+      low = 0.0_wp
+      push_low = push_0
+      high = 0.0_wp
+      push_high = 0.0_wp
+      part = 1.0_wp
+      do k = 1, n_search
+         q_new = q + part*direction*position_scale(system)
+         call solve_positions(system, 0.0_wp, newton, q_new, outcome)
+         if (outcome == open_rows .or. outcome == not_finite_rows) then
+            high = part
+            push_high = -push_0
+         else
+            call evaluate_balance(system, q_new, balance)
+            push = dot_product(direction, balance%load)
+            if (push >= -0.5_wp*push_0 .and. (push <= 0.5_wp*push_0 .or. high <= 0.0_wp)) exit
+            if (push > 0.0_wp) then
+               low = part
+               push_low = push
+            else
+               high = part
+               push_high = push
+            end if
+         end if
+         part = low + (high - low)*max(0.1_wp, min(0.5_wp, push_low/(push_low - push_high)))
+      end do
+      if (k > n_search) call evaluate_balance(system, q_new, balance)
+      q = q_new
+   end subroutine go_along
+
+end module static_relaxation

@@ -1,0 +1,130 @@
+!> Kinematic analysis at one instant: positions, velocities and accelerations that the rows determine.
+!>
+!> Positions by Newton's iteration, Phi_q dq = -Phi(q, t), until Phi is at round-off; velocities
+!> Phi_q v = -Phi_t and accelerations Phi_q a = gamma in one step each, with one refinement.
+!> Redundant rows do no harm as long as they agree (least squares by singular values). Where branches of the
+!> motion meet the rows are closed to second order by any position nearby, so that positions are known only to the
+!> square root of round-off, and rates not at all: such an instant is called singular.
+!>
+!> Source: Flores et al. (2008), section 2.2, eqs. (2.9)-(2.11), figure 2.5. Limits: as many independent rows as
+!> coordinates; a position near the one given.
+module prescribed_motion
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use consistent_start, only: evaluate_rows, least_correction, limit_step, rates, row_scale, worst_violation
+   use kinds, only: i8, wp
+   use planar_system, only: planar_system_t
+   implicit none (type, external)
+   private
+   public :: newton_t, solve_positions, solve_rates
+   public :: solved, open_rows, singular, contradictory, not_finite_rows
+
+   integer, parameter :: solved = 0            !! outcome: done
+   integer, parameter :: open_rows = 1         !! outcome: Newton's iteration did not close the rows
+   integer, parameter :: singular = 2          !! outcome: fewer independent rows than coordinates
+   integer, parameter :: contradictory = 3     !! outcome: no rates fulfil all rows
+   integer, parameter :: not_finite_rows = 4   !! outcome: a row is not a finite number
+
+   real(wp), parameter :: round_off = 1.0e-15_wp     !! scaled violation at which Newton stops early [1]
+   real(wp), parameter :: near_singular = 1.0e-6_wp  !! ratio of singular values below which positions, known to round-off, do
+                                                     !! not tell rates any more, because they sit where the ratio is zero [1]
+   real(wp), parameter :: contradiction = 1.0e-8_wp  !! scaled rate left, of the largest, that cannot be round-off [1]
+
+   !> Controls and cost of Newton's iteration.
+   type :: newton_t
+      real(wp) :: tolerance = 1.0e-10_wp       !! greatest scaled violation that counts as closed [1]
+      integer :: most = 25                     !! corrections allowed
+      integer(i8) :: n_solved = 0              !! linear equations solved so far
+   end type newton_t
+
+contains
+
+   !> Positions at a time, from a guess.
+   subroutine solve_positions(system, t, newton, q, outcome)
+      class(planar_system_t), intent(inout) :: system  !! the system, all joints ideal; rows are evaluated
+      real(wp), intent(in) :: t                        !! time [s]
+      type(newton_t), intent(inout) :: newton          !! controls and cost
+      real(wp), intent(inout) :: q(:)                  !! (3 bodies) guess, then positions [m, m, rad]
+      integer, intent(out) :: outcome                  !! one of the above
+
+      real(wp) :: before, correction(size(q)), ease(size(q)), now, rest(size(q))
+      integer :: k, rank
+
+      ease = 1.0_wp
+      rest = 0.0_wp
+      before = huge(1.0_wp)
+      rank = size(q)
+      outcome = solved
+      do k = 0, newton%most
+         call evaluate_rows(system, t, q, rest)
+         if (.not. (all(ieee_is_finite(system%rows%phi)) .and. all(ieee_is_finite(system%rows%jac)))) then
+            outcome = not_finite_rows
+            return
+         end if
+         now = worst_violation(system)
+         if (now <= round_off .or. (now <= newton%tolerance .and. now >= 0.5_wp*before)) exit
+         if (k == newton%most) exit
+         before = now
+         call least_correction(system, -system%rows%phi, ease, correction, rank)
+         newton%n_solved = newton%n_solved + 1_i8
+         q = q + limit_step(correction)
+      end do
+      if (rank < size(q)) outcome = singular
+      if (now > newton%tolerance) outcome = open_rows
+   end subroutine solve_positions
+
+   !> Velocities and accelerations at solved positions.
+   subroutine solve_rates(system, t, newton, q, v, a, outcome)
+      class(planar_system_t), intent(inout) :: system  !! the system; rows, phi_dot and motion are set
+      real(wp), intent(in) :: t                        !! time [s]
+      type(newton_t), intent(inout) :: newton          !! cost
+      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+      real(wp), intent(out) :: v(:)                    !! (3 bodies) velocities [m/s, m/s, rad/s]
+      real(wp), intent(out) :: a(:)                    !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      integer, intent(out) :: outcome                  !! one of the above
+
+      real(wp) :: left(system%rows%n)
+
+      v = 0.0_wp
+      call evaluate_rows(system, t, q, v)
+      call refine(system, newton, -system%rows%phi_t, v, left, outcome)
+      call evaluate_rows(system, t, q, v)
+      call rates(system, v, system%phi_dot)
+      a = 0.0_wp
+      if (outcome /= solved) return
+      if (.not. all(ieee_is_finite(system%rows%gam))) then
+         outcome = not_finite_rows
+         return
+      end if
+      call refine(system, newton, system%rows%gam, a, left, outcome)
+   end subroutine solve_rates
+
+   !> Solve Phi_q x = right, with one refinement.
+   subroutine refine(system, newton, right, x, left, outcome)
+      class(planar_system_t), intent(in) :: system     !! the system, rows evaluated
+      type(newton_t), intent(inout) :: newton          !! cost
+      real(wp), intent(in) :: right(:)                 !! (rows) right-hand side [rates of the rows]
+      real(wp), intent(inout) :: x(:)                  !! (3 bodies) zero, then the solution [rates of the coordinates]
+      real(wp), intent(out) :: left(:)                 !! (rows) what is left of the right-hand side [rates of the rows]
+      integer, intent(out) :: outcome                  !! one of the above
+
+      real(wp) :: correction(size(x)), ease(size(x)), none(size(right))
+      integer :: k, rank
+
+      ease = 1.0_wp
+      none = system%rows%phi_t
+      do k = 1, 2
+         call rates(system, x, left)
+         call least_correction(system, right - (left - none), ease, correction, rank, near_singular)
+         newton%n_solved = newton%n_solved + 1_i8
+         x = x + correction
+      end do
+      call rates(system, x, left)
+      left = right - (left - none)
+      outcome = solved
+      if (maxval(abs(left)*row_scale(system)) > contradiction*(1.0_wp + maxval(abs(right)*row_scale(system)))) then
+         outcome = contradictory
+      end if
+      if (rank < size(x)) outcome = singular
+   end subroutine refine
+
+end module prescribed_motion
