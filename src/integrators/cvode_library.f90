@@ -23,10 +23,10 @@ module cvode_library
    use fsundials_nonlinearsolver_mod, only: fsunnonlinsolfree, sunnonlinearsolver
    use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
-   use fsunmatrix_dense_mod, only: fsundensematrix, fsundensematrix_data
+   use fsunmatrix_dense_mod, only: fsundensematrix
    use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
    use kinds, only: wp
-   use sundials_library, only: increments, library_t, problem_t
+   use sundials_library, only: dense_block, increments, library_t, note, problem_t
    implicit none (type, external)
    private
    public :: cvode_library_t
@@ -79,14 +79,6 @@ contains
       end if
       is_good = status == 0
    end subroutine cvode_begin
-
-   !> Keep the first failure.
-   pure subroutine note(outcome, status)
-      integer(c_int), intent(in) :: outcome   !! what a routine of the library returned
-      integer, intent(inout) :: status        !! 0: none so far
-
-      if (status == 0) status = int(outcome)
-   end subroutine note
 
    !> Make CVODE's objects.
    subroutine create(self, status)
@@ -193,7 +185,7 @@ contains
    ! ---- called by CVODE ----------------------------------------------------------------------------
 
    !> Right-hand side.
-   integer(c_int) function right_hand_side(t, y, ydot, user_data) bind(c) result(status)
+   integer(c_int) function right_hand_side(t, y, ydot, user_data) bind(c, name="") result(status)
       real(c_double), value :: t              !! time [s]
       type(n_vector), intent(inout) :: y      !! state
       type(n_vector), intent(inout) :: ydot   !! its derivative
@@ -211,7 +203,7 @@ contains
    end function right_hand_side
 
    !> Error weights.
-   integer(c_int) function weigh(y, weight, user_data) bind(c) result(status)
+   integer(c_int) function weigh(y, weight, user_data) bind(c, name="") result(status)
       type(n_vector), intent(inout) :: y        !! state
       type(n_vector), intent(inout) :: weight   !! its weights
       type(c_ptr), value :: user_data           !! the problem
@@ -227,7 +219,8 @@ contains
    end function weigh
 
    !> Jacobian of the right-hand side by forward differences.
-   integer(c_int) function differentiate(t, y, ydot, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c) result(status)
+   integer(c_int) function differentiate(t, y, ydot, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &
+      result(status)
       real(c_double), value :: t                     !! time [s]
       type(n_vector), intent(inout) :: y             !! state
       type(n_vector), intent(inout) :: ydot          !! its derivative
@@ -263,20 +256,8 @@ contains
       status = int(outcome, c_int)
    end function differentiate
 
-   !> The entries of a dense matrix.
-   subroutine dense_block(matrix, n, block)
-      type(sunmatrix), intent(inout) :: matrix                      !! (n, n) matrix
-      integer, intent(in) :: n                                      !! rows and columns
-      real(c_double), pointer, contiguous, intent(out) :: block(:, :)  !! (n, n) its entries [any]
-
-      real(c_double), pointer :: entries(:)
-
-      entries => fsundensematrix_data(matrix)
-      call c_f_pointer(c_loc(entries(1)), block, [n, n])
-   end subroutine dense_block
-
    !> The change of a state that holding it makes.
-   integer(c_int) function project(t, y, change, allowed, estimate, user_data) bind(c) result(status)
+   integer(c_int) function project(t, y, change, allowed, estimate, user_data) bind(c, name="") result(status)
       real(c_double), value :: t                  !! time [s]
       type(n_vector), intent(inout) :: y          !! state
       type(n_vector), intent(inout) :: change     !! what holding adds to it

@@ -8,14 +8,16 @@
 !> greatest entry: an accepted step satisfies every norm of the controls. Quadratures, and the
 !> multipliers of a constrained system, weigh next to nothing.
 module sundials_library
-   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
+   use fsundials_matrix_mod, only: sunmatrix
+   use fsunmatrix_dense_mod, only: fsundensematrix_data
    use integrator, only: advance_failed_evaluation, advance_too_many_evaluations, advance_too_small, integrator_t
    use kinds, only: eps, wp
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: increments, library_t, problem_t
+   public :: dense_block, increments, library_t, note, problem_t
 
    real(wp), parameter :: no_weight = 1.0e-30_wp  !! weight of what stays out of the norm; nought would be divided by [any]
 
@@ -157,6 +159,26 @@ contains
       ! what is added must be a number that the state can take up exactly
       increment(1:n) = (y(1:n) + increment(1:n)) - y(1:n)
    end subroutine increments
+
+   !> Keep the first failure.
+   pure subroutine note(outcome, status)
+      integer(c_int), intent(in) :: outcome   !! what a routine of the library returned
+      integer, intent(inout) :: status        !! 0: none so far
+
+      if (status == 0) status = int(outcome)
+   end subroutine note
+
+   !> The entries of a dense matrix.
+   subroutine dense_block(matrix, n, block)
+      type(sunmatrix), intent(inout) :: matrix                      !! (n, n) matrix
+      integer, intent(in) :: n                                      !! rows and columns
+      real(c_double), pointer, contiguous, intent(out) :: block(:, :)  !! (n, n) its entries [any]
+
+      real(c_double), pointer :: entries(:)
+
+      entries => fsundensematrix_data(matrix)
+      call c_f_pointer(c_loc(entries(1)), block, [n, n])
+   end subroutine dense_block
 
    !> Room for the problem, and the context.
    subroutine library_open(self, n)
