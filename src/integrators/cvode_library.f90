@@ -12,8 +12,8 @@
 !> solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
 module cvode_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
-   use fcvode_mod, only: cv_adams, cv_bdf, cv_first_rhsfunc_err, cv_one_step, cv_projfunc_fail, cv_rhsfunc_fail, &
-      cv_unrec_rhsfunc_err, fcvode, fcvodecreate, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, fcvodegetnumerrtestfails, &
+   use fcvode_mod, only: cv_adams, cv_bdf, cv_one_step, fcvode, fcvodecreate, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, &
+      fcvodegetnumerrtestfails, &
       fcvodegetnumnonlinsolvconvfails, fcvodeinit, fcvodereinit, fcvodeseterrfile, fcvodesetinitstep, fcvodesetjacfn, &
       fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, fcvodesetprojerrest, &
       fcvodesetprojfn, fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
@@ -126,8 +126,7 @@ contains
       state => fn_vgetarraypointer(self%state)
       y = state
       status = 0
-      if (outcome < 0) status = self%failure(any(outcome == [cv_rhsfunc_fail, cv_first_rhsfunc_err, cv_unrec_rhsfunc_err, &
-                                                             cv_projfunc_fail]))
+      if (outcome < 0) status = self%failure()
    end subroutine cvode_step
 
    !> State within the last step, by the polynomial of the method.
@@ -274,6 +273,7 @@ contains
       added => fn_vgetarraypointer(change)
       problem%held(:) = state
       call problem%system%hold(t, problem%held, outcome)
+      problem%is_fatal = problem%is_fatal .or. outcome < 0
       added(:) = problem%held - state
       status = int(outcome, c_int)
    end function project

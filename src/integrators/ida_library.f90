@@ -22,8 +22,7 @@ module ida_library
    use dae_system, only: dae_system_t
    use fida_mod, only: fidacreate, fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, &
       fidagetnumnonlinsolvconvfails, fidainit, fidareinit, fidaseterrfile, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, &
-      fidasetmaxstep, fidasetminstep, fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_first_res_fail, &
-      ida_one_step, ida_res_fail
+      fidasetmaxstep, fidasetminstep, fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
    use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
@@ -159,7 +158,7 @@ contains
       u => fn_vgetarraypointer(self%state)
       y = u(:size(y))
       status = 0
-      if (outcome < 0) status = self%failure(any(outcome == [ida_res_fail, ida_first_res_fail]))
+      if (outcome < 0) status = self%failure()
    end subroutine ida_step
 
    !> State within the last step, by the polynomial of the method.
@@ -233,6 +232,7 @@ contains
             call problem%count_evaluation(status)
             if (status == 0) call system%dae_residual(t, u(:n), rate(:n), u(n + 1:n + m), u(n + m + 1:), left(:n), &
                                                       left(n + 1:n + m), left(n + m + 1:), status)
+            problem%is_fatal = problem%is_fatal .or. status < 0
          class default
             call problem%evaluate(t, u, left, status)
             left = rate - left

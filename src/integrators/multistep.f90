@@ -126,7 +126,7 @@ contains
       status = advance_step
       associate (controls => self%controls)
          if (controls%maximum_steps > 0 .and. self%n_steps >= controls%maximum_steps) status = advance_too_many_steps
-         if (controls%maximum_evaluations > 0 .and. self%n_evaluations >= controls%maximum_evaluations) &
+         if (controls%maximum_evaluations > 0 .and. self%n_evaluations + 1 >= controls%maximum_evaluations) &
             status = advance_too_many_evaluations
       end associate
       if (status /= advance_step) return
@@ -165,6 +165,7 @@ contains
       status = advance_step
       if (self%is_fresh) then
          self%n_rejected_before = int(self%n_rejected)
+         self%library%problem%is_fatal = .false.
          call self%library%begin(min(self%first_step, t_stop - self%t), is_good)
          if (.not. is_good) status = advance_too_small
          self%is_fresh = .not. is_good
@@ -172,6 +173,8 @@ contains
       if (status == advance_step) then
          call system%set_step(self%library%next_step())
          call self%library%step(t_stop, t, self%trial, status)
+         ! the libraries go on without moving, and may try again what failed for good
+         if (status == advance_step .and. (t <= self%t .or. self%library%problem%is_fatal)) status = self%library%failure()
          self%n_rejected = self%n_rejected_before + self%library%n_rejected()
       end if
       self%has_polynomial = status == advance_step
@@ -201,6 +204,9 @@ contains
       self%n_steps = self%n_steps + 1
       call evaluate_end(self, system, status)
       if (status /= 0) then
+         ! the last good state stands
+         self%t = self%step%t0
+         self%step%y1 = self%step%y0
          status = advance_failed_evaluation
          return
       end if

@@ -27,6 +27,7 @@ module sundials_library
       class(integrator_t), pointer :: method => null()   !! the integrator, during a step
       logical :: holds_copies = .false.                  !! evaluate at a held copy of the state
       logical :: is_used_up = .false.                    !! no evaluation is left
+      logical :: is_fatal = .false.                      !! an evaluation failed for good
       real(wp), allocatable :: held(:)                   !! (n) the copy [any]
    contains
       procedure :: evaluate => problem_evaluate
@@ -115,15 +116,16 @@ contains
       else
          call self%system%evaluate(t, y, ydot, status)
       end if
+      self%is_fatal = self%is_fatal .or. status < 0
    end subroutine problem_evaluate
 
-   !> One more evaluation, if one is left.
+   !> One more evaluation, if one is left beside that of the end of the step.
    subroutine count_evaluation(self, status)
       class(problem_t), intent(inout) :: self  !! the problem
       integer, intent(out) :: status           !! 0, or -1 if none is left
 
       associate (most => self%method%controls%maximum_evaluations)
-         self%is_used_up = most > 0 .and. self%method%n_evaluations >= most
+         self%is_used_up = most > 0 .and. self%method%n_evaluations + 1 >= most
       end associate
       status = merge(-1, 0, self%is_used_up)
       if (status == 0) self%method%n_evaluations = self%method%n_evaluations + 1
@@ -204,11 +206,10 @@ contains
    end subroutine library_close
 
    !> What a failed step is called.
-   integer function library_failure(self, is_fatal) result(status)
+   integer function library_failure(self) result(status)
       class(library_t), intent(in) :: self   !! the library
-      logical, intent(in) :: is_fatal        !! an evaluation failed for good
 
-      status = merge(advance_failed_evaluation, advance_too_small, is_fatal)
+      status = merge(advance_failed_evaluation, advance_too_small, self%problem%is_fatal)
       if (self%problem%is_used_up) status = advance_too_many_evaluations
    end function library_failure
 
