@@ -32,7 +32,7 @@ module dae_system
          class(dae_system_t), intent(inout) :: self   !! the system
          real(wp), intent(in) :: t                    !! time [s]
          real(wp), intent(in), contiguous :: y(:)     !! (n) state [any]
-         real(wp), intent(in) :: ydot(:)              !! (n) its derivative [any]
+         real(wp), intent(in), contiguous :: ydot(:)  !! (n) its derivative [any]
          real(wp), intent(in) :: lambda(:)            !! (m) multipliers of the velocities [N or N.m]
          real(wp), intent(in) :: mu(:)                !! (m) multipliers of the positions [N.s or N.m.s]
          real(wp), intent(out), contiguous :: r_y(:)  !! (n) of the differential equations [any]
