@@ -430,6 +430,7 @@ contains
          call system%ideal(k)%set%declare_rows(system%rows)
       end do
       call list_sides(system%is_known, system%rows)
+      system%n_row = system%rows%n_solve
       allocate (system%phi_dot(n), system%b(n), system%lambda(n), source=0.0_wp)
    end subroutine declare_rows
 

@@ -14,6 +14,7 @@ module planar_system
    use augmented, only: augmented_t
    use bodies, only: bodies_t
    use clearance_set, only: clearance_slot_t
+   use dae_system, only: dae_system_t
    use force_set, only: force_slot_t
    use hold, only: hold_t
    use joint_set, only: joint_slot_t, rows_t
@@ -21,7 +22,6 @@ module planar_system
    use known_motion, only: find_multipliers, known_t, move_known
    use memory, only: get, put
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
-   use ode_system, only: ode_system_t
    use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates
    implicit none (type, external)
    private
@@ -40,7 +40,7 @@ module planar_system
    real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
 
    !> A planar scene.
-   type, extends(ode_system_t) :: planar_system_t
+   type, extends(dae_system_t) :: planar_system_t
       integer :: n_body = 0                              !! number of bodies
       type(bodies_t) :: bodies                           !! the bodies
       logical, allocatable :: is_known(:)                !! (bodies) whether the motion of a body is a known function of time
@@ -70,7 +70,6 @@ module planar_system
       type(rows_t) :: rows                               !! constraint rows
       real(wp), allocatable :: phi_dot(:)                !! (rows) rate of the violation [m/s or rad/s]
       real(wp), allocatable :: b(:)                      !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
-      real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       real(wp), allocatable :: g(:, :)                   !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
       real(wp), allocatable :: a(:, :)                   !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), allocatable :: held(:)                   !! (2 positions) state corrected for an evaluation [any]
@@ -81,6 +80,8 @@ module planar_system
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
       procedure :: evaluate => planar_evaluate
+      procedure :: dae_residual => planar_dae_residual
+      procedure, private :: ledger_rates
       procedure :: weights => planar_weights
       procedure :: events => planar_events
       procedure :: last_events => planar_last_events
@@ -98,6 +99,32 @@ module planar_system
       procedure :: save => planar_save
       procedure :: load => planar_load
    end type planar_system_t
+
+   interface
+      !> Motion, loads and solved rows at coordinates and rates as they are. Status 1 if a known motion is not finite.
+      module subroutine evaluate_terms(self, t, y, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in), contiguous :: y(:)       !! (2 positions or more) coordinates and rates [any]
+         integer, intent(out) :: status                 !! outcome
+      end subroutine evaluate_terms
+
+      !> What is left of the equations in the stabilised form of index 2.
+      module subroutine planar_dae_residual(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
+         real(wp), intent(in), contiguous :: ydot(:)    !! (n) its derivative [any]
+         real(wp), intent(in) :: lambda(:)              !! (rows) multipliers of the velocities [N or N.m]
+         real(wp), intent(in) :: mu(:)                  !! (rows) multipliers of the positions [N.s or N.m.s]
+         real(wp), intent(out), contiguous :: r_y(:)    !! (n) of the differential equations [any]
+         real(wp), intent(out) :: r_lambda(:)           !! (rows) rates of the violation [m/s or rad/s]
+         real(wp), intent(out) :: r_mu(:)               !! (rows) violations [m or rad]
+         integer, intent(out) :: status                 !! outcome
+      end subroutine planar_dae_residual
+   end interface
 
 contains
 
@@ -157,29 +184,16 @@ contains
       real(wp), intent(out), contiguous :: ydot(:)   !! (n) derivative of the state [any]
       integer, intent(out) :: status                 !! outcome
 
-      integer :: k, nq
+      integer :: nq
 
       nq = self%n_position
-      call self%set_motion(t, y)
-      self%bad_row = 0
-      status = merge(0, 1, self%known%is_finite)
-      if (status /= 0) return
-      call start_loads(self%n_body, self%weight, self%loads%force, self%loads%moment)
-      self%load_power = 0.0_wp
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%evaluate(t, self%motion, self%loads, self%load_power)
-      end do
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
-      end do
-      call self%evaluate_rows(t)
-      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
-      call find_accelerations(self, self%g, status)
+      call evaluate_terms(self, t, y, status)
+      if (status == 0) call find_accelerations(self, self%g, status)
       if (status /= 0) return
       call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, y(nq + 1:2*nq), self%a, ydot, status)
       if (.not. self%with_ledger) return
       if (self%known%n > 0) call self%find_reactions(t)
-      call ledger_rates(self, ydot(2*nq + 1:))
+      call self%ledger_rates(ydot(2*nq + 1:))
    end subroutine evaluate_state
 
    !> Solved rows, rates of their violations and right-hand sides at the present motion.

@@ -1,5 +1,8 @@
 !> The integrators: two lines each (`use`, `case`).
 module integrator_registry
+   use adams, only: adams_t
+   use bdf, only: bdf_t
+   use ida, only: ida_t
    use integrator, only: integrator_t
    use kind_info, only: kind_info_t
    use rk4, only: rk4_t
@@ -8,7 +11,7 @@ module integrator_registry
    private
    public :: find_integrator, n_integrator_kinds, new_integrator
 
-   integer, parameter :: n_integrator_kinds = 2  !! number of methods
+   integer, parameter :: n_integrator_kinds = 5  !! number of methods
 
 contains
 
@@ -20,6 +23,9 @@ contains
       select case (k)
       case (1); allocate (verner_t :: method)
       case (2); allocate (rk4_t :: method)
+      case (3); allocate (adams_t :: method)
+      case (4); allocate (bdf_t :: method)
+      case (5); allocate (ida_t :: method)
       end select
    end subroutine new_integrator
 

@@ -1,10 +1,11 @@
 !> Verner's method: its order, its error estimate, its norms.
 module test_verner
    use check, only: check_close, check_equal, check_true, suite_t
+   use convergence, only: check_order, converge
    use errors, only: error_t
    use integrator, only: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    use kinds, only: eps, wp
-   use ode_examples, only: growth_t, kepler_t, new_kepler, new_pendulum, pendulum_t, power_t, run_to, slope
+   use ode_examples, only: growth_t, kepler_t, new_kepler, new_pendulum, pendulum_t, power_t, run_to
    use ode_system, only: ode_system_t
    use verner, only: verner_t
    implicit none (type, external)
@@ -29,43 +30,6 @@ contains
       call suite%test("refine_gives_the_methods_own_state", test_refine)
    end subroutine run_test_verner
 
-   !> Errors at the end of fixed-step integrations with 1, 2, 4 ... times `n_step` steps.
-   subroutine converge(system, y, t_end, exact, n_step, errors)
-      class(ode_system_t), intent(inout) :: system        !! the system
-      real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
-      real(wp), intent(in) :: t_end                       !! end [s]
-      real(wp), intent(in) :: exact(:)                    !! (n) exact state there [any]
-      integer, intent(in) :: n_step                       !! steps of the coarsest
-      real(wp), intent(out) :: errors(:, :)               !! (n, levels) absolute errors [any]
-
-      type(verner_t), allocatable :: method
-      integer :: k, status
-
-      do k = 1, size(errors, 2)
-         allocate (method)
-         method%controls%fixed_step = t_end/real(n_step*2**(k - 1), wp)
-         call method%start(system, 0.0_wp, y, t_end, status)
-         call run_to(method, system, t_end, status)
-         errors(:, k) = abs(method%step%y1 - exact)
-         deallocate (method)
-      end do
-   end subroutine converge
-
-   !> The last two observed orders must lie between two bounds.
-   subroutine check_order(error, errors, least, most, what)
-      type(error_t), allocatable, intent(inout) :: error   !! first failure
-      real(wp), intent(in) :: errors(:)                    !! (levels) errors, the step halved each time [any]
-      real(wp), intent(in) :: least, most                  !! bounds of the order [1]
-      character(*), intent(in) :: what                     !! what converges
-
-      integer :: n
-
-      n = size(errors)
-      associate (order => slope(errors(n - 2:n - 1), errors(n - 1:n)))
-         call check_close(error, order, [0.5_wp, 0.5_wp]*(least + most), 0.5_wp*(most - least), what)
-      end associate
-   end subroutine check_order
-
    subroutine test_order_on_an_ellipse(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -73,7 +37,7 @@ contains
       real(wp) :: errors(4, n_halving), y(4)
 
       call new_kepler(0.2_wp, system, y)
-      call converge(system, y, 5.0_wp, system%exact(5.0_wp), 40, errors)
+      call converge("verner", system, y, 5.0_wp, system%exact(5.0_wp), 40, errors)
       call check_order(error, norm2(errors(1:2, :), dim=1), 5.8_wp, 6.4_wp, "position")
       call check_order(error, norm2(errors(3:4, :), dim=1), 5.8_wp, 6.4_wp, "velocity")
       call check_true(error, maxval(errors(:, n_halving)) < 1.0e-9_wp, "small error with 320 steps")
@@ -87,7 +51,7 @@ contains
       real(wp) :: errors(4, n_halving)
 
       call new_pendulum(0.9_wp, .true., system, y)
-      call converge(system, y, 5.0_wp, system%exact(5.0_wp), 20, errors)
+      call converge("verner", system, y, 5.0_wp, system%exact(5.0_wp), 20, errors)
       call check_order(error, errors(1, :), 5.8_wp, 6.5_wp, "position")
       call check_order(error, errors(2, :), 5.8_wp, 6.5_wp, "velocity")
       call check_order(error, errors(3, :), 5.8_wp, 6.5_wp, "first quadrature")

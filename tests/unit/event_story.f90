@@ -2,10 +2,9 @@
 module event_story
    use check, only: check_close, check_equal, check_true
    use errors, only: error_t
-   use integrator, only: advance_event
+   use integrator, only: advance_event, integrator_t
    use kinds, only: wp
    use ode_examples, only: particles_t
-   use verner, only: verner_t
    implicit none (type, external)
    private
    public :: check_story, run_through, story_t
@@ -30,7 +29,7 @@ contains
       type(particles_t), intent(inout) :: system         !! the system
       real(wp), intent(in) :: y(:)                       !! (n) state at t = 0 [any]
       real(wp), intent(in) :: t_end                      !! end [s]
-      type(verner_t), intent(inout) :: method            !! the integrator, with its controls
+      class(integrator_t), intent(inout) :: method       !! the integrator, with its controls
       type(story_t), intent(out) :: story                !! what happened
       real(wp), intent(in), optional :: restitution      !! the particles bounce instead of going on [1]
 

@@ -1,0 +1,112 @@
+!> A planar scene in the stabilised form of index 2, see `dae_system`, and the terms that it shares with the ordinary form.
+!>
+!> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
+submodule(planar_system) planar_dae
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   implicit none (type, external)
+
+contains
+
+   !> Motion, loads and solved rows.
+   module procedure evaluate_terms
+      integer :: k
+
+      call self%set_motion(t, y)
+      self%bad_row = 0
+      status = merge(0, 1, self%known%is_finite)
+      if (status /= 0) return
+      call start_loads(self%n_body, self%weight, self%loads%force, self%loads%moment)
+      self%load_power = 0.0_wp
+      do k = 1, size(self%forces)
+         call self%forces(k)%set%evaluate(t, self%motion, self%loads, self%load_power)
+      end do
+      do k = 1, size(self%clearances)
+         call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
+      end do
+      call self%evaluate_rows(t)
+      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
+   end procedure evaluate_terms
+
+   !> What is left of the equations.
+   module procedure planar_dae_residual
+      integer :: m, n
+
+      n = self%rows%n_unknown
+      m = self%n_row
+      self%n_evaluations = self%n_evaluations + 1
+      call evaluate_terms(self, t, y, status)
+      if (status /= 0) return
+      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac, self%inverse_mass, lambda, self%a)
+      call remains(n, self%rows%unknown, self%n_body, y, ydot, self%inverse_mass, self%g, self%a, r_y)
+      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac, self%inverse_mass, mu, self%a)
+      call add_positions(n, self%rows%unknown, self%n_body, self%a, r_y)
+      if (self%with_ledger) then
+         self%lambda(:m) = lambda
+         if (self%known%n > 0) call self%find_reactions(t)
+         call self%ledger_rates(r_y(6*n + 1:))
+         r_y(6*n + 1:) = ydot(6*n + 1:) - r_y(6*n + 1:)
+      end if
+      r_lambda = self%phi_dot(:m)
+      r_mu = self%rows%phi(:m)
+      if (.not. all(ieee_is_finite(r_y(:6*n)))) status = 1
+   end procedure planar_dae_residual
+
+   !> M^{-1} Phi_q^T x.
+   pure subroutine spread_rows(n_body, n_row, n_side, side, jac, inverse_mass, x, z)
+      integer, intent(in) :: n_body                    !! number of bodies
+      integer, intent(in) :: n_row                     !! number of rows
+      integer, intent(in) :: n_side                    !! their sides that are unknown bodies
+      integer, intent(in) :: side(3, n_side)           !! (3, sides) row, place in the Jacobian, body
+      real(wp), intent(in) :: jac(*)                   !! (6 rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: inverse_mass(3, 0:n_body)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in) :: x(n_row)                 !! (rows) multipliers [any]
+      real(wp), intent(out) :: z(3, 0:n_body)          !! (3, 0:bodies) what they do to the rates [any]
+
+      integer :: body, k, place
+
+      z = 0.0_wp
+      do k = 1, n_side
+         place = side(2, k)
+         body = side(3, k)
+         z(:, body) = z(:, body) + jac(place + 1:place + 3)*x(side(1, k))
+      end do
+      z = z*inverse_mass
+   end subroutine spread_rows
+
+   !> Residual of coordinates and rates without mu: q' - v, v' - M^{-1} g + M^{-1} Phi_q^T lambda.
+   pure subroutine remains(n, unknown, n_body, y, ydot, inverse_mass, g, z, r)
+      integer, intent(in) :: n                         !! number of unknown bodies
+      integer, intent(in) :: unknown(n)                !! (n) their numbers
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(in) :: y(3, 2*n)                !! (3, 2 n) coordinates, then rates [any]
+      real(wp), intent(in) :: ydot(3, 2*n)             !! (3, 2 n) derivatives [any]
+      real(wp), intent(in) :: inverse_mass(3, 0:n_body)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in) :: g(3, 0:n_body)           !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
+      real(wp), intent(in) :: z(3, 0:n_body)           !! (3, 0:bodies) M^{-1} Phi_q^T lambda [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout) :: r(3, 2*n)             !! (3, 2 n) residual [any]
+
+      integer :: body, k
+
+      do k = 1, n
+         body = unknown(k)
+         r(:, k) = ydot(:, k) - y(:, n + k)
+         r(:, n + k) = ydot(:, n + k) - inverse_mass(:, body)*g(:, body) + z(:, body)
+      end do
+   end subroutine remains
+
+   !> Add M^{-1} Phi_q^T mu to the residual of the coordinates.
+   pure subroutine add_positions(n, unknown, n_body, z, r)
+      integer, intent(in) :: n                         !! number of unknown bodies
+      integer, intent(in) :: unknown(n)                !! (n) their numbers
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(in) :: z(3, 0:n_body)           !! (3, 0:bodies) M^{-1} Phi_q^T mu [m/s, m/s, rad/s]
+      real(wp), intent(inout) :: r(3, n)               !! (3, n) residual of the coordinates [m/s, m/s, rad/s]
+
+      integer :: k
+
+      do k = 1, n
+         r(:, k) = r(:, k) + z(:, unknown(k))
+      end do
+   end subroutine add_positions
+
+end submodule planar_dae

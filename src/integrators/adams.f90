@@ -1,0 +1,47 @@
+!> Adams' method in Nordsieck's form, variable order 1 to 12 and variable step, by SUNDIALS' CVODE.
+!>
+!> For smooth motion and small tolerances: one or two evaluations a step. Every event costs a new
+!> beginning at order 1. Not for stiff equations: the fixed-point iteration keeps the step short.
+!>
+!> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
+!> (docs/accuracy.md has the figures).
+!>
+!> Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396.
+module adams
+   use cvode_library, only: cvode_library_t
+   use kind_info, only: kind_info_t
+   use multistep, only: multistep_t
+   implicit none (type, external)
+   private
+   public :: adams_t
+
+   !> The method.
+   type, extends(multistep_t) :: adams_t
+   contains
+      procedure, nopass :: info => adams_info
+      procedure :: make_library => adams_make_library
+   end type adams_t
+
+contains
+
+   !> What the method says of itself.
+   function adams_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "adams"
+      info%help = "Adams's method of variable order and step (CVODE): implicit, for smooth motion at small tolerances"
+      info%source = "Hindmarsh et al. (2005)"
+   end function adams_info
+
+   !> CVODE.
+   subroutine adams_make_library(self)
+      class(adams_t), intent(inout) :: self  !! the integrator
+
+      type(cvode_library_t), allocatable :: library
+
+      allocate (library)
+      library%is_stiff = .false.
+      call move_alloc(library, self%library)
+   end subroutine adams_make_library
+
+end module adams

@@ -1,0 +1,49 @@
+!> Backward differentiation, variable order 1 to 5 and variable step, by SUNDIALS' CVODE.
+!>
+!> For stiff equations: the step follows the motion, not the fastest decay. Newton's iteration with a
+!> dense Jacobian by difference quotients, which costs an evaluation for every entry of the state that
+!> is no quadrature: for small scenes. Orders above 2 damp little near the imaginary axis: a stiff
+!> spring without damper is followed, not damped.
+!>
+!> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
+!> (docs/accuracy.md has the figures).
+!>
+!> Source: A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math. Softw. 31 (2005) 363-396.
+module bdf
+   use cvode_library, only: cvode_library_t
+   use kind_info, only: kind_info_t
+   use multistep, only: multistep_t
+   implicit none (type, external)
+   private
+   public :: bdf_t
+
+   !> The method.
+   type, extends(multistep_t) :: bdf_t
+   contains
+      procedure, nopass :: info => bdf_info
+      procedure :: make_library => bdf_make_library
+   end type bdf_t
+
+contains
+
+   !> What the method says of itself.
+   function bdf_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "bdf"
+      info%help = "backward differentiation of variable order and step (CVODE): for stiff contacts, springs and dampers"
+      info%source = "Hindmarsh et al. (2005)"
+   end function bdf_info
+
+   !> CVODE.
+   subroutine bdf_make_library(self)
+      class(bdf_t), intent(inout) :: self  !! the integrator
+
+      type(cvode_library_t), allocatable :: library
+
+      allocate (library)
+      library%is_stiff = .true.
+      call move_alloc(library, self%library)
+   end subroutine bdf_make_library
+
+end module bdf

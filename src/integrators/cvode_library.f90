@@ -1,0 +1,281 @@
+!> Adams and BDF by SUNDIALS' CVODE.
+!>
+!> Adams: orders 1 to 12, the implicit equations by fixed-point iteration. BDF: orders 1 to 5, by
+!> Newton's iteration with a dense Jacobian from difference quotients of the entries that are no
+!> quadratures (nothing depends on those).
+!>
+!> A system that holds its states: BDF projects within the step (CVODE's CVodeSetProjFn: the change of
+!> `hold` goes into the history, after the error test). CVODE has no projection for Adams: there the
+!> right-hand side is taken at a held copy of the state.
+!>
+!> Source: A. C. Hindmarsh et al., SUNDIALS: suite of nonlinear and differential/algebraic equation
+!> solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
+module cvode_library
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
+   use fcvode_mod, only: cv_adams, cv_bdf, cv_one_step, fcvode, fcvodecreate, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, &
+      fcvodegetnumerrtestfails, &
+      fcvodegetnumnonlinsolvconvfails, fcvodeinit, fcvodereinit, fcvodeseterrfile, fcvodesetinitstep, fcvodesetjacfn, &
+      fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, fcvodesetprojerrest, &
+      fcvodesetprojfn, fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
+   use fnvector_serial_mod, only: fn_vnew_serial
+   use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
+   use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
+   use fsundials_nonlinearsolver_mod, only: fsunnonlinsolfree, sunnonlinearsolver
+   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
+   use fsunlinsol_dense_mod, only: fsunlinsol_dense
+   use fsunmatrix_dense_mod, only: fsundensematrix
+   use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
+   use kinds, only: wp
+   use sundials_library, only: dense_block, increments, library_t, note, problem_t
+   implicit none (type, external)
+   private
+   public :: cvode_library_t
+
+   !> CVODE with its objects.
+   type, extends(library_t) :: cvode_library_t
+      logical :: is_stiff = .false.                             !! BDF, else Adams
+      type(c_ptr) :: memory = c_null_ptr                        !! CVODE's memory
+      type(n_vector), pointer :: state => null()                !! state of the last step
+      type(n_vector), pointer :: look => null()                 !! state looked back at
+      type(sunmatrix), pointer :: jacobian => null()            !! BDF: of the right-hand side
+      type(sunlinearsolver), pointer :: linear => null()        !! BDF: solves Newton's equations
+      type(sunnonlinearsolver), pointer :: fixed_point => null()  !! Adams: solves the implicit equations
+   contains
+      procedure :: begin => cvode_begin
+      procedure :: step => cvode_step
+      procedure :: look_back => cvode_look_back
+      procedure :: next_step => cvode_next_step
+      procedure :: n_rejected => cvode_rejected
+      final :: cvode_free
+   end type cvode_library_t
+
+contains
+
+   !> Begin at the integrator's present state.
+   subroutine cvode_begin(self, first_step, is_good)
+      class(cvode_library_t), intent(inout) :: self   !! the library
+      real(wp), intent(in) :: first_step              !! first step to try, 0: CVODE chooses [s]
+      logical, intent(out) :: is_good                 !! whether there was room and every setting was taken
+
+      real(wp), pointer :: y(:)
+      integer :: status
+
+      status = 0
+      if (.not. c_associated(self%memory)) call create(self, status)
+      is_good = status == 0
+      if (.not. is_good) return
+      associate (method => self%problem%method)
+         y => fn_vgetarraypointer(self%state)
+         y(:) = method%step%y1
+         call note(fcvodereinit(self%memory, method%t, self%state), status)
+         call note(fcvodesetinitstep(self%memory, first_step), status)
+         call note(fcvodesetminstep(self%memory, method%controls%minimum_step), status)
+         call note(fcvodesetmaxstep(self%memory, method%controls%maximum_step), status)
+      end associate
+      self%problem%holds_copies = .not. self%is_stiff
+      if (self%problem%system%holds .and. self%is_stiff) then
+         call note(fcvodesetprojfn(self%memory, c_funloc(project)), status)
+         call note(fcvodesetprojerrest(self%memory, 0_c_int), status)
+      end if
+      is_good = status == 0
+   end subroutine cvode_begin
+
+   !> Make CVODE's objects.
+   subroutine create(self, status)
+      class(cvode_library_t), intent(inout) :: self   !! the library
+      integer, intent(out) :: status                  !! 0: done
+
+      integer(c_long) :: n
+
+      n = int(self%problem%system%n, c_long)
+      self%state => fn_vnew_serial(n, self%context)
+      self%look => fn_vnew_serial(n, self%context)
+      self%memory = fcvodecreate(merge(cv_bdf, cv_adams, self%is_stiff), self%context)
+      status = merge(0, -1, associated(self%state) .and. associated(self%look) .and. c_associated(self%memory))
+      if (status /= 0) return
+      call note(fcvodeseterrfile(self%memory, c_null_ptr), status)
+      call note(fcvodeinit(self%memory, c_funloc(right_hand_side), self%problem%method%t, self%state), status)
+      call note(fcvodesetuserdata(self%memory, c_loc(self%problem)), status)
+      call note(fcvodewftolerances(self%memory, c_funloc(weigh)), status)
+      if (self%is_stiff) then
+         self%jacobian => fsundensematrix(n, n, self%context)
+         self%linear => fsunlinsol_dense(self%state, self%jacobian, self%context)
+         call note(fcvodesetlinearsolver(self%memory, self%linear, self%jacobian), status)
+         call note(fcvodesetjacfn(self%memory, c_funloc(differentiate)), status)
+      else
+         self%fixed_point => fsunnonlinsol_fixedpoint(self%state, 0_c_int, self%context)
+         call note(fcvodesetnonlinearsolver(self%memory, self%fixed_point), status)
+      end if
+   end subroutine create
+
+   !> One step, not beyond t_stop.
+   subroutine cvode_step(self, t_stop, t, y, status)
+      class(cvode_library_t), intent(inout) :: self   !! the library
+      real(wp), intent(in) :: t_stop                  !! not to be passed [s]
+      real(wp), intent(out) :: t                      !! time reached [s]
+      real(wp), intent(out) :: y(:)                   !! (n) state there [any]
+      integer, intent(out) :: status                  !! 0, or a failure as `advance` returns it
+
+      real(c_double) :: reached(1)
+      real(c_double), pointer :: state(:)
+      integer(c_int) :: outcome
+
+      outcome = fcvodesetstoptime(self%memory, t_stop)
+      if (outcome == 0) outcome = fcvode(self%memory, t_stop, self%state, reached, cv_one_step)
+      t = reached(1)
+      state => fn_vgetarraypointer(self%state)
+      y = state
+      status = 0
+      if (outcome < 0) status = self%failure()
+   end subroutine cvode_step
+
+   !> State within the last step, by the polynomial of the method.
+   subroutine cvode_look_back(self, t, y)
+      class(cvode_library_t), intent(in) :: self   !! the library
+      real(wp), intent(in) :: t                    !! time [s]
+      real(wp), intent(out) :: y(:)                !! (n) state [any]
+
+      real(c_double), pointer :: state(:)
+      integer :: status
+
+      status = fcvodegetdky(self%memory, t, 0_c_int, self%look)
+      state => fn_vgetarraypointer(self%look)
+      y = state
+   end subroutine cvode_look_back
+
+   !> Length of the step that will be tried next.
+   real(wp) function cvode_next_step(self) result(h)
+      class(cvode_library_t), intent(in) :: self   !! the library
+
+      real(c_double) :: step(1)
+      integer :: status
+
+      status = fcvodegetcurrentstep(self%memory, step)
+      h = step(1)
+   end function cvode_next_step
+
+   !> Steps given up since the beginning: failed error tests and failed iterations.
+   integer function cvode_rejected(self) result(n)
+      class(cvode_library_t), intent(in) :: self   !! the library
+
+      integer(c_long) :: in_iterations(1), in_tests(1)
+      integer :: status
+
+      status = fcvodegetnumerrtestfails(self%memory, in_tests)
+      status = fcvodegetnumnonlinsolvconvfails(self%memory, in_iterations)
+      n = int(in_tests(1) + in_iterations(1))
+   end function cvode_rejected
+
+   !> Free all.
+   subroutine cvode_free(self)
+      type(cvode_library_t), intent(inout) :: self   !! the library
+
+      integer :: status
+
+      if (c_associated(self%memory)) call fcvodefree(self%memory)
+      if (associated(self%fixed_point)) status = fsunnonlinsolfree(self%fixed_point)
+      if (associated(self%linear)) status = fsunlinsolfree(self%linear)
+      if (associated(self%jacobian)) call fsunmatdestroy(self%jacobian)
+      if (associated(self%look)) call fn_vdestroy(self%look)
+      if (associated(self%state)) call fn_vdestroy(self%state)
+      call self%close()
+   end subroutine cvode_free
+
+   ! ---- called by CVODE ----------------------------------------------------------------------------
+
+   !> Right-hand side.
+   integer(c_int) function right_hand_side(t, y, ydot, user_data) bind(c, name="") result(status)
+      real(c_double), value :: t              !! time [s]
+      type(n_vector), intent(inout) :: y      !! state
+      type(n_vector), intent(inout) :: ydot   !! its derivative
+      type(c_ptr), value :: user_data         !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: rate(:), state(:)
+      integer :: outcome
+
+      call c_f_pointer(user_data, problem)
+      state => fn_vgetarraypointer(y)
+      rate => fn_vgetarraypointer(ydot)
+      call problem%evaluate(t, state, rate, outcome)
+      status = int(outcome, c_int)
+   end function right_hand_side
+
+   !> Error weights.
+   integer(c_int) function weigh(y, weight, user_data) bind(c, name="") result(status)
+      type(n_vector), intent(inout) :: y        !! state
+      type(n_vector), intent(inout) :: weight   !! its weights
+      type(c_ptr), value :: user_data           !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: state(:), weights(:)
+
+      call c_f_pointer(user_data, problem)
+      state => fn_vgetarraypointer(y)
+      weights => fn_vgetarraypointer(weight)
+      call problem%set_weights(state, weights)
+      status = 0
+   end function weigh
+
+   !> Jacobian of the right-hand side by forward differences.
+   integer(c_int) function differentiate(t, y, ydot, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &
+      result(status)
+      real(c_double), value :: t                     !! time [s]
+      type(n_vector), intent(inout) :: y             !! state
+      type(n_vector), intent(inout) :: ydot          !! its derivative
+      type(sunmatrix), intent(inout) :: matrix       !! (n, n) the Jacobian
+      type(c_ptr), value :: user_data                !! the problem
+      type(n_vector), intent(inout) :: scratch_1     !! room
+      type(n_vector), intent(inout) :: scratch_2     !! room
+      type(n_vector), intent(inout) :: scratch_3     !! room
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer, contiguous :: block(:, :)
+      real(c_double), pointer :: increment(:), moved(:), rate(:), state(:)
+      integer :: j, n, outcome
+
+      call c_f_pointer(user_data, problem)
+      n = problem%system%n
+      state => fn_vgetarraypointer(y)
+      rate => fn_vgetarraypointer(ydot)
+      increment => fn_vgetarraypointer(scratch_1)
+      moved => fn_vgetarraypointer(scratch_2)
+      call dense_block(matrix, n, block)
+      call increments(problem%system, state, problem%method%scale, increment)
+      moved = state
+      block = 0.0_wp
+      outcome = 0
+      do j = 1, n - problem%system%n_quadrature
+         moved(j) = state(j) + increment(j)
+         call problem%evaluate(t, moved, block(:, j), outcome)
+         if (outcome /= 0) exit
+         block(:, j) = (block(:, j) - rate)/increment(j)
+         moved(j) = state(j)
+      end do
+      status = int(outcome, c_int)
+   end function differentiate
+
+   !> The change of a state that holding it makes.
+   integer(c_int) function project(t, y, change, allowed, estimate, user_data) bind(c, name="") result(status)
+      real(c_double), value :: t                  !! time [s]
+      type(n_vector), intent(inout) :: y          !! state
+      type(n_vector), intent(inout) :: change     !! what holding adds to it
+      real(c_double), value :: allowed            !! error of an iterative projection [1]
+      type(c_ptr), value :: estimate              !! error estimate to be projected; none here
+      type(c_ptr), value :: user_data             !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: added(:), state(:)
+      integer :: outcome
+
+      call c_f_pointer(user_data, problem)
+      state => fn_vgetarraypointer(y)
+      added => fn_vgetarraypointer(change)
+      problem%held(:) = state
+      call problem%system%hold(t, problem%held, outcome)
+      problem%is_fatal = problem%is_fatal .or. outcome < 0
+      added(:) = problem%held - state
+      status = int(outcome, c_int)
+   end function project
+
+end module cvode_library

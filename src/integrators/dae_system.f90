@@ -1,0 +1,45 @@
+!> The contract of a constrained system in the stabilised form of index 2 (Gear, Gupta, Leimkuhler).
+!>
+!> $$ q' = v - W J^T mu,  v' = M^{-1} (g - J^T lambda),  0 = J v + Phi_t,  0 = Phi,  z' = powers $$
+!>
+!> with J = Phi_q and W = M^{-1}, so that mu, the multiplier that keeps the positions on the
+!> constraints, is an impulse; it vanishes for the exact solution. The state y = (q, v, others, z) is that
+!> of the ordinary form, to which the same system answers as `evaluate`.
+!>
+!> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange
+!> equations with constraints, J. Comput. Appl. Math. 12-13 (1985) 77-90.
+module dae_system
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   implicit none (type, external)
+   private
+   public :: dae_system_t
+
+   !> A constrained system.
+   type, abstract, extends(ode_system_t) :: dae_system_t
+      integer :: n_row = 0                     !! number of constraint rows, m
+      real(wp), allocatable :: lambda(:)       !! (m or more) multipliers of the last evaluation [N or N.m]
+   contains
+      procedure(residual_interface), deferred :: dae_residual
+   end type dae_system_t
+
+   abstract interface
+      !> What is left of the equations: left side less right side. Status: 0 done, > 0 retry with a
+      !> smaller step, < 0 give up.
+      subroutine residual_interface(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
+         import :: dae_system_t, wp
+         implicit none (type, external)
+         class(dae_system_t), intent(inout) :: self   !! the system
+         real(wp), intent(in) :: t                    !! time [s]
+         real(wp), intent(in), contiguous :: y(:)     !! (n) state [any]
+         real(wp), intent(in), contiguous :: ydot(:)  !! (n) its derivative [any]
+         real(wp), intent(in) :: lambda(:)            !! (m) multipliers of the velocities [N or N.m]
+         real(wp), intent(in) :: mu(:)                !! (m) multipliers of the positions [N.s or N.m.s]
+         real(wp), intent(out), contiguous :: r_y(:)  !! (n) of the differential equations [any]
+         real(wp), intent(out) :: r_lambda(:)         !! (m) rates of the violation [m/s or rad/s]
+         real(wp), intent(out) :: r_mu(:)             !! (m) violations [m or rad]
+         integer, intent(out) :: status               !! outcome
+      end subroutine residual_interface
+   end interface
+
+end module dae_system

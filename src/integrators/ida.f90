@@ -1,0 +1,50 @@
+!> Backward differentiation of variable order and step on the stabilised form of index 2, by SUNDIALS' IDA.
+!>
+!> Positions and velocities satisfy their constraints at every step, to the error of Newton's iteration:
+!> no stabilisation is needed and none acts. A system without constraints is integrated as it is. A dense
+!> Jacobian by difference quotients over state and multipliers: for small scenes, stiff or not.
+!>
+!> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
+!> (docs/accuracy.md has the figures).
+!>
+!> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange equations
+!> with constraints, J. Comput. Appl. Math. 12-13 (1985) 77-90; A. C. Hindmarsh et al. (2005).
+!> Limits: redundant constraints are refused.
+module ida
+   use ida_library, only: ida_library_t
+   use kind_info, only: kind_info_t
+   use multistep, only: multistep_t
+   implicit none (type, external)
+   private
+   public :: ida_t
+
+   !> The method.
+   type, extends(multistep_t) :: ida_t
+   contains
+      procedure, nopass :: info => ida_info
+      procedure :: make_library => ida_make_library
+   end type ida_t
+
+contains
+
+   !> What the method says of itself.
+   function ida_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "ida"
+      info%help = "differential-algebraic, stabilised index 2 (Gear, Gupta, Leimkuhler), by backward differentiation (IDA): " &
+                  //"holds positions and velocities without stabilisation"
+      info%source = "Gear, Leimkuhler and Gupta (1985); Hindmarsh et al. (2005)"
+   end function ida_info
+
+   !> IDA.
+   subroutine ida_make_library(self)
+      class(ida_t), intent(inout) :: self  !! the integrator
+
+      type(ida_library_t), allocatable :: library
+
+      allocate (library)
+      call move_alloc(library, self%library)
+   end subroutine ida_make_library
+
+end module ida

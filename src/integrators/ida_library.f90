@@ -1,0 +1,332 @@
+!> The stabilised form of index 2 by SUNDIALS' IDA: backward differentiation of orders 1 to 5.
+!>
+!> A constrained system (`dae_system_t`) is solved for its state and both sets of multipliers,
+!> u = (y, lambda, mu); any other system as 0 = y' - f(t, y). Newton's iteration with a dense Jacobian
+!> from difference quotients; the multipliers enter linearly, so their columns are exact.
+!>
+!> Norms: only the state without quadratures counts, in the error test and in Newton's iteration: what
+!> an error of the multipliers does to the state over a step is seen there, and multipliers of index 2
+!> are the less certain the shorter the step (their error is that of the velocities over the step).
+!>
+!> Start: positions and velocities are consistent; their derivatives and lambda are those of
+!> `evaluate`, mu = 0. No further search for a consistent start is needed.
+!>
+!> A system that holds its states: IDA has no projection. A constrained system holds by its equations;
+!> of any other the right-hand side is taken at a held copy of the state.
+!>
+!> Source: K. E. Brenan, S. L. Campbell and L. R. Petzold, Numerical solution of initial-value problems
+!> in differential-algebraic equations, SIAM (1996); A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math.
+!> Softw. 31 (2005) 363-396.
+module ida_library
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
+   use dae_system, only: dae_system_t
+   use fida_mod, only: fidacreate, fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, &
+      fidagetnumnonlinsolvconvfails, fidainit, fidareinit, fidaseterrfile, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, &
+      fidasetmaxstep, fidasetminstep, fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
+   use fnvector_serial_mod, only: fn_vnew_serial
+   use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
+   use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
+   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
+   use fsunlinsol_dense_mod, only: fsunlinsol_dense
+   use fsunmatrix_dense_mod, only: fsundensematrix
+   use kinds, only: wp
+   use sundials_library, only: dense_block, increments, library_t, note, problem_t
+   implicit none (type, external)
+   private
+   public :: ida_library_t
+
+   !> IDA with its objects.
+   type, extends(library_t) :: ida_library_t
+      type(c_ptr) :: memory = c_null_ptr               !! IDA's memory
+      type(n_vector), pointer :: state => null()       !! u of the last step
+      type(n_vector), pointer :: rate => null()        !! its derivative
+      type(n_vector), pointer :: look => null()        !! u looked back at
+      type(sunmatrix), pointer :: jacobian => null()   !! of the residual
+      type(sunlinearsolver), pointer :: linear => null()  !! solves Newton's equations
+   contains
+      procedure :: begin => ida_begin
+      procedure :: step => ida_step
+      procedure :: look_back => ida_look_back
+      procedure :: next_step => ida_next_step
+      procedure :: n_rejected => ida_rejected
+      final :: ida_free
+   end type ida_library_t
+
+contains
+
+   !> Constraint rows of a system.
+   integer function rows_of(system) result(m)
+      class(*), intent(in) :: system  !! the system
+
+      m = 0
+      select type (system)
+      class is (dae_system_t)
+         m = system%n_row
+      end select
+   end function rows_of
+
+   !> Begin at the integrator's present state, which the system was evaluated at last.
+   subroutine ida_begin(self, first_step, is_good)
+      class(ida_library_t), intent(inout) :: self   !! the library
+      real(wp), intent(in) :: first_step            !! first step to try, 0: IDA chooses [s]
+      logical, intent(out) :: is_good               !! whether there was room and every setting was taken
+
+      integer :: status
+
+      status = 0
+      self%problem%holds_copies = .true.
+      if (.not. c_associated(self%memory)) then
+         call create(self, status)
+      else
+         call set_start(self)
+         call note(fidareinit(self%memory, self%problem%method%t, self%state, self%rate), status)
+      end if
+      is_good = status == 0
+      if (.not. is_good) return
+      associate (controls => self%problem%method%controls)
+         call note(fidasetinitstep(self%memory, first_step), status)
+         call note(fidasetminstep(self%memory, controls%minimum_step), status)
+         call note(fidasetmaxstep(self%memory, controls%maximum_step), status)
+      end associate
+      is_good = status == 0
+   end subroutine ida_begin
+
+   !> State, multipliers and derivatives to begin with.
+   subroutine set_start(self)
+      class(ida_library_t), intent(inout) :: self   !! the library
+
+      real(c_double), pointer :: rate(:), u(:)
+      integer :: m, n
+
+      n = self%problem%system%n
+      u => fn_vgetarraypointer(self%state)
+      rate => fn_vgetarraypointer(self%rate)
+      u(:) = 0.0_wp
+      rate(:) = 0.0_wp
+      u(:n) = self%problem%method%step%y1
+      rate(:n) = self%problem%method%step%f1
+      associate (system => self%problem%system)
+         select type (system)
+         class is (dae_system_t)
+            m = system%n_row
+            u(n + 1:n + m) = system%lambda(:m)
+         end select
+      end associate
+   end subroutine set_start
+
+   !> Make IDA's objects.
+   subroutine create(self, status)
+      class(ida_library_t), intent(inout) :: self   !! the library
+      integer, intent(out) :: status                !! 0: done
+
+      integer(c_long) :: n
+
+      n = int(self%problem%system%n + 2*rows_of(self%problem%system), c_long)
+      self%state => fn_vnew_serial(n, self%context)
+      self%rate => fn_vnew_serial(n, self%context)
+      self%look => fn_vnew_serial(n, self%context)
+      self%memory = fidacreate(self%context)
+      status = merge(0, -1, associated(self%state) .and. associated(self%rate) .and. associated(self%look) &
+                     .and. c_associated(self%memory))
+      if (status /= 0) return
+      call set_start(self)
+      call note(fidaseterrfile(self%memory, c_null_ptr), status)
+      call note(fidainit(self%memory, c_funloc(residual), self%problem%method%t, self%state, self%rate), status)
+      call note(fidasetuserdata(self%memory, c_loc(self%problem)), status)
+      call note(fidawftolerances(self%memory, c_funloc(weigh)), status)
+      self%jacobian => fsundensematrix(n, n, self%context)
+      self%linear => fsunlinsol_dense(self%state, self%jacobian, self%context)
+      call note(fidasetlinearsolver(self%memory, self%linear, self%jacobian), status)
+      call note(fidasetjacfn(self%memory, c_funloc(differentiate)), status)
+   end subroutine create
+
+   !> One step, not beyond t_stop.
+   subroutine ida_step(self, t_stop, t, y, status)
+      class(ida_library_t), intent(inout) :: self   !! the library
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      real(wp), intent(out) :: t                    !! time reached [s]
+      real(wp), intent(out) :: y(:)                 !! (n) state there [any]
+      integer, intent(out) :: status                !! 0, or a failure as `advance` returns it
+
+      real(c_double) :: reached(1)
+      real(c_double), pointer :: u(:)
+      integer(c_int) :: outcome
+
+      outcome = fidasetstoptime(self%memory, t_stop)
+      if (outcome == 0) outcome = fidasolve(self%memory, t_stop, reached, self%state, self%rate, ida_one_step)
+      t = reached(1)
+      u => fn_vgetarraypointer(self%state)
+      y = u(:size(y))
+      status = 0
+      if (outcome < 0) status = self%failure()
+   end subroutine ida_step
+
+   !> State within the last step, by the polynomial of the method.
+   subroutine ida_look_back(self, t, y)
+      class(ida_library_t), intent(in) :: self   !! the library
+      real(wp), intent(in) :: t                  !! time [s]
+      real(wp), intent(out) :: y(:)              !! (n) state [any]
+
+      real(c_double), pointer :: u(:)
+      integer :: status
+
+      status = fidagetdky(self%memory, t, 0_c_int, self%look)
+      u => fn_vgetarraypointer(self%look)
+      y = u(:size(y))
+   end subroutine ida_look_back
+
+   !> Length of the step that will be tried next.
+   real(wp) function ida_next_step(self) result(h)
+      class(ida_library_t), intent(in) :: self   !! the library
+
+      real(c_double) :: step(1)
+      integer :: status
+
+      status = fidagetcurrentstep(self%memory, step)
+      h = step(1)
+   end function ida_next_step
+
+   !> Steps given up since the beginning: failed error tests and failed iterations.
+   integer function ida_rejected(self) result(n)
+      class(ida_library_t), intent(in) :: self   !! the library
+
+      integer(c_long) :: in_iterations(1), in_tests(1)
+      integer :: status
+
+      status = fidagetnumerrtestfails(self%memory, in_tests)
+      status = fidagetnumnonlinsolvconvfails(self%memory, in_iterations)
+      n = int(in_tests(1) + in_iterations(1))
+   end function ida_rejected
+
+   !> Free all.
+   subroutine ida_free(self)
+      type(ida_library_t), intent(inout) :: self   !! the library
+
+      integer :: status
+
+      if (c_associated(self%memory)) call fidafree(self%memory)
+      if (associated(self%linear)) status = fsunlinsolfree(self%linear)
+      if (associated(self%jacobian)) call fsunmatdestroy(self%jacobian)
+      if (associated(self%look)) call fn_vdestroy(self%look)
+      if (associated(self%rate)) call fn_vdestroy(self%rate)
+      if (associated(self%state)) call fn_vdestroy(self%state)
+      call self%close()
+   end subroutine ida_free
+
+   !> What is left of the equations at u and u'.
+   subroutine find_residual(problem, t, u, rate, left, status)
+      type(problem_t), intent(inout) :: problem         !! the problem
+      real(wp), intent(in) :: t                         !! time [s]
+      real(wp), intent(in), contiguous :: u(:)          !! (N) state and multipliers [any]
+      real(wp), intent(in), contiguous :: rate(:)       !! (N) derivative [any]
+      real(wp), intent(out), contiguous :: left(:)      !! (N) residual [any]
+      integer, intent(out) :: status                    !! 0 done, > 0 retry with a smaller step, < 0 give up
+
+      integer :: m, n
+
+      n = problem%system%n
+      m = (size(u) - n)/2
+      associate (system => problem%system)
+         select type (system)
+         class is (dae_system_t)
+            call problem%count_evaluation(status)
+            if (status == 0) call system%dae_residual(t, u(:n), rate(:n), u(n + 1:n + m), u(n + m + 1:), left(:n), &
+                                                      left(n + 1:n + m), left(n + m + 1:), status)
+            problem%is_fatal = problem%is_fatal .or. status < 0
+         class default
+            call problem%evaluate(t, u, left, status)
+            left = rate - left
+         end select
+      end associate
+   end subroutine find_residual
+
+   ! ---- called by IDA ------------------------------------------------------------------------------
+
+   !> Residual.
+   integer(c_int) function residual(t, u, rate, left, user_data) bind(c, name="") result(status)
+      real(c_double), value :: t              !! time [s]
+      type(n_vector), intent(inout) :: u      !! state and multipliers
+      type(n_vector), intent(inout) :: rate   !! their derivatives
+      type(n_vector), intent(inout) :: left   !! residual
+      type(c_ptr), value :: user_data         !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: numbers(:), rates(:), rest(:)
+      integer :: outcome
+
+      call c_f_pointer(user_data, problem)
+      numbers => fn_vgetarraypointer(u)
+      rates => fn_vgetarraypointer(rate)
+      rest => fn_vgetarraypointer(left)
+      call find_residual(problem, t, numbers, rates, rest, outcome)
+      status = int(outcome, c_int)
+   end function residual
+
+   !> Error weights.
+   integer(c_int) function weigh(u, weight, user_data) bind(c, name="") result(status)
+      type(n_vector), intent(inout) :: u        !! state and multipliers
+      type(n_vector), intent(inout) :: weight   !! their weights
+      type(c_ptr), value :: user_data           !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: numbers(:), weights(:)
+
+      call c_f_pointer(user_data, problem)
+      numbers => fn_vgetarraypointer(u)
+      weights => fn_vgetarraypointer(weight)
+      call problem%set_weights(numbers(:problem%system%n), weights)
+      status = 0
+   end function weigh
+
+   !> Jacobian dF/du + c dF/du' by forward differences.
+   integer(c_int) function differentiate(t, c, u, rate, left, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &
+      result(status)
+      real(c_double), value :: t                     !! time [s]
+      real(c_double), value :: c                     !! du'/du of the method [1/s]
+      type(n_vector), intent(inout) :: u             !! state and multipliers
+      type(n_vector), intent(inout) :: rate          !! their derivatives
+      type(n_vector), intent(inout) :: left          !! residual there
+      type(sunmatrix), intent(inout) :: matrix       !! (N, N) the Jacobian
+      type(c_ptr), value :: user_data                !! the problem
+      type(n_vector), intent(inout) :: scratch_1     !! room
+      type(n_vector), intent(inout) :: scratch_2     !! room
+      type(n_vector), intent(inout) :: scratch_3     !! room
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer, contiguous :: block(:, :)
+      real(c_double), pointer :: increment(:), moved(:), moved_rate(:), numbers(:), rates(:), rest(:)
+      integer :: first, j, n, outcome
+
+      call c_f_pointer(user_data, problem)
+      numbers => fn_vgetarraypointer(u)
+      rates => fn_vgetarraypointer(rate)
+      rest => fn_vgetarraypointer(left)
+      increment => fn_vgetarraypointer(scratch_1)
+      moved => fn_vgetarraypointer(scratch_2)
+      moved_rate => fn_vgetarraypointer(scratch_3)
+      n = problem%system%n
+      first = n - problem%system%n_quadrature
+      call dense_block(matrix, size(numbers), block)
+      call increments(problem%system, numbers(:n), problem%method%scale, increment(:n))
+      increment(n + 1:) = max(abs(numbers(n + 1:)), 1.0_wp)
+      moved = numbers
+      moved_rate = rates
+      block = 0.0_wp
+      outcome = 0
+      do j = 1, size(numbers)
+         if (j > first .and. j <= n) then
+            block(j, j) = c  ! nothing depends on a quadrature
+            cycle
+         end if
+         moved(j) = numbers(j) + increment(j)
+         if (j <= n) moved_rate(j) = rates(j) + c*increment(j)
+         call find_residual(problem, t, moved, moved_rate, block(:, j), outcome)
+         if (outcome /= 0) exit
+         block(:, j) = (block(:, j) - rest)/increment(j)
+         moved(j) = numbers(j)
+         moved_rate(j) = rates(j)
+      end do
+      status = int(outcome, c_int)
+   end function differentiate
+
+end module ida_library

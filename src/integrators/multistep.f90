@@ -1,0 +1,340 @@
+!> Multistep methods: steps by a library, events and output on the polynomial of the method.
+!>
+!> Between the ends of a step the state is the polynomial that the method itself works with (its
+!> order, its accuracy), plus a linear term that closes the gaps to the states given out at both ends:
+!> at the start there is one of the size of the local error, because each step has its own polynomial;
+!> at the end there is one if the state was held.
+!>
+!> Events: a sign change at the ends of a step is not enough (the libraries' own root finders look no
+!> further), so the polynomial is searched as for every method, and the bracket halved on it to
+!> round-off. So an event function is zero to round-off at its event, and the time of the event is as
+!> accurate as the polynomial. The step ends there; the library begins anew with order 1.
+!>
+!> Checkpoints: the history is not saved. A run that is loaded begins anew at order 1 at the saved
+!> state, so it agrees with the uninterrupted one to the tolerance, not to the last bit.
+module multistep
+   use event_location, only: find_first_event
+   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
+      advance_too_many_steps, advance_too_small, integrator_t, steps_variable
+   use interpolation, only: interpolate
+   use kinds, only: eps, wp
+   use ode_system, only: ode_system_t
+   use sundials_library, only: library_t
+   implicit none (type, external)
+   private
+   public :: multistep_t
+
+   integer, parameter :: n_halving = 60           !! halvings of the bracket of an event
+   real(wp), parameter :: tiny_step = 200.0_wp    !! of the spacing of time: too short a stretch for a library to begin on [1]
+
+   !> A multistep method.
+   type, abstract, extends(integrator_t) :: multistep_t
+      class(library_t), allocatable :: library   !! makes the steps
+      logical :: is_fresh = .true.               !! the library must begin anew
+      logical :: has_polynomial = .false.        !! the last step is the library's
+      real(wp) :: first_step = 0.0_wp            !! first step to try when it does, 0: it chooses [s]
+      real(wp) :: h_whole = 0.0_wp               !! length of the library's last step, before an event cut it short [s]
+      integer :: n_rejected_before = 0           !! steps rejected before the library began anew
+      real(wp), allocatable :: gap_0(:)          !! (n) state given out less polynomial, at the start of the step [any]
+      real(wp), allocatable :: gap_1(:)          !! (n) the same at its end [any]
+   contains
+      procedure(make_library_interface), deferred :: make_library
+      procedure, nopass :: steps => multistep_steps
+      procedure :: start => multistep_start
+      procedure :: advance => multistep_advance
+      procedure :: restart => multistep_restart
+      procedure :: refine => multistep_refine
+      procedure :: prepare_output => multistep_prepare_output
+      procedure :: within => multistep_within
+      procedure :: load => multistep_load
+   end type multistep_t
+
+   abstract interface
+      !> The library that makes the steps, not begun.
+      subroutine make_library_interface(self)
+         import :: multistep_t
+         implicit none (type, external)
+         class(multistep_t), intent(inout) :: self  !! the integrator
+      end subroutine make_library_interface
+   end interface
+
+contains
+
+   !> Variable steps only.
+   pure integer function multistep_steps() result(steps)
+      steps = steps_variable
+   end function multistep_steps
+
+   !> Begin at a state.
+   subroutine multistep_start(self, system, t, y, t_end, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in) :: y(:)                  !! (n) state [any]
+      real(wp), intent(in) :: t_end                 !! end of the integration [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      call self%make_room(system)
+      if (.not. allocated(self%library)) then
+         call self%make_library()
+         call self%library%open(system%n)
+         allocate (self%gap_0(system%n), self%gap_1(system%n), source=0.0_wp)
+      end if
+      self%t = t
+      self%step%t0 = t
+      self%step%h = 0.0_wp
+      self%step%y1 = y
+      call self%restart(system, 0.0_wp, status)
+      self%first_step = min(self%controls%initial_step, t_end - t)
+   end subroutine multistep_start
+
+   !> Evaluate anew at the present state; the library begins anew with the next step. The step hint
+   !> suits a method of higher order: order 1 begins with the square root of the tolerance times it.
+   subroutine multistep_restart(self, system, step_hint, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: not known [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      self%is_fresh = .true.
+      self%first_step = step_hint*sqrt(self%controls%tolerance)
+      call evaluate_end(self, system, status)
+      status = merge(advance_step, advance_failed_evaluation, status == 0)
+   end subroutine multistep_restart
+
+   !> Derivative and event functions at the present state.
+   subroutine evaluate_end(self, system, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! of the evaluation
+
+      call system%evaluate(self%t, self%step%y1, self%step%f1, status)
+      self%n_evaluations = self%n_evaluations + 1
+      if (status == 0 .and. system%n_event > 0) call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+   end subroutine evaluate_end
+
+   !> One accepted step, to an event if there is one on the way.
+   subroutine multistep_advance(self, system, t_stop, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      real(wp) :: t
+
+      call self%begin_step()
+      status = advance_step
+      associate (controls => self%controls)
+         if (controls%maximum_steps > 0 .and. self%n_steps >= controls%maximum_steps) status = advance_too_many_steps
+         if (controls%maximum_evaluations > 0 .and. self%n_evaluations + 1 >= controls%maximum_evaluations) &
+            status = advance_too_many_evaluations
+      end associate
+      if (status /= advance_step) return
+      if (self%is_fresh .and. t_stop - self%t <= tiny_step*eps*max(abs(self%t), abs(t_stop))) then
+         ! nothing to be gained by a method: the tangent is exact to round-off
+         self%has_polynomial = .false.
+         self%trial = self%step%y0 + (t_stop - self%t)*self%step%f0
+         t = t_stop
+      else
+         call step_by_library(self, system, t_stop, t, status)
+         if (status /= advance_step) return
+      end if
+      if (system%holds) then
+         call system%hold(t, self%trial, status)
+         if (status /= 0) then
+            status = advance_failed_evaluation
+            return
+         end if
+      end if
+      call accept(self, system, t, status)
+   end subroutine multistep_advance
+
+   !> One step of the library; the system and the integrator are its problem while it lasts.
+   subroutine step_by_library(self, system, t_stop, t, status)
+      class(multistep_t), intent(inout), target :: self     !! the integrator
+      class(ode_system_t), intent(inout), target :: system  !! the system
+      real(wp), intent(in) :: t_stop                        !! not to be passed [s]
+      real(wp), intent(out) :: t                            !! time reached; the state goes into `trial` [s]
+      integer, intent(out) :: status                        !! advance_step, or a failure
+
+      logical :: is_good
+
+      t = self%t
+      self%library%problem%system => system
+      self%library%problem%method => self
+      status = advance_step
+      if (self%is_fresh) then
+         self%n_rejected_before = int(self%n_rejected)
+         self%library%problem%is_fatal = .false.
+         call self%library%begin(min(self%first_step, t_stop - self%t), is_good)
+         if (.not. is_good) status = advance_too_small
+         self%is_fresh = .not. is_good
+      end if
+      if (status == advance_step) then
+         call system%set_step(self%library%next_step())
+         call self%library%step(t_stop, t, self%trial, status)
+         ! the libraries go on without moving, and may try again what failed for good
+         if (status == advance_step .and. (t <= self%t .or. self%library%problem%is_fatal)) status = self%library%failure()
+         self%n_rejected = self%n_rejected_before + self%library%n_rejected()
+      end if
+      self%has_polynomial = status == advance_step
+      nullify (self%library%problem%system, self%library%problem%method)
+   end subroutine step_by_library
+
+   !> Take the trial state: gaps of the polynomial, derivative, events.
+   subroutine accept(self, system, t, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time reached [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      real(wp) :: high, low
+      integer :: event
+
+      self%t = t
+      self%step%h = t - self%step%t0
+      self%h_whole = self%step%h
+      self%step%y1 = self%trial
+      if (self%has_polynomial) then
+         call self%library%look_back(self%step%t0, self%gap_0)
+         call self%library%look_back(t, self%gap_1)
+         self%gap_0 = self%step%y0 - self%gap_0
+         self%gap_1 = self%step%y1 - self%gap_1
+      end if
+      self%n_steps = self%n_steps + 1
+      call evaluate_end(self, system, status)
+      if (status /= 0) then
+         ! the last good state stands
+         self%t = self%step%t0
+         self%step%y1 = self%step%y0
+         status = advance_failed_evaluation
+         return
+      end if
+      status = advance_step
+      if (system%n_event == 0) return
+      call find_first_event(system, self, event, low, high)
+      if (event > 0) call go_to_event(self, system, low, high, status)
+   end subroutine accept
+
+   !> Shorten the step so that it ends at an event: halve between "none positive" and "one positive".
+   subroutine go_to_event(self, system, low, high, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: low                   !! place before the event [1]
+      real(wp), intent(in) :: high                  !! place after it [1]
+      integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
+
+      real(wp) :: left, middle, right
+      integer :: i
+
+      left = low
+      right = high
+      call look(right)
+      if (status == 0 .and. all(self%g <= 0.0_wp)) then
+         ! on held states it is not there, or later
+         left = right
+         right = 1.0_wp
+         if (all(self%g1 <= 0.0_wp)) then
+            call evaluate_end(self, system, status)
+            status = merge(advance_step, advance_failed_evaluation, status == 0)
+            return
+         end if
+      end if
+      do i = 1, n_halving
+         if (status /= 0 .or. (right - left)*self%h_whole <= eps*abs(self%step%t0 + right*self%h_whole)) exit
+         middle = 0.5_wp*(left + right)
+         call look(middle)
+         if (any(self%g > 0.0_wp)) then
+            right = middle
+         else
+            left = middle
+         end if
+      end do
+      if (status == 0) call look(right)
+      if (status == 0) then
+         self%step%h = right*self%h_whole
+         self%t = self%step%t0 + self%step%h
+         self%step%y1 = self%trial
+         self%n_happened = 1
+         self%happened(1) = maxloc(self%g, dim=1)
+         call evaluate_end(self, system, status)
+      end if
+      status = merge(advance_event, advance_failed_evaluation, status == 0)
+
+   contains
+
+      !> The state at a place of the step, held, into `trial`, and its event functions.
+      subroutine look(s)
+         real(wp), intent(in) :: s  !! place in the whole step [1]
+
+         call held_state(self, system, s, self%trial, status)
+         if (status == 0) call system%events(self%step%t0 + s*self%h_whole, self%trial, self%g, self%rate)
+      end subroutine look
+
+   end subroutine go_to_event
+
+   !> State at a place of the last step, held.
+   subroutine held_state(self, system, s, y, status)
+      class(multistep_t), intent(in) :: self        !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: s                     !! place in the step, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)                 !! (n) state [any]
+      integer, intent(out) :: status                !! of holding it
+
+      status = 0
+      call self%within(system, s, y)
+      if (system%holds) call system%hold(self%step%t0 + s*self%step%h, y, status)
+   end subroutine held_state
+
+   !> State at a place of the last step, by the polynomial of the method.
+   subroutine multistep_within(self, system, s, y)
+      class(multistep_t), intent(in) :: self     !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)              !! (n) state [any]
+
+      real(wp) :: part
+
+      if (.not. self%has_polynomial) then
+         call interpolate(self%step, system%n_position, s, y)
+         return
+      end if
+      part = s*self%step%h/self%h_whole
+      call self%library%look_back(self%step%t0 + s*self%step%h, y)
+      y = y + (1.0_wp - part)*self%gap_0 + part*self%gap_1
+   end subroutine multistep_within
+
+   !> The polynomial of the method needs no further evaluations.
+   subroutine multistep_prepare_output(self, system, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! 0
+
+      status = 0
+   end subroutine multistep_prepare_output
+
+   !> State within the last step, held. The polynomial is all that the method has to say of it.
+   subroutine multistep_refine(self, system, s, y, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: s                     !! place in the step, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)                 !! (n) state [any]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      call held_state(self, system, s, y, status)
+      status = merge(advance_step, advance_failed_evaluation, status == 0)
+   end subroutine multistep_refine
+
+   !> Read what the integrator remembers: the library begins anew from there.
+   subroutine multistep_load(self, row, place)
+      class(multistep_t), intent(inout) :: self  !! the integrator
+      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
+      integer, intent(inout) :: place            !! last place used
+
+      call self%load_base(row, place)
+      self%is_fresh = .true.
+      self%first_step = 0.0_wp
+      self%has_polynomial = .false.
+   end subroutine multistep_load
+
+end module multistep

@@ -1,0 +1,216 @@
+!> What the multistep methods need of a library that makes their steps: begin, step, look back.
+!>
+!> The library calls back with an address only: that of a `problem_t`, which points to the system and
+!> to the integrator for as long as the step lasts.
+!>
+!> Norm: the libraries take the root of the mean square of error times weight over all entries. With
+!> the weights sqrt(n) / (TOL scale) that is the Euclidean norm of error over scale, which bounds the
+!> greatest entry: an accepted step satisfies every norm of the controls. Quadratures, and the
+!> multipliers of a constrained system, weigh next to nothing.
+module sundials_library
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
+   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
+   use fsundials_matrix_mod, only: sunmatrix
+   use fsunmatrix_dense_mod, only: fsundensematrix_data
+   use integrator, only: advance_failed_evaluation, advance_too_many_evaluations, advance_too_small, integrator_t
+   use kinds, only: eps, wp
+   use ode_system, only: ode_system_t
+   implicit none (type, external)
+   private
+   public :: dense_block, increments, library_t, note, problem_t
+
+   real(wp), parameter :: no_weight = 1.0e-30_wp  !! weight of what stays out of the norm; nought would be divided by [any]
+
+   !> What the library hands back.
+   type :: problem_t
+      class(ode_system_t), pointer :: system => null()   !! the system, during a step
+      class(integrator_t), pointer :: method => null()   !! the integrator, during a step
+      logical :: holds_copies = .false.                  !! evaluate at a held copy of the state
+      logical :: is_used_up = .false.                    !! no evaluation is left
+      logical :: is_fatal = .false.                      !! an evaluation failed for good
+      real(wp), allocatable :: held(:)                   !! (n) the copy [any]
+   contains
+      procedure :: evaluate => problem_evaluate
+      procedure :: count_evaluation
+      procedure :: set_weights
+   end type problem_t
+
+   !> A library at work.
+   type, abstract :: library_t
+      type(problem_t), pointer :: problem => null()   !! what it hands back
+      type(c_ptr) :: context = c_null_ptr             !! of all its objects
+   contains
+      procedure(begin_interface), deferred :: begin
+      procedure(step_interface), deferred :: step
+      procedure(look_back_interface), deferred :: look_back
+      procedure(next_step_interface), deferred :: next_step
+      procedure(rejected_interface), deferred :: n_rejected
+      procedure :: open => library_open
+      procedure :: close => library_close
+      procedure :: failure => library_failure
+   end type library_t
+
+   abstract interface
+      !> Begin at the integrator's present state, with order 1. The problem points to system and integrator.
+      subroutine begin_interface(self, first_step, is_good)
+         import :: library_t, wp
+         implicit none (type, external)
+         class(library_t), intent(inout) :: self   !! the library
+         real(wp), intent(in) :: first_step        !! first step to try, 0: the library chooses [s]
+         logical, intent(out) :: is_good           !! whether there was room and every setting was taken
+      end subroutine begin_interface
+
+      !> One step, not beyond t_stop.
+      subroutine step_interface(self, t_stop, t, y, status)
+         import :: library_t, wp
+         implicit none (type, external)
+         class(library_t), intent(inout) :: self   !! the library
+         real(wp), intent(in) :: t_stop            !! not to be passed [s]
+         real(wp), intent(out) :: t                !! time reached [s]
+         real(wp), intent(out) :: y(:)             !! (n) state there [any]
+         integer, intent(out) :: status            !! 0, or a failure as `advance` returns it
+      end subroutine step_interface
+
+      !> State within the last step, by the polynomial of the method.
+      subroutine look_back_interface(self, t, y)
+         import :: library_t, wp
+         implicit none (type, external)
+         class(library_t), intent(in) :: self      !! the library
+         real(wp), intent(in) :: t                 !! time [s]
+         real(wp), intent(out) :: y(:)             !! (n) state [any]
+      end subroutine look_back_interface
+
+      !> Length of the step that will be tried next.
+      function next_step_interface(self) result(h)
+         import :: library_t, wp
+         implicit none (type, external)
+         class(library_t), intent(in) :: self      !! the library
+         real(wp) :: h                             !! 0: not known yet [s]
+      end function next_step_interface
+
+      !> Steps given up since the beginning: failed error tests and failed iterations.
+      function rejected_interface(self) result(n)
+         import :: library_t
+         implicit none (type, external)
+         class(library_t), intent(in) :: self      !! the library
+         integer :: n                              !! how many
+      end function rejected_interface
+   end interface
+
+contains
+
+   !> The right-hand side, at a held copy of the state if that is asked for.
+   subroutine problem_evaluate(self, t, y, ydot, status)
+      class(problem_t), intent(inout) :: self        !! the problem
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
+      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      integer, intent(out) :: status                 !! 0 done, > 0 retry with a smaller step, < 0 give up
+
+      call self%count_evaluation(status)
+      if (status /= 0) return
+      if (self%system%holds .and. self%holds_copies) then
+         self%held(:) = y
+         call self%system%hold(t, self%held, status)
+         if (status == 0) call self%system%evaluate(t, self%held, ydot, status)
+      else
+         call self%system%evaluate(t, y, ydot, status)
+      end if
+      self%is_fatal = self%is_fatal .or. status < 0
+   end subroutine problem_evaluate
+
+   !> One more evaluation, if one is left beside that of the end of the step.
+   subroutine count_evaluation(self, status)
+      class(problem_t), intent(inout) :: self  !! the problem
+      integer, intent(out) :: status           !! 0, or -1 if none is left
+
+      associate (most => self%method%controls%maximum_evaluations)
+         self%is_used_up = most > 0 .and. self%method%n_evaluations + 1 >= most
+      end associate
+      status = merge(-1, 0, self%is_used_up)
+      if (status == 0) self%method%n_evaluations = self%method%n_evaluations + 1
+   end subroutine count_evaluation
+
+   !> Error weights: sqrt(N) over tolerance and scale for N entries in all, next to nothing for
+   !> quadratures and for what follows the state.
+   subroutine set_weights(self, y, weight)
+      class(problem_t), intent(inout) :: self  !! the problem
+      real(wp), intent(in) :: y(:)             !! (n) state [any]
+      real(wp), intent(out) :: weight(:)       !! (N) weights, N at least n [any]
+
+      integer :: n
+
+      n = self%system%n - self%system%n_quadrature
+      call self%method%set_scales(self%system, y)
+      weight(1:n) = sqrt(real(size(weight), wp))/(self%method%controls%tolerance*self%method%scale(1:n))
+      weight(n + 1:) = no_weight
+   end subroutine set_weights
+
+   !> Increments of the state for difference quotients.
+   subroutine increments(system, y, scale, increment)
+      class(ode_system_t), intent(in) :: system   !! the system
+      real(wp), intent(in) :: y(:)                !! (n) state [any]
+      real(wp), intent(inout) :: scale(:)         !! (n) scratch [any]
+      real(wp), intent(out) :: increment(:)       !! (n) positive; of quadratures not used [any]
+
+      integer :: n
+
+      n = system%n - system%n_quadrature
+      call system%weights(y, scale)
+      increment(1:n) = sqrt(eps)*max(abs(y(1:n)), scale(1:n))
+      ! what is added must be a number that the state can take up exactly
+      increment(1:n) = (y(1:n) + increment(1:n)) - y(1:n)
+   end subroutine increments
+
+   !> Keep the first failure.
+   pure subroutine note(outcome, status)
+      integer(c_int), intent(in) :: outcome   !! what a routine of the library returned
+      integer, intent(inout) :: status        !! 0: none so far
+
+      if (status == 0) status = int(outcome)
+   end subroutine note
+
+   !> The entries of a dense matrix.
+   subroutine dense_block(matrix, n, block)
+      type(sunmatrix), intent(inout) :: matrix                      !! (n, n) matrix
+      integer, intent(in) :: n                                      !! rows and columns
+      real(c_double), pointer, contiguous, intent(out) :: block(:, :)  !! (n, n) its entries [any]
+
+      real(c_double), pointer :: entries(:)
+
+      entries => fsundensematrix_data(matrix)
+      call c_f_pointer(c_loc(entries(1)), block, [n, n])
+   end subroutine dense_block
+
+   !> Room for the problem, and the context.
+   subroutine library_open(self, n)
+      class(library_t), intent(inout) :: self  !! the library
+      integer, intent(in) :: n                 !! entries of the state
+
+      integer :: status
+
+      allocate (self%problem)
+      allocate (self%problem%held(n), source=0.0_wp)
+      status = fsuncontext_create(c_null_ptr, self%context)
+   end subroutine library_open
+
+   !> Free both; the objects of the context must be gone.
+   subroutine library_close(self)
+      class(library_t), intent(inout) :: self  !! the library
+
+      integer :: status
+
+      if (.not. associated(self%problem)) return
+      deallocate (self%problem)
+      status = fsuncontext_free(self%context)
+   end subroutine library_close
+
+   !> What a failed step is called.
+   integer function library_failure(self) result(status)
+      class(library_t), intent(in) :: self   !! the library
+
+      status = merge(advance_failed_evaluation, advance_too_small, self%problem%is_fatal)
+      if (self%problem%is_used_up) status = advance_too_many_evaluations
+   end function library_failure
+
+end module sundials_library

@@ -1,0 +1,58 @@
+"""The dry slider-crank by every method: first impacts against the independent solution, to the accuracy of docs/accuracy.md."""
+
+import numpy as np
+import pytest
+from reference_values import IMPACT_FIELDS, IMPACTS
+from support import assert_close, finished
+
+REFERENCE = {field: np.array(column) for field, column in zip(IMPACT_FIELDS, zip(*IMPACTS))}
+SHORT = ("analysis.dynamic", "end", "3.4 ms")  # ten impacts
+
+# method, tolerance: errors allowed of the first ten onsets [s], of impact speeds and peak forces of the first five impacts
+ALLOWED = {
+    ("adams", "1e-8"): (5e-8, 2e-4),
+    ("adams", "1e-10"): (1e-9, 1e-6),
+    ("bdf", "1e-8"): (1e-7, 5e-4),
+    ("bdf", "1e-10"): (5e-9, 2e-5),
+    ("ida", "1e-8"): (5e-8, 5e-5),
+    ("ida", "1e-10"): (5e-10, 2e-6),
+}
+
+
+def check_impacts(run, onsets, relative):
+    """First ten onsets, and what is known of the first five impacts."""
+    assert run.summary["status"] == "complete"
+    assert_close(run.contacts["time"][:10], REFERENCE["time"], absolute=onsets, what="onsets")
+    for field in ("impact_speed", "peak_force"):
+        assert_close(run.contacts[field][:5], REFERENCE[field][:5], relative=relative, what=field)
+    for field in ("release_speed", "energy_lost"):
+        assert_close(run.contacts[field][:5], REFERENCE[field][:5], relative=10 * relative, what=field)
+
+
+@pytest.mark.parametrize("method, tolerance", ALLOWED)
+def test_impacts(gudgeon, method, tolerance):
+    """The summary names the method; impacts are as accurate as stated, and the ledger closes."""
+    run = finished(gudgeon, "--method", method, "--tolerance", tolerance, changes=(SHORT,))
+    assert run.summary["method"] == method
+    check_impacts(run, *ALLOWED[method, tolerance])
+    assert run.summary["energy_residual_max"] < 20 * float(tolerance) ** 0.9 * run.summary["energy_max"]
+
+
+@pytest.mark.parametrize("step, onsets, relative", [("2 us", 2e-7, 1e-3), ("1 us", 2e-8, 1e-4)])
+def test_fixed_steps(gudgeon, step, onsets, relative):
+    """RK4 at the step of the deck; its steps are as many as the time holds, and one more for each event."""
+    run = finished(gudgeon, "--method", "rk4", changes=(SHORT, ("analysis.dynamic", "step", step)))
+    assert run.summary["method"] == "rk4"
+    check_impacts(run, onsets, relative)
+    full = 3.4e-3 / (float(step.split()[0]) * 1e-6)
+    assert full <= run.summary["steps"] <= full + run.summary["events"] + 1
+    assert run.summary["rejected_steps"] == 0
+
+
+def test_constraints_of_ida(gudgeon):
+    """Positions and velocities stay on their constraints without stabilisation; Verner's drift without it."""
+    off = (("analysis.dynamic", "stabilise", "none"), ("analysis.dynamic", "end", "12 ms"))
+    held = finished(gudgeon, "--ideal", "--method", "ida", "--tolerance", "1e-6", changes=off).summary
+    drifts = finished(gudgeon, "--ideal", "--tolerance", "1e-6", changes=off).summary
+    assert held["violation_max"] < 1e-7
+    assert drifts["violation_max"] > 3 * held["violation_max"]
