@@ -19,7 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from cases import CASES, ROOT  # noqa: E402
 from runs import Result, solve  # noqa: E402
 
-COLUMNS = (("case", 20), ("method", 38), ("tolerance", 9), ("error", 8), ("limit", 7), ("energy_drift", 8), ("violation", 8),
+COLUMNS = (("case", 22), ("method", 38), ("tolerance", 9), ("error", 8), ("limit", 7), ("energy_drift", 8), ("violation", 8),
            ("cpu_seconds", 8), ("steps", 7), ("verdict", 0))
 TITLES = {"energy_drift": "energy", "cpu_seconds": "CPU s"}
 
