@@ -9,7 +9,7 @@ import subprocess
 import numpy as np
 from support import Run, written
 
-LIMIT = 600  # seconds for one run
+LIMIT = 60  # seconds for one run
 NOT_COUNTED = ("stabilisation_work", "residual")  # what holding the constraints adds is drift
 
 
