@@ -37,7 +37,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all debug run test check bench figures lint format docs clean help
+.PHONY: all debug run test check bench stability figures lint format docs clean help
 .PHONY: objects binary test_program bench_programs
 
 all:
@@ -66,6 +66,11 @@ bench:
 	$(inner)release binary bench_programs
 	@GUDGEON_BUILD=$(abspath $(BUILD)) tests/bench/run_bench.sh
 
+stability:
+	@scripts/setup
+	$(inner)release binary
+	@$(PYTHON) -B tests/stability/stability.py --build $(abspath $(BUILD)) $(STABILITY)
+
 figures:
 	@scripts/setup
 	$(inner)release binary
@@ -89,12 +94,13 @@ help:
 	@echo "make run        set up, build, run a first deck       make figures  run every deck of inputs/"
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
+	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
 	@echo "make -j objects compile all sources without linking (-k: go on after errors)"
 	@echo
 	@echo "Variables: MODE=release|debug  ARCH=x86-64-v3 (ARCH= for the compiler's default)  BUILD=build  JOBS=$(JOBS)"
 	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
-	@echo "           PYTEST='-k expression' (options for make test)"
+	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
 
 # ---- building one mode ------------------------------------------------------------------------------
 

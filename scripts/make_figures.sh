@@ -1,12 +1,13 @@
 #!/bin/sh
-# Runs every deck of inputs/ and tells where the figures are.
+# Runs every deck of inputs/ and tells where the figures are; without decks also draws what compares several runs.
 # scripts/make_figures.sh PROGRAM [DECK...]
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
 program=$1
 shift
-[ $# -gt 0 ] || set -- inputs/*.deck
+comparisons=""
+[ $# -gt 0 ] || { comparisons=scripts/four_bar_figures; set -- inputs/*.deck; }
 [ -e "$1" ] || { echo "no decks in inputs/" >&2; exit 1; }
 
 failed=""
@@ -19,5 +20,8 @@ for deck in "$@"; do
       echo "$deck: ended with code $?" >&2
       failed="$failed $name"
    fi
+done
+for script in $comparisons; do
+   "${PYTHON:-/usr/bin/python3}" -B "$script" "$program" || failed="$failed $(basename "$script")"
 done
 [ -z "$failed" ] || { echo "failed:$failed" >&2; exit 1; }

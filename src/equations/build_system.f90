@@ -91,17 +91,18 @@ contains
       system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
    end subroutine new_system
 
-   !> Size of the bodies: the greatest distance of a point from its body's centre of mass, or radius of
-   !> gyration. It does not depend on where the mechanism stands.
+   !> Size of the bodies: the greatest distance of a point from its body's centre of mass; the greatest radius of gyration
+   !> if all points are there. It does not depend on where the mechanism stands.
    pure real(wp) function size_of_bodies(scene) result(length)
       type(scene_t), intent(in) :: scene  !! the scene
 
       integer :: k
 
-      length = maxval(sqrt(scene%bodies%inertia/scene%bodies%mass))
+      length = 0.0_wp
       do k = 1, scene%points%n
          if (scene%points%body(k) > 0) length = max(length, norm2(scene%points%s(:, k)))
       end do
+      if (length <= 0.0_wp) length = maxval(sqrt(scene%bodies%inertia/scene%bodies%mass))
    end function size_of_bodies
 
    !> Angles of the bodies at the start, with that of the ground.

@@ -6,7 +6,7 @@
 !> the corrections of least kinetic energy. Violations are at round-off afterwards. Where rows are nearly dependent the
 !> damped solution leaves what it cannot correct.
 !> Source: as an addition to Flores et al. (2008), section 2.5; E. Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482.
-!> Limits: a violation that Newton's iteration can correct.
+!> Limits: a violation that Newton's iteration can correct; a step that leaves more is refused.
 module hold_projection
    use hold, only: hold_t
    use item, only: option_t
@@ -19,6 +19,7 @@ module hold_projection
    public :: hold_projection_t
 
    real(wp), parameter :: round_off = 1.0e-14_wp  !! scaled violation that is not worth a correction [1]
+   real(wp), parameter :: too_much = 1.0e-7_wp    !! scaled violation left over at which the step is refused [1]
    integer, parameter :: n_newton = 3             !! corrections of the positions, at most
 
    !> Projection.
@@ -102,6 +103,9 @@ contains
             call correct(system, t, 0, y, status)
             if (status /= 0) return
          end do
+         ! beyond a dead point there is no position to correct to: shorter steps end there
+         if (.not. now <= too_much) status = 1
+         if (status /= 0) return
          system%b(:n) = -system%phi_dot(:n)
       end associate
       call correct(system, t, system%n_position, y, status)

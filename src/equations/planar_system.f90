@@ -188,7 +188,7 @@ contains
 
       nq = self%n_position
       call evaluate_terms(self, t, y, status)
-      if (status == 0) call find_accelerations(self, self%g, status)
+      if (status == 0) call find_accelerations(self, self%g, .true., status)
       if (status /= 0) return
       call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, y(nq + 1:2*nq), self%a, ydot, status)
       if (.not. self%with_ledger) return
@@ -220,15 +220,16 @@ contains
       integer, intent(out) :: status                 !! 0: found
 
       self%rest = 0.0_wp
-      call find_accelerations(self, self%rest, status)
+      call find_accelerations(self, self%rest, .false., status)
    end subroutine planar_solve_rows
 
    !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: through a singular
    !> position it stays finite, and the control of the step decides what is good enough. Status 1 if rows that are always
-   !> dependent contradict each other.
-   subroutine find_accelerations(self, g, status)
+   !> dependent contradict each other; where `b` may be round-off, as that of a correction, they always do.
+   subroutine find_accelerations(self, g, must_agree, status)
       class(planar_system_t), intent(inout) :: self  !! the system, rows evaluated
       real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
+      logical, intent(in) :: must_agree              !! whether a contradiction of rows that are always dependent is an error
       integer, intent(out) :: status                 !! 0: found
 
       integer :: k
@@ -243,7 +244,7 @@ contains
       k = merge(2, 1, self%is_redundant)
       call self%solver%solve_damped(self%inverse_mass, self%rows, g, self%b, damping(k), n_refinement(k), self%a, &
                                     self%lambda, self%bad_row)
-      if (self%is_redundant .and. self%bad_row == 0 .and. .not. self%solver%left_over <= contradiction) then
+      if (must_agree .and. self%is_redundant .and. self%bad_row == 0 .and. .not. self%solver%left_over <= contradiction) then
          self%bad_row = maxloc(abs(self%solver%residual(:self%rows%n_solve)), dim=1)
       end if
       if (self%bad_row > 0) status = 1

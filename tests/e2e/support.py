@@ -98,6 +98,11 @@ class Run:
         with h5py.File(self.directory / "run.h5", "r") as file:
             return plain(file[path][()])
 
+    def group(self, path):
+        """All datasets of a group, by name."""
+        with h5py.File(self.directory / "run.h5", "r") as file:
+            return {name: plain(dataset[()]) for name, dataset in file[path].items()}
+
     def item(self, path, name):
         """The part of a dataset (n, items, ...) that belongs to one item by name."""
         names = [str(n).strip() for n in self.read(path.rsplit("/", 1)[0] + "/names")]

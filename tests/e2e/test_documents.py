@@ -19,10 +19,11 @@ def test_manual_has_the_equations(root):
         assert after.lstrip().startswith("```\n") and "Source: " in after.split("```")[1], kind
 
 
-def test_links_of_the_readme(root):
-    """Every file that README.md links to is there."""
-    for target in re.findall(r"\]\(([^)#]+)\)", (root / "README.md").read_text()):
-        assert (root / target).exists(), target
+def test_links(root):
+    """Every file that README.md and docs/gallery.md link to is there."""
+    for page in (root / "README.md", root / "docs" / "gallery.md"):
+        for target in re.findall(r"\]\(([^)#]+)\)", page.read_text()):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
 
 
 def test_example_of_the_deck_page(gudgeon, root, tmp_path):
