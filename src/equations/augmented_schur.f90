@@ -12,6 +12,7 @@ module augmented_schur
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
    use joint_set, only: rows_t
    use kinds, only: wp
+   use lone_bodies, only: find_lone_bodies, lone_t, solve_lone_bodies
    use ordering, only: envelope_of, reverse_cuthill_mckee
    implicit none (type, external)
    private
@@ -22,15 +23,24 @@ module augmented_schur
    real, parameter :: sparse_cost = 120.0        !! operations that the sparse solver costs for a row or coordinate, measured
    real, parameter :: few = 10.0                 !! how many times that the pairs of a row may cost
 
-   !> Schur complement with its structure.
-   type, extends(direct_t) :: augmented_schur_t
+   !> The Schur complement of some of the solved rows, with its structure.
+   type :: part_t
       type(envelope_t) :: s                       !! Schur complement, then its factors
-      integer, allocatable :: order(:)            !! (solved rows) rows in the order of the envelope
-      integer, allocatable :: position(:)         !! (solved rows) place of each row in it
-      integer :: n_pair = 0                       !! pairs of row sides that share a body
+      integer, allocatable :: order(:)            !! (its rows) rows in the order of the envelope
+      integer :: n_side = 0                       !! their sides that are unknown bodies
+      integer, allocatable :: side(:, :)          !! (3, sides) place in the envelope's order, place in the Jacobian, body
+      integer :: n_pair = 0                       !! pairs of sides that share a body
       integer, allocatable :: pair(:, :)          !! (3, pairs) entry of Phi_q M^-1, entry of Phi_q, place in S
+      real(wp), allocatable :: x(:)               !! (its rows) right-hand side and solution, in the order of the envelope [any]
+   end type part_t
+
+   !> All solved rows for damped solutions; for others those of bodies that are not lone.
+   type, extends(direct_t) :: augmented_schur_t
+      type(lone_t) :: lone                        !! bodies solved in closed form
+      type(part_t) :: rest                        !! the other rows
+      type(part_t) :: all                         !! all rows
+      integer, allocatable :: unknown(:)          !! (bodies) unknown bodies that are not lone
       real(wp), allocatable :: jac_m(:)           !! (6 rows) Phi_q M^-1 [any]
-      real(wp), allocatable :: x(:)               !! (solved rows) right-hand side and solution, in the order of the envelope [any]
    contains
       procedure, nopass :: name => schur_name
       procedure :: prepare => schur_prepare
@@ -62,51 +72,61 @@ contains
       end do
       is_cheap = pairs < few*sparse_cost*real(rows%n_solve + 1)  ! else the pairs alone are too many to list
       if (.not. is_cheap) return
-      call choose_order(rows, order, first, cost)
+      call choose_order(rows, spread(.true., 1, rows%n_solve), order, first, cost)
       is_cheap = cost + 3.0*pairs < sparse_cost*real(rows%n_solve + 3*rows%n_unknown)
    end function schur_is_cheap
 
-   !> The order of the rows with the narrower envelope.
-   subroutine choose_order(rows, order, first, cost)
+   !> The order of some of the rows with the narrower envelope.
+   subroutine choose_order(rows, is_taken, order, first, cost)
       type(rows_t), intent(in) :: rows                  !! rows, declared
-      integer, allocatable, intent(out) :: order(:)     !! (solved rows) rows in their order
-      integer, allocatable, intent(out) :: first(:)     !! (solved rows) first column of each place
+      logical, intent(in) :: is_taken(:)                !! (solved rows) which of them
+      integer, allocatable, intent(out) :: order(:)     !! (rows taken) rows in their order
+      integer, allocatable, intent(out) :: first(:)     !! (rows taken) first column of each place
       real, intent(out) :: cost                         !! operations of one factorisation, about [1]
 
-      integer, allocatable :: neighbour(:), other(:), other_first(:), start(:)
+      integer, allocatable :: neighbour(:), number(:), other(:), other_first(:), start(:)
       real :: other_cost
       integer :: k
 
-      call list_neighbours(rows, start, neighbour)
-      order = [(k, k=1, rows%n_solve)]
+      number = pack([(k, k=1, rows%n_solve)], is_taken)
+      call list_neighbours(rows, is_taken, start, neighbour)
+      order = [(k, k=1, size(number))]
       first = order
       other_first = order
       call envelope_of(start, neighbour, order, first, cost)
       call reverse_cuthill_mckee(start, neighbour, other)
       call envelope_of(start, neighbour, other, other_first, other_cost)
-      if (other_cost >= cost) return
-      cost = other_cost
-      order = other
-      first = other_first
+      if (other_cost < cost) then
+         cost = other_cost
+         order = other
+         first = other_first
+      end if
+      order = number(order)
    end subroutine choose_order
 
-   !> For each solved row, those that share an unknown body with it.
-   subroutine list_neighbours(rows, start, neighbour)
+   !> For each row taken, those that share an unknown body with it, numbered among the rows taken.
+   subroutine list_neighbours(rows, is_taken, start, neighbour)
       type(rows_t), intent(in) :: rows                    !! rows, declared
-      integer, allocatable, intent(out) :: start(:)       !! (solved rows + 1) place of the first neighbour of each row
+      logical, intent(in) :: is_taken(:)                  !! (solved rows) which of them
+      integer, allocatable, intent(out) :: start(:)       !! (rows taken + 1) place of the first neighbour of each row
       integer, allocatable, intent(out) :: neighbour(:)   !! (any) neighbours
 
-      integer :: body, i, j, n, pass, row
+      integer :: body, i, j, n, number(rows%n_solve), pass, row
 
-      n = rows%n_solve
+      n = 0
+      do row = 1, rows%n_solve
+         if (is_taken(row)) n = n + 1
+         number(row) = n
+      end do
       allocate (start(n + 1), source=0)
       do pass = 1, 2
          do body = 1, ubound(rows%last_side, 1)
             do i = rows%last_side(body - 1) + 1, rows%last_side(body)
-               row = rows%side(1, i)
+               if (.not. is_taken(rows%side(1, i))) cycle
+               row = number(rows%side(1, i))
                do j = rows%last_side(body - 1) + 1, rows%last_side(body)
-                  if (i == j) cycle
-                  if (pass == 2) neighbour(start(row)) = rows%side(1, j)
+                  if (i == j .or. .not. is_taken(rows%side(1, j))) cycle
+                  if (pass == 2) neighbour(start(row)) = number(rows%side(1, j))
                   start(row) = start(row) + 1
                end do
             end do
@@ -127,38 +147,69 @@ contains
       start(1) = 1
    end subroutine list_neighbours
 
-   !> Order, envelope and pairs.
+   !> Lone bodies, and the structure of the rest and of all.
    subroutine schur_prepare(self, n_body, rows)
       class(augmented_schur_t), intent(inout) :: self  !! the solver
       integer, intent(in) :: n_body                    !! number of bodies
       type(rows_t), intent(in) :: rows                 !! rows, of which the bodies are read
 
-      integer, allocatable :: first(:)
-      real :: cost
-      integer :: body, column, i, j, k, line, n, pass
+      logical :: is_lone(n_body), is_taken(rows%n_solve)
+      integer :: k, n
 
-      n = rows%n_solve
-      call choose_order(rows, self%order, first, cost)
-      allocate (self%position(n), source=0)
-      self%position(self%order) = [(k, k=1, n)]
-      call new_envelope(first, self%s)
+      call find_lone_bodies(rows, self%lone)
+      n = sum(self%lone%n)
+      is_lone = .false.
+      is_lone(self%lone%body) = .true.
+      is_taken = .true.
+      do k = 1, n
+         is_taken(pack(self%lone%row(:, k), self%lone%row(:, k) > 0)) = .false.
+      end do
+      self%unknown = pack(rows%unknown,.not. is_lone(rows%unknown))
+      call prepare_part(rows, is_taken, self%rest)
+      is_taken = .true.
+      call prepare_part(rows, is_taken, self%all)
+      allocate (self%jac_m(6*rows%n), self%residual(rows%n_solve), source=0.0_wp)
+   end subroutine schur_prepare
+
+   !> Order, envelope, sides and pairs of some of the rows.
+   subroutine prepare_part(rows, is_taken, part)
+      type(rows_t), intent(in) :: rows       !! rows, of which the bodies are read
+      logical, intent(in) :: is_taken(:)     !! (solved rows) which of them
+      type(part_t), intent(inout) :: part    !! their structure
+
+      integer, allocatable :: first(:), place(:)
+      real :: cost
+      integer :: body, column, i, j, k, line, pass
+
+      call choose_order(rows, is_taken, part%order, first, cost)
+      allocate (place(rows%n_solve), source=0)
+      place(part%order) = [(k, k=1, size(part%order))]
+      call new_envelope(first, part%s)
+      part%n_side = count(is_taken(rows%side(1, :)))
+      allocate (part%side(3, part%n_side), source=0)
+      part%n_side = 0
       do pass = 1, 2
-         self%n_pair = 0
-         do body = 1, n_body
+         part%n_pair = 0
+         do body = 1, ubound(rows%last_side, 1)
             do i = rows%last_side(body - 1) + 1, rows%last_side(body)
-               line = self%position(rows%side(1, i))
+               line = place(rows%side(1, i))
+               if (line == 0) cycle
+               if (pass == 2) then
+                  part%n_side = part%n_side + 1
+                  part%side(:, part%n_side) = [line, rows%side(2, i), body]
+               end if
                do j = rows%last_side(body - 1) + 1, rows%last_side(body)
-                  column = self%position(rows%side(1, j))
-                  if (column > line) cycle
-                  self%n_pair = self%n_pair + 1
-                  if (pass == 2) self%pair(:, self%n_pair) = [rows%side(2, i) + 1, rows%side(2, j) + 1, self%s%start(line) + column]
+                  column = place(rows%side(1, j))
+                  if (column > line .or. column == 0) cycle
+                  part%n_pair = part%n_pair + 1
+                  if (pass == 2) part%pair(:, part%n_pair) = [rows%side(2, i) + 1, rows%side(2, j) + 1, part%s%start(line) + column]
                end do
             end do
          end do
-         if (pass == 1) allocate (self%pair(3, self%n_pair), source=0)
+         if (pass == 1) allocate (part%pair(3, part%n_pair), source=0)
       end do
-      allocate (self%jac_m(6*rows%n), self%x(n), self%residual(n), source=0.0_wp)
-   end subroutine schur_prepare
+      allocate (part%x(size(part%order)), source=0.0_wp)
+   end subroutine prepare_part
 
    !> Accelerations and multipliers.
    subroutine schur_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
@@ -174,18 +225,25 @@ contains
       integer :: n_body
 
       n_body = size(g, 2) - 1
-      call weigh_rows(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%position, inverse_mass, rows%jac, g, b, &
-                      self%jac_m, self%x)
-      call multiply_pairs(6*rows%n, self%n_pair, size(self%s%a), self%pair, self%jac_m, rows%jac, self%s%a)
-      call factorise_and_solve(rows%n_solve, size(self%s%a), self%s%first, self%s%start, threshold, self%s%a, self%s%inverse, &
-                               self%s%row, self%x, bad_row)
       self%n_factorisations = self%n_factorisations + 1
-      if (bad_row > 0) then
-         bad_row = self%order(bad_row)
-         return
-      end if
-      call in_given_order(rows%n_solve, self%position, self%x, lambda)
-      call body_accelerations(n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
+      call solve_lone_bodies(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, &
+                             rows%jac, g, b, threshold, a, lambda, bad_row)
+      if (bad_row > 0 .or. size(self%unknown) == 0) return
+      associate (part => self%rest)
+         if (size(part%order) > 0) then
+            call weigh_rows(n_body, rows%n, size(part%order), part%order, part%n_side, part%side, inverse_mass, rows%jac, g, b, &
+                            self%jac_m, part%x)
+            call multiply_pairs(6*rows%n, part%n_pair, size(part%s%a), part%pair, self%jac_m, rows%jac, part%s%a)
+            call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, threshold, part%s%a, &
+                                     part%s%inverse, part%s%row, part%x, bad_row)
+            if (bad_row > 0) then
+               bad_row = part%order(bad_row)
+               return
+            end if
+            call in_given_order(size(part%order), part%order, rows%n, part%x, lambda)
+         end if
+      end associate
+      call body_accelerations(n_body, rows%n, size(self%unknown), self%unknown, rows%n_side, rows%side, rows%last_side, &
                               inverse_mass, rows%jac, g, lambda, a)
    end subroutine schur_solve
 
@@ -197,25 +255,24 @@ contains
       real(wp), intent(in) :: damping                  !! added to the diagonal, of its entries [1]
       integer, intent(out) :: bad_row                  !! row at which there are no factors all the same, 0: none
 
-      integer :: body, k, place
+      integer :: k
 
-      do k = 1, rows%n_side
-         place = rows%side(2, k)
-         body = rows%side(3, k)
-         self%jac_m(place + 1:place + 3) = rows%jac(1 + modulo(place, 6):3 + modulo(place, 6), 1 + place/6)*inverse_mass(:, body)
-      end do
-      call multiply_pairs(6*rows%n, self%n_pair, size(self%s%a), self%pair, self%jac_m, rows%jac, self%s%a)
-      do k = 1, rows%n_solve
-         associate (diagonal => self%s%a(self%s%start(k) + k))
-            diagonal = diagonal*(1.0_wp + damping)
-            if (.not. diagonal > 0.0_wp) diagonal = 1.0_wp  ! a row between known bodies
-         end associate
-      end do
-      self%x = 0.0_wp
-      call factorise_and_solve(rows%n_solve, size(self%s%a), self%s%first, self%s%start, 0.0_wp, self%s%a, self%s%inverse, &
-                               self%s%row, self%x, bad_row)
+      associate (part => self%all)
+         self%residual = 0.0_wp
+         call weigh_rows(ubound(inverse_mass, 2), rows%n, size(part%order), part%order, part%n_side, part%side, inverse_mass, &
+                         rows%jac, 0.0_wp*inverse_mass, self%residual, self%jac_m, part%x)
+         call multiply_pairs(6*rows%n, part%n_pair, size(part%s%a), part%pair, self%jac_m, rows%jac, part%s%a)
+         do k = 1, size(part%order)
+            associate (diagonal => part%s%a(part%s%start(k) + k))
+               diagonal = diagonal*(1.0_wp + damping)
+               if (.not. diagonal > 0.0_wp) diagonal = 1.0_wp  ! a row between known bodies
+            end associate
+         end do
+         call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, 0.0_wp, part%s%a, &
+                                  part%s%inverse, part%s%row, part%x, bad_row)
+         if (bad_row > 0) bad_row = part%order(bad_row)
+      end associate
       self%n_factorisations = self%n_factorisations + 1
-      if (bad_row > 0) bad_row = self%order(bad_row)
    end subroutine schur_factorise
 
    !> Solution with these factors.
@@ -225,52 +282,55 @@ contains
 
       integer :: k
 
-      do k = 1, size(self%position)
-         self%x(self%position(k)) = x(k)
-      end do
-      call solve_factored(size(self%x), size(self%s%a), self%s%first, self%s%start, self%s%a, self%s%inverse, self%x)
-      call in_given_order(size(self%x), self%position, self%x, x)
+      associate (part => self%all)
+         do k = 1, size(part%order)
+            part%x(k) = x(part%order(k))
+         end do
+         call solve_factored(size(part%x), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, part%x)
+         call in_given_order(size(part%x), part%order, size(x), part%x, x)
+      end associate
    end subroutine schur_back_solve
 
    !> Values of the envelope's order in the rows' own.
-   pure subroutine in_given_order(n, position, x, lambda)
-      integer, intent(in) :: n                 !! solved rows
-      integer, intent(in) :: position(n)       !! (solved rows) place of each row in the envelope's order
-      real(wp), intent(in) :: x(n)             !! (solved rows) values in that order [any]
-      real(wp), intent(inout) :: lambda(n)     !! (solved rows) the same by row [any]
+   pure subroutine in_given_order(n, order, n_row, x, lambda)
+      integer, intent(in) :: n                 !! rows of the envelope
+      integer, intent(in) :: order(n)          !! (n) rows in its order
+      integer, intent(in) :: n_row             !! number of rows
+      real(wp), intent(in) :: x(n)             !! (n) values in that order [any]
+      real(wp), intent(inout) :: lambda(n_row) !! (rows) the same by row [any]
 
       integer :: k
 
       !GCC$ novector
       do k = 1, n
-         lambda(k) = x(position(k))
+         lambda(order(k)) = x(k)
       end do
    end subroutine in_given_order
 
    !> Phi_q M^-1, and the right-hand side of the multipliers.
-   pure subroutine weigh_rows(n_body, n_row, n_solve, n_side, side, position, inverse_mass, jac, g, b, jac_m, x)
+   pure subroutine weigh_rows(n_body, n_row, n, order, n_side, side, inverse_mass, jac, g, b, jac_m, x)
       integer, intent(in) :: n_body                        !! number of bodies
       integer, intent(in) :: n_row                         !! number of rows
-      integer, intent(in) :: n_solve                       !! rows that are solved for
-      integer, intent(in) :: n_side                        !! sides of rows that are unknown bodies
-      integer, intent(in) :: side(3, n_side)               !! (3, sides) row, place in the Jacobian, body
-      integer, intent(in) :: position(n_solve)             !! (solved rows) place of each row in the envelope's order
+      integer, intent(in) :: n                             !! rows of the envelope
+      integer, intent(in) :: order(n)                      !! (n) rows in its order
+      integer, intent(in) :: n_side                        !! sides of these rows that are unknown bodies
+      integer, intent(in) :: side(3, n_side)               !! (3, sides) place in the envelope's order, place in the Jacobian, body
       real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(inout) :: jac_m(6*n_row)            !! (6 rows) Phi_q M^-1, row by row [any]
-      real(wp), intent(out) :: x(n_solve)                  !! (solved rows) right-hand side, envelope's order [m/s^2 or rad/s^2]
+      real(wp), intent(out) :: x(n)                        !! (n) right-hand side, envelope's order [m/s^2 or rad/s^2]
 
       integer :: body, k, place, row
 
       !GCC$ novector
-      do row = 1, n_solve
-         x(position(row)) = -b(row)
+      do k = 1, n
+         x(k) = -b(order(k))
       end do
       !GCC$ novector
       do k = 1, n_side
-         row = position(side(1, k))
+         row = side(1, k)
          place = side(2, k)
          body = side(3, k)
          jac_m(place + 1) = jac(place + 1)*inverse_mass(1, body)

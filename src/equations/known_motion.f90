@@ -46,7 +46,7 @@ contains
       real(wp), intent(in) :: t                   !! time [s]
       type(motion_t), intent(inout) :: motion     !! the motion of the known bodies is set, accelerations too
 
-      real(wp) :: f, f_dot, f_dot_dot, s_a(2), s_b(2)
+      real(wp) :: c, f, f_dot, f_dot_dot, s, w, x, y
       integer :: a, b, k
 
       if (.not. abs(t - known%t) > 0.0_wp) return
@@ -59,20 +59,45 @@ contains
          f_dot = 0.0_wp
          f_dot_dot = 0.0_wp
          if (known%slot(k) > 0) call joints(known%slot(k))%set%prescription(known%item(k), t, f, f_dot, f_dot_dot)
-         known%is_finite = known%is_finite .and. ieee_is_finite(f) .and. ieee_is_finite(f_dot) .and. ieee_is_finite(f_dot_dot)
+         known%is_finite = known%is_finite .and. ieee_is_finite(f + f_dot + f_dot_dot)
          motion%angle(b) = motion%angle(a) + known%offset(k) + known%sign(k)*f
          motion%omega(3, b) = motion%omega(3, a) + known%sign(k)*f_dot
          motion%alpha(3, b) = motion%alpha(3, a) + known%sign(k)*f_dot_dot
-         motion%rot(1:2, 1, b) = [cos(motion%angle(b)), sin(motion%angle(b))]
-         motion%rot(1:2, 2, b) = [-motion%rot(2, 1, b), motion%rot(1, 1, b)]
-         s_a = motion%rot(1:2, 1, a)*known%s_base(1, k) + motion%rot(1:2, 2, a)*known%s_base(2, k)
-         s_b = motion%rot(1:2, 1, b)*known%s_body(1, k) + motion%rot(1:2, 2, b)*known%s_body(2, k)
-         motion%r(1:2, b) = motion%r(1:2, a) + s_a - s_b
-         motion%v(1:2, b) = motion%v(1:2, a) + motion%omega(3, a)*[-s_a(2), s_a(1)] - motion%omega(3, b)*[-s_b(2), s_b(1)]
-         motion%a(1:2, b) = motion%a(1:2, a) + motion%alpha(3, a)*[-s_a(2), s_a(1)] - motion%omega(3, a)**2*s_a &
-                            - motion%alpha(3, b)*[-s_b(2), s_b(1)] + motion%omega(3, b)**2*s_b
+         c = cos(motion%angle(b))
+         s = sin(motion%angle(b))
+         motion%rot(1, 1, b) = c
+         motion%rot(2, 1, b) = s
+         motion%rot(1, 2, b) = -s
+         motion%rot(2, 2, b) = c
+         ! from the common point to the centre of mass
+         x = s*known%s_body(2, k) - c*known%s_body(1, k)
+         y = -s*known%s_body(1, k) - c*known%s_body(2, k)
+         w = motion%omega(3, b)
+         motion%r(1, b) = known%s_base(1, k) + x
+         motion%r(2, b) = known%s_base(2, k) + y
+         motion%v(1, b) = -w*y
+         motion%v(2, b) = w*x
+         motion%a(1, b) = -motion%alpha(3, b)*y - w*w*x
+         motion%a(2, b) = motion%alpha(3, b)*x - w*w*y
+         if (a > 0) call add_base(motion, a, b, known%s_base(:, k))
       end do
    end subroutine move_known
+
+   !> What the motion of the body that carries the common point adds to that of a body.
+   pure subroutine add_base(motion, a, b, s_base)
+      type(motion_t), intent(inout) :: motion   !! the motion; that of body b is added to
+      integer, intent(in) :: a                  !! the body that carries
+      integer, intent(in) :: b                  !! the body that is carried
+      real(wp), intent(in) :: s_base(3)         !! (3) common point in the frame of a; in the position of b already [m]
+
+      real(wp) :: s(2), w
+
+      s = motion%rot(1:2, 1, a)*s_base(1) + motion%rot(1:2, 2, a)*s_base(2)
+      w = motion%omega(3, a)
+      motion%r(1:2, b) = motion%r(1:2, b) + (motion%r(1:2, a) + s - s_base(1:2))
+      motion%v(1:2, b) = motion%v(1:2, b) + motion%v(1:2, a) + w*[-s(2), s(1)]
+      motion%a(1:2, b) = motion%a(1:2, b) + motion%a(1:2, a) + motion%alpha(3, a)*[-s(2), s(1)] - w*w*s
+   end subroutine add_base
 
    !> Multipliers of the rows that fix the known bodies. Those of the solved rows are there; all rows are evaluated.
    pure subroutine find_multipliers(known, rows, mass, g, a, rest, lambda)
