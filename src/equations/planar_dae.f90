@@ -36,9 +36,9 @@ contains
       self%n_evaluations = self%n_evaluations + 1
       call evaluate_terms(self, t, y, status)
       if (status /= 0) return
-      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac, self%inverse_mass, lambda, self%a)
+      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, lambda, self%a)
       call remains(n, self%rows%unknown, self%n_body, y, ydot, self%inverse_mass, self%g, self%a, r_y)
-      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac, self%inverse_mass, mu, self%a)
+      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, mu, self%a)
       call add_positions(n, self%rows%unknown, self%n_body, self%a, r_y)
       if (self%with_ledger) then
          self%lambda(:m) = lambda
@@ -57,7 +57,7 @@ contains
       integer, intent(in) :: n_row                     !! number of rows
       integer, intent(in) :: n_side                    !! their sides that are unknown bodies
       integer, intent(in) :: side(3, n_side)           !! (3, sides) row, place in the Jacobian, body
-      real(wp), intent(in) :: jac(*)                   !! (6 rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: jac(6*n_row)             !! (6 rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: inverse_mass(3, 0:n_body)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), intent(in) :: x(n_row)                 !! (rows) multipliers [any]
       real(wp), intent(out) :: z(3, 0:n_body)          !! (3, 0:bodies) what they do to the rates [any]

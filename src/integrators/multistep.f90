@@ -126,8 +126,9 @@ contains
       status = advance_step
       associate (controls => self%controls)
          if (controls%maximum_steps > 0 .and. self%n_steps >= controls%maximum_steps) status = advance_too_many_steps
-         if (controls%maximum_evaluations > 0 .and. self%n_evaluations + 1 >= controls%maximum_evaluations) &
+         if (controls%maximum_evaluations > 0 .and. self%n_evaluations + 1 >= controls%maximum_evaluations) then
             status = advance_too_many_evaluations
+         end if
       end associate
       if (status /= advance_step) return
       if (self%is_fresh .and. t_stop - self%t <= tiny_step*eps*max(abs(self%t), abs(t_stop))) then
