@@ -5,7 +5,7 @@
 !> What does not exist (sqrt(-1), 1/0, exp(1000)) evaluates to NaN; no exception is raised for it.
 module expression
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use curve, only: curve_t, jet_of_curve
+   use curve, only: beyond_hold, beyond_linear, curve_t, jet_of_curve
    use jets, only: jet_acos, jet_asin, jet_atan, jet_atan2, jet_chain, jet_cosh, jet_exp, jet_integer_power, jet_log, &
                  & jet_power, jet_product, jet_quotient, jet_real_power, jet_sinh, jet_sqrt, jet_tan, jet_tanh
    use kind_info, only: dim_none, dim_t
@@ -67,7 +67,8 @@ module expression
 
 contains
 
-   !> Whether the value and its derivatives have no jumps where they exist: nothing in it steps, folds, or wraps around.
+   !> Whether the value and its derivatives have no jumps where they exist: nothing in it steps, folds, or wraps
+   !> around, and no curve bends at its end.
    pure logical function is_smooth(self)
       class(expression_t), intent(in) :: self  !! the expression
 
@@ -79,6 +80,8 @@ contains
       do k = 1, size(rough)
          is_smooth = is_smooth .and. all(self%code /= rough(k))
       end do
+      if (.not. allocated(self%curves)) return
+      is_smooth = is_smooth .and. all(self%curves%beyond /= beyond_hold .and. self%curves%beyond /= beyond_linear)
    end function is_smooth
 
    !> An expression that is one number.

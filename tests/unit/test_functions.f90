@@ -162,6 +162,7 @@ contains
       call check_jet(error, expression, 0.5_wp, [2.0_wp*x**2, 16.0_wp*x, 64.0_wp], "force over length")
       if (allocated(error)) return
       call check_true(error, size(expression%curves) == 1, "one curve is kept")
+      call check_true(error, .not. expression%is_smooth(), "its curvature jumps at the last sample")
       call check_close(error, expression%curves(1)%x(4), 3.0e-3_wp, 1.0e-18_wp, "places in SI")
       call read_scene_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"mass 1 1 0 0"//nl// &
                            "[function.samples]"//nl//"name at value"//nl//"way ""0 1 2 3 s"" ""0 0 0 1 mm"""//nl// &
