@@ -113,7 +113,7 @@ $(error $(FC) not found: scripts/setup installs what is needed)
 endif
 
 # The rooms, in the order of docs/architecture.md.
-ROOMS := core math deck model contact lubrication joints forces clearance integrators scene equations \
+ROOMS := core math deck functions model contact lubrication joints forces clearance integrators scene equations \
          analysis output cli
 SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90)))
 C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))

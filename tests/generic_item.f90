@@ -4,13 +4,15 @@ module generic_item
    use expression_compile, only: compile_expression, fault_t, symbol_t
    use fixed_random, only: random_t
    use item, only: item_t, value_t
-   use kind_info, only: cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word, column_t, kind_info_t
+   use kind_info, only: cell_expression, cell_file, cell_flag, cell_list, cell_number, cell_reference, cell_vector, cell_word, &
+      column_t, kind_info_t
    use kinds, only: wp
    use text, only: exact_text, split_blank, text_t
    implicit none (type, external)
    private
    public :: column_number, fill_item, make_expression, set_number
 
+   integer, parameter :: n_sample = 7  !! numbers of a list
    character(*), parameter :: smooth = "(0.4 + 0.9*sin(1.7 rad/s*t) - 0.3*cos(2.9 rad/s*t))"
       !! a function of time with derivatives that are not zero
 
@@ -71,8 +73,30 @@ contains
          value%expression = make_expression(exact_text(random%between(0.5_wp, 1.5_wp))//"*"//smooth, column)
       case (cell_flag)
          value%flag = modulo(variant, 2) == 1
+      case (cell_list)
+         value%table = reshape(column_of_samples(column%name, random), [n_sample, 1])
+      case (cell_file)
+         value%given = .false.
       end select
    end subroutine fill_value
+
+   !> A list: places in order, or values that end as they begin.
+   function column_of_samples(name, random) result(list)
+      character(*), intent(in) :: name         !! of the column
+      type(random_t), intent(inout) :: random  !! where numbers come from
+      real(wp) :: list(n_sample)               !! (n_sample) numbers [any]
+
+      integer :: k
+
+      list = random%vector(n_sample, 0.3_wp, 1.0_wp)
+      if (name == "at") then
+         do k = 2, n_sample
+            list(k) = list(k - 1) + list(k)
+         end do
+      else
+         list(n_sample) = list(1)
+      end if
+   end function column_of_samples
 
    !> Another unit of length: the same thing, so many times as large.
    subroutine scale_value(column, unit_of_length, value)

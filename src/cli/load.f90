@@ -6,6 +6,7 @@ module load
    use deck_reader, only: deck_t, diagnostics_t, read_deck
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
+   use function_range, only: check_function_ranges
    use item, only: item_t, location_t, value_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -63,6 +64,7 @@ contains
                       loaded%system)
       call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
+      if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       call check_words(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck

@@ -156,6 +156,9 @@ contains
       do k = 1, size(scene%forces)
          call count_kind(scene%forces(k)%info, scene%forces(k)%items)
       end do
+      do k = 1, size(scene%functions)
+         call count_kind(scene%functions(k)%info, scene%functions(k)%items)
+      end do
       if (size(system%ideal) > 0) then
          call say(counted(system%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
                   to_text(system%ideal(1)%set%n_row_item*system%ideal(1)%set%n)//" rows", 2)
@@ -209,7 +212,8 @@ contains
 
       if (size(items) == 0) return
       if (info%n_row > 0) then
-         call say(to_text(size(items))//" "//info%name//", "//counted(info%n_row*size(items), "row", "rows"), 2)
+         call say(to_text(size(items))//" "//info%name//", "//counted(info%n_row*size(items), "row", "rows")// &
+                  trim(merge(" at the start only", "                  ", info%is_start_only)), 2)
       else
          call say(to_text(size(items))//" "//info%name, 2)
       end if

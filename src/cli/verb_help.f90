@@ -6,8 +6,8 @@ module verb_help
    use errors, only: error_t, exit_usage, set_error
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
-   use kind_info, only: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_words, &
-      column_t, kind_info_t, no_bound
+   use kind_info, only: cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, cell_reference, &
+      cell_vector, cell_words, column_t, kind_info_t, no_bound
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use options, only: options_t
@@ -196,9 +196,17 @@ contains
       words = column%help
       select case (column%cell)
       case (cell_number, cell_vector)
-         words = words//" ["//unit_text(column%dimension)//"]"
+         if (column%is_any) then
+            words = words//" [any]"
+         else
+            words = words//" ["//unit_text(column%dimension)//"]"
+         end if
+      case (cell_list)
+         words = words//" (numbers and a unit, in quotes)"
+      case (cell_file)
+         words = words//" (a file)"
       case (cell_expression)
-         words = words//" ["//unit_text(column%dimension)//", a number or an expression in t]"
+         words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//column%variable//"]"
       case (cell_duration)
          words = words//" [s]"
       case (cell_flag)

@@ -9,7 +9,8 @@ module kind_info
    private
    public :: channel_t, column_t, dim_t, kind_info_t
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
-   public :: cell_words
+   public :: cell_file, cell_list, cell_words
+   public :: add_any_number, add_file, add_list
    public :: add_channel, add_column, add_duration, add_expression, add_flag, add_number, add_reference
    public :: add_vector, add_word, add_words, same_dimension
    public :: dim_acceleration, dim_angle, dim_angular_acceleration, dim_angular_damping, dim_angular_speed
@@ -65,6 +66,9 @@ module kind_info
    integer, parameter :: cell_flag = 7        !! on or off
    integer, parameter :: cell_duration = 8    !! a time, or `N turns of DRIVER` (settings only)
 
+   integer, parameter :: cell_list = 9        !! numbers with one unit, in quotes (tables only)
+   integer, parameter :: cell_file = 10       !! a text file of two columns of numbers
+
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]
 
    !> One column of a table, or one key of a section of settings.
@@ -72,6 +76,9 @@ module kind_info
       character(:), allocatable :: name       !! as written in the deck
       integer :: cell = cell_number           !! what a cell holds, one of the above
       type(dim_t) :: dimension = dim_none     !! of a number, vector or expression
+      logical :: is_any = .false.             !! of a number: any dimension will do, and is kept with the value
+      character(1) :: variable = "t"          !! of an expression: what it depends on; t is the time
+      type(dim_t) :: argument = dim_time      !! of an expression: dimension of its variable
       integer :: size = 1                     !! numbers of a vector (2: in the plane; 3: either 2 or 3)
       character(:), allocatable :: refers_to  !! of a reference: blank-separated prefixes of kinds
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
@@ -101,6 +108,7 @@ module kind_info
       character(:), allocatable :: source           !! citation with equation numbers
       logical :: is_table = .true.                  !! a table of items; else settings `key = value`
       integer :: n_row = 0                          !! constraint rows that an item adds in the plane
+      logical :: is_start_only = .false.            !! the rows hold while the start is made consistent, not after
       type(column_t), allocatable :: columns(:)     !! of the table, without `name`
       type(channel_t), allocatable :: channels(:)   !! of each item
    end type kind_info_t
@@ -131,6 +139,48 @@ contains
       if (present(is_free)) column%is_free = is_free
       call add_column(info, column)
    end subroutine add_number
+
+   !> Append a column that holds one number of any dimension.
+   subroutine add_any_number(info, name, help, default)
+      type(kind_info_t), intent(inout) :: info       !! the kind
+      character(*), intent(in) :: name               !! as written in the deck
+      character(*), intent(in) :: help               !! one line
+      character(*), intent(in), optional :: default  !! as in a deck, with its unit; absent: required
+
+      type(column_t) :: column
+
+      column = column_t(name=name, cell=cell_number, is_any=.true., help=help)
+      if (present(default)) column%default = default
+      call add_column(info, column)
+   end subroutine add_any_number
+
+   !> Append a column that holds a list of numbers of any one dimension, in quotes.
+   subroutine add_list(info, name, help, default)
+      type(kind_info_t), intent(inout) :: info       !! the kind
+      character(*), intent(in) :: name               !! as written in the deck
+      character(*), intent(in) :: help               !! one line
+      character(*), intent(in), optional :: default  !! blank: may be left open; absent: required
+
+      type(column_t) :: column
+
+      column = column_t(name=name, cell=cell_list, is_any=.true., help=help)
+      if (present(default)) column%default = default
+      call add_column(info, column)
+   end subroutine add_list
+
+   !> Append a column that names a text file of two columns of numbers, which is read with the deck.
+   subroutine add_file(info, name, help, default)
+      type(kind_info_t), intent(inout) :: info       !! the kind
+      character(*), intent(in) :: name               !! as written in the deck
+      character(*), intent(in) :: help               !! one line
+      character(*), intent(in), optional :: default  !! blank: may be left open; absent: required
+
+      type(column_t) :: column
+
+      column = column_t(name=name, cell=cell_file, help=help)
+      if (present(default)) column%default = default
+      call add_column(info, column)
+   end subroutine add_file
 
    !> Append a column that holds one word, out of `choices` if these are given.
    subroutine add_word(info, name, help, default, choices, options)
@@ -165,18 +215,22 @@ contains
       call add_column(info, column)
    end subroutine add_reference
 
-   !> Append a column that holds a number or an expression in the time `t`.
-   subroutine add_expression(info, name, dimension, help, default)
+   !> Append a column that holds a number or an expression in the time `t`, or in another variable.
+   subroutine add_expression(info, name, dimension, help, default, variable, argument)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck
       type(dim_t), intent(in) :: dimension           !! of its value
       character(*), intent(in) :: help               !! one line
       character(*), intent(in), optional :: default  !! as in a deck; absent: required
+      character(1), intent(in), optional :: variable !! what it depends on; absent: the time t
+      type(dim_t), intent(in), optional :: argument  !! dimension of the variable
 
       type(column_t) :: column
 
       column = column_t(name=name, cell=cell_expression, dimension=dimension, help=help)
       if (present(default)) column%default = default
+      if (present(variable)) column%variable = variable
+      if (present(argument)) column%argument = argument
       call add_column(info, column)
    end subroutine add_expression
 

@@ -9,9 +9,10 @@ module cells
    use dimension_text, only: unit_text
    use expression, only: constant_expression, expression_t
    use item, only: value_t
-   use kind_info, only: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word, &
-                      & cell_words, column_t, dim_none
+   use kind_info, only: cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, cell_reference, &
+                      & cell_vector, cell_word, cell_words, column_t, dim_none
    use kinds, only: wp
+   use number_lists, only: read_list
    use quantities, only: is_numeric, quantity_t, read_bare, read_brace, read_unit, report_dimension, report_not_a_number
    use tokens, only: span, token_brace, token_t, token_word
    use units, only: unit_t
@@ -56,6 +57,11 @@ contains
          call read_vector(deck, column, place, list, value, mistakes)
       case (cell_duration)
          call read_duration(deck, column, place, list, value, mistakes)
+      case (cell_list)
+         call read_list(deck, place, list(1), value, mistakes, header)
+      case (cell_file)
+         ! the table reads the file when all its rows are known
+         call read_word(deck, place, list(1), value%text, mistakes)
       case (cell_words)
          call read_words(deck, place, list, value, mistakes)
       case (cell_word)
@@ -122,9 +128,10 @@ contains
       type(quantity_t) :: quantity
 
       call read_number(deck, list, place, quantity, mistakes, header)
-      call report_dimension(quantity, column%dimension, value%location, place, mistakes)
+      if (.not. column%is_any) call report_dimension(quantity, column%dimension, value%location, place, mistakes)
       if (.not. quantity%is_good) return
       value%number = quantity%x
+      value%dimensions(1) = quantity%dimension
       call check_range(column, quantity%x, unit_text(column%dimension), value%location, place, mistakes)
    end subroutine read_number_cell
 
@@ -147,7 +154,7 @@ contains
          return
       end if
       call check_count(list, 1, place, mistakes, "the result of a brace carries its own unit")
-      call read_brace(deck, list(1), place, .true., compiled, quantity, mistakes)
+      call read_brace(deck, list(1), place, .true., compiled, quantity, mistakes, column)
       call report_dimension(quantity, column%dimension, value%location, place, mistakes)
       if (.not. quantity%is_good) return
       value%number = quantity%x

@@ -8,7 +8,7 @@ module deck_types
    implicit none (type, external)
    private
    public :: add_default, add_line, add_section, add_source, deck_t, find_section, line_t, location_of_end, section_t
-   public :: text_of
+   public :: symbols_of, text_of
 
    !> A section header.
    type :: section_t
@@ -34,6 +34,7 @@ module deck_types
       type(line_t), allocatable :: lines(:)        !! (n_line or more) lines with cells
       integer :: n_line = 0                        !! lines in use
       type(symbol_t), allocatable :: parameters(:) !! (n) values of the parameters
+      type(symbol_t), allocatable :: functions(:)  !! (n) named functions, once they are known
       type(text_t), allocatable :: parameter_text(:) !! (n) their values as written
       type(text_t), allocatable :: defaults(:)     !! (n_default or more) `kind item key = default`
       integer :: n_default = 0                     !! defaults in use
@@ -155,6 +156,25 @@ contains
          end if
       end do
    end function find_section
+
+   !> Everything that an expression of the deck may use: parameters, then functions.
+   pure function symbols_of(deck) result(symbols)
+      type(deck_t), intent(in) :: deck               !! the deck
+      type(symbol_t), allocatable :: symbols(:)      !! (n) both
+
+      integer :: k, n, n_function
+
+      n = size(deck%parameters)
+      n_function = 0
+      if (allocated(deck%functions)) n_function = size(deck%functions)
+      allocate (symbols(n + n_function))
+      do k = 1, n
+         symbols(k) = deck%parameters(k)
+      end do
+      do k = 1, n_function
+         symbols(n + k) = deck%functions(k)
+      end do
+   end function symbols_of
 
    !> The text of a token.
    function text_of(deck, token) result(s)

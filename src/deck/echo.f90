@@ -7,8 +7,8 @@ module echo
    use deck_types, only: deck_t
    use dimension_text, only: unit_text
    use item, only: item_t, value_t
-   use kind_info, only: cell_duration, cell_expression, cell_flag, cell_number, cell_vector, cell_words, column_t, dim_none, &
-                      & kind_info_t, same_dimension
+   use kind_info, only: cell_duration, cell_expression, cell_flag, cell_list, cell_number, cell_vector, cell_words, column_t, &
+                      & dim_none, dim_t, kind_info_t, same_dimension
    use text, only: append_text, buffer_t, exact_text, replace, text_t
    implicit none (type, external)
    private
@@ -132,7 +132,7 @@ contains
 
       select case (column%cell)
       case (cell_number, cell_expression, cell_vector, cell_duration)
-         has_unit = .not. same_dimension(column%dimension, dim_none)
+         has_unit = .not. column%is_any .and. .not. same_dimension(column%dimension, dim_none)
       case default
          has_unit = .false.
       end select
@@ -168,6 +168,13 @@ contains
       select case (column%cell)
       case (cell_number)
          s = exact_text(value%number)
+         if (column%is_any) s = s//glued_unit(value%dimensions(1))
+      case (cell_list)
+         s = ""
+         do i = 1, size(value%table, 1)
+            s = s//exact_text(value%table(i, 1))//" "
+         end do
+         s = quoted(trim(s//glued_unit(value%dimensions(1))))
       case (cell_expression)
          s = exact_text(value%number)
          if (.not. value%expression%is_constant) s = "{"//value%expression%source//"}"
@@ -195,6 +202,15 @@ contains
          end do
       end select
    end function value_text
+
+   !> The SI unit of a dimension, empty for none.
+   pure function glued_unit(dimension) result(s)
+      type(dim_t), intent(in) :: dimension  !! exponents
+      character(:), allocatable :: s        !! the unit
+
+      s = ""
+      if (.not. same_dimension(dimension, dim_none)) s = unit_text(dimension)
+   end function glued_unit
 
    !> A word as the deck reads it, in quotes if it needs them.
    pure function quoted(word) result(s)

@@ -5,6 +5,7 @@
 !> at deck text again, except to say where a mistake stands.
 module item
    use expression, only: expression_t
+   use kind_info, only: dim_none, dim_t
    use kinds, only: wp
    use text, only: text_t
    implicit none (type, external)
@@ -32,12 +33,14 @@ module item
    type :: value_t
       logical :: given = .false.                     !! .false.: the column's default was taken
       real(wp) :: number = 0.0_wp                    !! of a number; of an expression its value at t = 0, SI [any]
+      type(dim_t) :: dimensions(2) = dim_none        !! (2) of a number of any dimension, a list, the columns of a file
+      real(wp), allocatable :: table(:, :)           !! (rows, 1 or 2) numbers of a list, or of a file, SI [any]
       real(wp) :: vector(3) = 0.0_wp                 !! (3) of a vector, SI [any]
       integer :: n_vector = 0                        !! numbers given of a vector
       logical :: flag = .false.                      !! of an on/off cell
       character(:), allocatable :: text              !! the word, the name referred to, or the cell as written
       type(text_t), allocatable :: words(:)          !! of a list of words
-      type(location_t), allocatable :: places(:)     !! (words) where each word of a list stands
+      type(location_t), allocatable :: places(:)     !! (words or rows) where each entry of a list stands
       type(option_t), allocatable :: options(:)      !! after a word
       type(expression_t), allocatable :: expression  !! of an expression cell, constant ones too
       integer :: index = 0                           !! of a reference: number of the item, set by the scene

@@ -4,14 +4,14 @@
 !> braces, which carries its own dimension.
 module quantities
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use deck_types, only: deck_t, text_of
+   use deck_types, only: deck_t, symbols_of, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
    use expression, only: expression_t
    use expression_compile, only: compile_expression, dimension_agrees, evaluate_safely, fault_t, name_length, &
                                & symbol_number, symbol_word
    use item, only: location_t
-   use kind_info, only: dim_none, dim_t, same_dimension
+   use kind_info, only: column_t, dim_none, dim_t, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
    use text, only: lower
@@ -133,21 +133,27 @@ contains
       call mistakes%add(location, "'"//word//"' is not a number "//place, "a number is wanted here", help)
    end subroutine report_not_a_number
 
-   !> Read an expression; without the time its value is worked out.
-   subroutine read_brace(deck, token, place, has_time, compiled, quantity, mistakes)
+   !> Read an expression; without a variable its value is worked out.
+   subroutine read_brace(deck, token, place, has_variable, compiled, quantity, mistakes, column)
       type(deck_t), intent(in) :: deck                !! for its parameters
       type(token_t), intent(in) :: token              !! the brace
       character(*), intent(in) :: place               !! as `in column mass of bodies`
-      logical, intent(in) :: has_time                 !! `t` is allowed
+      logical, intent(in) :: has_variable             !! it may depend on the time, or on the column's variable
       type(expression_t), intent(out) :: compiled     !! the expression
-      type(quantity_t), intent(out) :: quantity       !! its value, at t = 0 if it moves
+      type(quantity_t), intent(out) :: quantity       !! its value, that at 0 if it moves
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+      type(column_t), intent(in), optional :: column  !! names the variable
 
       type(fault_t), allocatable :: fault
       type(location_t) :: at
       real(wp) :: d1, d2
 
-      call compile_expression(text_of(deck, token), deck%parameters, has_time, compiled, fault)
+      if (present(column)) then
+         call compile_expression(text_of(deck, token), symbols_of(deck), has_variable, compiled, fault, column%variable, &
+                               & column%argument)
+      else
+         call compile_expression(text_of(deck, token), symbols_of(deck), has_variable, compiled, fault)
+      end if
       if (allocated(fault)) then
          if (len(fault%message) == 0) return
          at = token%location

@@ -4,7 +4,7 @@ module table_header
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name
    use item, only: location_t
-   use kind_info, only: cell_expression, cell_number, column_t, kind_info_t, same_dimension
+   use kind_info, only: cell_expression, cell_list, cell_number, column_t, kind_info_t, same_dimension
    use quantities, only: read_unit
    use text, only: append_text, join, nearest_word, text_t
    use tokens, only: span, token_equals, token_t, token_word
@@ -132,7 +132,7 @@ contains
       logical :: is_good
 
       place = "in column "//column%name//" of "//info%name
-      if (column%cell /= cell_number .and. column%cell /= cell_expression) then
+      if (column%cell /= cell_number .and. column%cell /= cell_expression .and. column%cell /= cell_list) then
          call mistakes%add(location, "column '"//column%name//"' of table "//info%name//" has a unit", "it holds words")
          return
       end if
@@ -141,7 +141,7 @@ contains
       inside%last = max(inside%first, location%last - 1)
       call read_unit(string, inside, place, header%unit, is_good, mistakes)
       header%has_unit = is_good
-      if (is_good .and. .not. same_dimension(header%unit%dimension, column%dimension)) then
+      if (is_good .and. .not. column%is_any .and. .not. same_dimension(header%unit%dimension, column%dimension)) then
          call mistakes%add(inside, "wrong dimension "//place, "this is "//dimension_name(header%unit%dimension)//", " &
                          & //dimension_name(column%dimension)//" is wanted")
          is_good = .false.

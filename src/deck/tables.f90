@@ -7,8 +7,9 @@ module tables
    use defaults, only: read_default, remember_default
    use diagnostics, only: diagnostics_t
    use item, only: item_t, location_t, value_t
-   use kind_info, only: kind_info_t
+   use kind_info, only: cell_file, kind_info_t
    use name_table, only: name_table_t
+   use number_lists, only: read_samples
    use quantities, only: is_numeric
    use table_header, only: header_t, is_broken, is_name_column, read_table_header
    use text, only: to_text
@@ -63,6 +64,13 @@ contains
             n = n + 1
             call read_row(deck, info, headers, tokens_of(deck, line(k)), table, n, items, mistakes)
          end if
+      end do
+      do k = 1, n_column
+         if (info%columns(k)%cell /= cell_file) cycle
+         do n = 1, size(items)
+            if (.not. items(n)%values(k)%given) cycle
+            call read_samples(deck, "in column "//info%columns(k)%name//" of "//info%name, items(n)%values(k), mistakes)
+         end do
       end do
    end subroutine read_items
 

@@ -16,7 +16,7 @@ module build_system
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t, list_sides, new_rows
    use kinds, only: wp
-   use motion, only: new_loads, new_motion
+   use motion, only: new_loads, new_motion, set_planar_motion
    use planar_system, only: n_ledger, planar_system_t
    use scene, only: analysis_dynamic, scene_t
    use section_info, only: column_of
@@ -39,13 +39,15 @@ module build_system
 contains
 
    !> Build the system of a scene.
-   subroutine new_system(scene, levels, system)
+   subroutine new_system(scene, levels, system, is_for_start)
       type(scene_t), intent(in) :: scene            !! the scene
       integer, intent(in) :: levels                 !! of joints with clearance, one of the above
       type(planar_system_t), intent(out) :: system  !! the system
+      logical, intent(in), optional :: is_for_start !! with the rows that hold only at the start; absent: without
 
       type(choice_t) :: choices(n_joint_kinds)
       type(link_t), allocatable :: links(:)
+      logical :: is_taken(n_joint_kinds)
       integer :: k, n
 
       n = scene%bodies%n
@@ -63,12 +65,18 @@ contains
       system%length_scale = size_of_bodies(scene)
       call new_motion(n, system%motion)
       call new_loads(n, system%loads)
+      is_taken = .true.
+      do k = 1, n_joint_kinds
+         if (scene%joints(k)%info%is_start_only) is_taken(k) = .false.
+      end do
+      if (present(is_for_start)) is_taken = is_taken .or. is_for_start
       call choose_known(scene, links, choices)
-      call count_sets(scene, choices, system)
-      call add_joints(scene, choices, .true., system)
+      call count_sets(scene, choices, is_taken, system)
+      call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
+      call add_joints(scene, choices, is_taken, .true., system)
       call add_clearances(scene, levels, system)
       system%rows%n_solve = system%rows%n
-      call add_joints(scene, choices, .false., system)
+      call add_joints(scene, choices, is_taken, .false., system)
       call set_known(scene, links, choices, system)
       call add_forces(scene, system)
       call declare_rows(system)
@@ -105,6 +113,15 @@ contains
       angle(1:) = scene%bodies%angle
    end function start_angles
 
+   !> Coordinates of the bodies where the deck puts them.
+   pure function start_positions(scene) result(q)
+      type(scene_t), intent(in) :: scene      !! the scene
+      real(wp) :: q(3, scene%bodies%n)        !! (3, bodies) x, y, angle [m, m, rad]
+
+      q(1:2, :) = scene%bodies%r(1:2, :)
+      q(3, :) = scene%bodies%angle
+   end function start_positions
+
    !> The bodies that are known functions of time, unless the deck wants them among the unknowns, and the rows that fix them.
    !> Only an integration has unknowns: elsewhere all bodies stay together.
    subroutine choose_known(scene, links, choices)
@@ -130,16 +147,17 @@ contains
    end subroutine choose_known
 
    !> Places for the sets of joints and drivers: up to two for each kind that has rows.
-   subroutine count_sets(scene, choices, system)
+   subroutine count_sets(scene, choices, is_taken, system)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix known bodies
+      logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
       type(planar_system_t), intent(inout) :: system          !! joints are allocated
 
       integer :: k, n
 
       n = 0
       do k = 1, n_joint_kinds
-         if (size(scene%joints(k)%items) == 0) cycle
+         if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          if (any(choices(k)%is_fixing)) n = n + 1
          if (.not. all(choices(k)%is_fixing)) n = n + 1
       end do
@@ -147,9 +165,10 @@ contains
    end subroutine count_sets
 
    !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows.
-   subroutine add_joints(scene, choices, is_solved, system)
+   subroutine add_joints(scene, choices, is_taken, is_solved, system)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix known bodies
+      logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
       logical, intent(in) :: is_solved                        !! which of them
       type(planar_system_t), intent(inout) :: system          !! joints are set
 
@@ -161,7 +180,7 @@ contains
       if (.not. is_solved) n = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
       column = 0
       do k = 1, n_joint_kinds
-         if (size(scene%joints(k)%items) == 0) cycle
+         if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
          call new_joint_set(k, set)
          allocate (i(size(chosen)), j(size(chosen)))
@@ -170,6 +189,7 @@ contains
          end do
          call set%new(scene%joints(k)%items(chosen), i, j, scene%points)
          call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
+         call set%set_start(system%motion)
          deallocate (i, j)
          m = merge(2, 1, set%is_driver)
          set%column = column(m) + chosen

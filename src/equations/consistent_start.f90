@@ -281,13 +281,24 @@ contains
       real(wp), intent(in) :: right(:)                   !! (rows) rates of the violations left [m/s or rad/s]
       type(error_t), allocatable, intent(out) :: error   !! the message
 
-      integer :: row
+      real(wp), parameter :: guilty = 0.1_wp  ! least share of the greatest residual of a row that is named too [1]
+      character(:), allocatable :: others
+      real(wp) :: scaled(system%rows%n)
+      integer :: k, row
 
-      row = maxloc(abs(right)*row_scale(system), dim=1)
+      scaled = abs(right)*row_scale(system)
+      row = maxloc(scaled, dim=1)
+      others = ""
+      do k = 1, system%rows%n
+         if (scaled(k) < guilty*scaled(row) .or. system%row_name(k) == system%row_name(row)) cycle
+         if (index(others//",", " '"//system%row_name(k)//"',") == 0) others = others//", '"//system%row_name(k)//"'"
+      end do
+      if (len(others) > 0) others = new_line("a")//"  = against it stand "//others(3:)
       call set_error(error, exit_assembly, "no velocities fulfil the constraints: joint or driver '"// &
                      system%row_name(row)//"' is left with "//to_text(abs(right(row)))// &
-                     trim(merge(" rad/s", " m/s  ", system%rows%is_angle(row)))//new_line("a")// &
-                     "  = two drivers may contradict each other, or the mechanism is in a dead point that a driver wants to pass")
+                     trim(merge(" rad/s", " m/s  ", system%rows%is_angle(row)))//others//new_line("a")// &
+                     "  = two drivers or initial speeds may contradict each other, or the mechanism is in a dead point that a "// &
+                     "driver wants to pass")
    end subroutine velocity_error
 
 end module consistent_start

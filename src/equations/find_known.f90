@@ -50,7 +50,7 @@ contains
 
       revolute = kind_number(scene, "joint.revolute")
       do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%columns(1)%refers_to /= "joint.revolute") cycle
+         if (scene%joints(k)%info%columns(1)%refers_to /= "joint.revolute" .or. scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
             if (.not. has_smooth_cells(scene%joints(k)%items(i))) cycle
             call add_if_new(scene, link_t(kind=revolute, item=scene%joints(k)%items(i)%values(1)%index, driver=k, driving=i), &

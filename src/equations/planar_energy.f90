@@ -1,11 +1,11 @@
 !> The energy ledger of a planar scene at one state.
 !>
-!> residual = E - E_0 - (drive + load + stabilisation work) + (lost in contacts and by friction),
+!> residual = E - E_0 - (drive + load + stabilisation work) + (lost in contacts, by friction and in dampers),
 !> E = kinetic + potential + elastic. It is zero but for the error of the integration: an error
 !> measure that needs no reference solution.
 module planar_energy
    use kinds, only: wp
-   use planar_system, only: n_ledger, planar_system_t, work_drive, work_load, work_stabilisation
+   use planar_system, only: lost_damper, n_ledger, planar_system_t, work_drive, work_load, work_stabilisation
    implicit none (type, external)
    private
    public :: energy_t, energy_of, mechanical_energy
@@ -14,12 +14,13 @@ module planar_energy
    type :: energy_t
       real(wp) :: kinetic = 0.0_wp              !! kinetic energy [J]
       real(wp) :: potential = 0.0_wp            !! of gravity, zero at the world's origin [J]
-      real(wp) :: elastic = 0.0_wp              !! stored in contacts [J]
+      real(wp) :: elastic = 0.0_wp              !! stored in contacts and springs [J]
       real(wp) :: drive_work = 0.0_wp           !! done by drivers [J]
       real(wp) :: load_work = 0.0_wp            !! done by applied loads [J]
       real(wp) :: stabilisation_work = 0.0_wp   !! done by constraint forces on the drift [J]
       real(wp) :: dissipated_contact = 0.0_wp   !! lost by damping in contacts [J]
       real(wp) :: dissipated_friction = 0.0_wp  !! lost by friction [J]
+      real(wp) :: dissipated_damper = 0.0_wp    !! lost in dampers [J]
    contains
       procedure :: mechanical
       procedure :: balance
@@ -39,7 +40,7 @@ contains
       class(energy_t), intent(in) :: self  !! energies
 
       balance = self%mechanical() - (self%drive_work + self%load_work + self%stabilisation_work) &
-                + self%dissipated_contact + self%dissipated_friction
+                + self%dissipated_contact + self%dissipated_friction + self%dissipated_damper
    end function balance
 
    !> Mechanical energy of the present motion.
@@ -68,6 +69,9 @@ contains
             energy%potential = energy%potential - m*(system%gravity(1)*motion%r(1, k) + system%gravity(2)*motion%r(2, k))
          end do
       end associate
+      do k = 1, size(system%forces)
+         energy%elastic = energy%elastic + system%forces(k)%set%elastic_energy(system%motion)
+      end do
       if (.not. any_touching(system)) return
       do k = 1, size(system%clearances)
          energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%motion)
@@ -88,6 +92,7 @@ contains
       energy%drive_work = y(z + work_drive)
       energy%load_work = y(z + work_load)
       energy%stabilisation_work = y(z + work_stabilisation)
+      energy%dissipated_damper = y(z + lost_damper)
       do k = 1, system%n_loose
          energy%dissipated_contact = energy%dissipated_contact + y(z + n_ledger + 2*k - 1)
          energy%dissipated_friction = energy%dissipated_friction + y(z + n_ledger + 2*k)

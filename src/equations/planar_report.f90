@@ -29,13 +29,14 @@ contains
       info%is_table = .false.
       call add_channel(info, "kinetic", "J", "none", 1, "kinetic energy")
       call add_channel(info, "potential", "J", "none", 1, "potential energy of gravity, zero at the origin")
-      call add_channel(info, "elastic", "J", "none", 1, "elastic energy stored in contacts")
+      call add_channel(info, "elastic", "J", "none", 1, "elastic energy stored in contacts and springs")
       if (.not. with_works) return
       call add_channel(info, "drive_work", "J", "none", 1, "work done by drivers since the start")
       call add_channel(info, "load_work", "J", "none", 1, "work done by applied loads since the start")
       call add_channel(info, "stabilisation_work", "J", "none", 1, "work of constraint forces on the drift since the start")
       call add_channel(info, "dissipated_contact", "J", "none", 1, "lost by damping in contacts since the start")
       call add_channel(info, "dissipated_friction", "J", "none", 1, "lost by friction since the start")
+      call add_channel(info, "dissipated_damper", "J", "none", 1, "lost in dampers since the start")
       call add_channel(info, "residual", "J", "none", 1, "what does not add up, at the end of the step that holds the sample")
    end function energy_info
 
@@ -184,9 +185,9 @@ contains
             case (room_bodies)
                call report_bodies(system, group%channel%name, group%data)
             case (room_joints)
-               call report_joints(system, .false., group%channel%name, group%data)
+               call report_joints(system, .false., group%channel%name, items_with(catalogue, k), group%data)
             case (room_drivers)
-               call report_joints(system, .true., group%channel%name, group%data)
+               call report_joints(system, .true., group%channel%name, items_with(catalogue, k), group%data)
             case (room_clearances, room_contacts)
                call report_clearances(system, group%channel%name, group%data)
             case (room_forces)
@@ -222,11 +223,26 @@ contains
       end associate
    end subroutine report_bodies
 
+   !> Which items of a group's room have its channel.
+   pure function items_with(catalogue, group) result(has)
+      type(catalogue_t), intent(in) :: catalogue  !! the catalogue
+      integer, intent(in) :: group                !! number of the group
+      logical, allocatable :: has(:)              !! (items) whether each has it
+
+      integer :: item
+
+      allocate (has(size(catalogue%groups(group)%data, 2)))
+      do item = 1, size(has)
+         has(item) = catalogue%item_has(group, item)
+      end do
+   end function items_with
+
    !> Values of a channel of the joints, or of the drivers.
-   subroutine report_joints(system, is_driver, channel, values)
+   subroutine report_joints(system, is_driver, channel, has, values)
       class(planar_system_t), intent(in) :: system  !! the system
       logical, intent(in) :: is_driver              !! drivers, not joints
       character(*), intent(in) :: channel           !! the channel
+      logical, intent(in) :: has(:)                 !! (items) whether each item has the channel
       real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
 
       real(wp) :: force(2), moment, rate, value
@@ -237,12 +253,20 @@ contains
             if (set%is_driver .neqv. is_driver) cycle
             do i = 1, set%n
                column = set%column(i)
+               if (.not. has(column)) cycle
                row = set%first_row + (i - 1)*set%n_row_item + 1
                associate (last => row + set%n_row_item - 1)
                   select case (channel)
                   case ("force")
                      call reaction_on_i(system, set, i, force, moment)
-                     values(:, column) = force
+                     if (is_driver) then
+                        ! along its coordinate, on the body of j
+                        values(1, column) = -system%lambda(row)
+                     else
+                        values(:, column) = force
+                     end if
+                  case ("tension")
+                     values(1, column) = system%lambda(row)
                   case ("moment")
                      call reaction_on_i(system, set, i, force, moment)
                      values(1, column) = merge(-moment, moment, is_driver)
@@ -250,7 +274,7 @@ contains
                      values(1, column) = norm2(system%rows%phi(row:last))
                   case ("violation_rate")
                      values(1, column) = norm2(system%phi_dot(row:last))
-                  case ("coordinate")
+                  case ("coordinate", "displacement")
                      call set%coordinate(i, system%motion, value, rate)
                      values(1, column) = value
                   case ("power")
@@ -343,6 +367,7 @@ contains
       case ("stabilisation_work"); value = energy%stabilisation_work
       case ("dissipated_contact"); value = energy%dissipated_contact
       case ("dissipated_friction"); value = energy%dissipated_friction
+      case ("dissipated_damper"); value = energy%dissipated_damper
       case default; value = residual
       end select
    end function energy_value

@@ -4,8 +4,8 @@
 !> quadratures of the energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
 !> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less Phi_q a of the bodies whose motion is known.
 !>
-!> Ledger: z = ( drive work, load work, stabilisation work; per loose joint: lost in contact, lost by
-!> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', (F_N - F_elastic) delta', F_T |v_T|.
+!> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per loose joint: lost in contact, lost by
+!> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|.
 !>
 !> Events: one function per loose joint, the penetration while free, its negative while touching.
 !>
@@ -26,12 +26,13 @@ module planar_system
    implicit none (type, external)
    private
    public :: planar_system_t
-   public :: n_ledger, work_drive, work_load, work_stabilisation
+   public :: lost_damper, n_ledger, work_drive, work_load, work_stabilisation
 
    integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
    integer, parameter :: work_load = 2           !! quadrature: work of applied loads
    integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
-   integer, parameter :: n_ledger = 3            !! quadratures before those of the loose joints
+   integer, parameter :: lost_damper = 4         !! quadrature: lost in dampers
+   integer, parameter :: n_ledger = 4            !! quadratures before those of the loose joints
 
    real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
                                                                !! shows in reactions that are not unique [1]
@@ -267,6 +268,10 @@ contains
          power(work_stabilisation) = power(work_stabilisation) - self%lambda(k)*self%phi_dot(k)
       end do
       power(work_load) = self%load_power
+      power(lost_damper) = 0.0_wp
+      do k = 1, size(self%forces)
+         power(lost_damper) = power(lost_damper) + self%forces(k)%set%lost_power(self%motion)
+      end do
       do k = 1, self%n_loose
          power(n_ledger + 2*k - 1) = self%losses(1, k)
          power(n_ledger + 2*k) = self%losses(2, k)

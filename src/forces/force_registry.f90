@@ -2,12 +2,14 @@
 module force_registry
    use force_point, only: force_point_t
    use force_set, only: force_set_t
+   use force_spring, only: force_spring_t
    use force_torque, only: force_torque_t
+   use force_torsion_spring, only: force_torsion_spring_t
    implicit none (type, external)
    private
    public :: n_force_kinds, new_force_set
 
-   integer, parameter :: n_force_kinds = 2  !! number of kinds
+   integer, parameter :: n_force_kinds = 4  !! number of kinds
 
 contains
 
@@ -19,6 +21,8 @@ contains
       select case (k)
       case (1); allocate (force_point_t :: set)
       case (2); allocate (force_torque_t :: set)
+      case (3); allocate (force_spring_t :: set)
+      case (4); allocate (force_torsion_spring_t :: set)
       end select
    end subroutine new_force_set
 

@@ -1,6 +1,7 @@
 !> The contract of force elements: all the items of one kind, evaluated by one call.
 !>
-!> Signs: a load is what acts on the body named in the row, world frame.
+!> Signs: a load is what acts on the body named in the row, world frame. The power that all its loads give to the
+!> bodies is `power` of `evaluate`, less `lost_power`, less the rate of `elastic_energy`.
 module force_set
    use bodies, only: points_t
    use item, only: item_t
@@ -21,6 +22,8 @@ module force_set
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure(report_interface), deferred :: report
+      procedure :: elastic_energy => force_elastic_energy
+      procedure :: lost_power => force_lost_power
       procedure :: memory_size => force_memory_size
       procedure :: save => force_save
       procedure :: load => force_load
@@ -48,7 +51,7 @@ module force_set
          type(points_t), intent(in) :: points       !! all points
       end subroutine prepare_interface
 
-      !> Add the loads of all items, and their power. No allocation.
+      !> Add the loads of all items, and the power of those that neither store nor lose it. No allocation.
       subroutine evaluate_interface(self, t, motion, loads, power)
          import :: force_set_t, loads_t, motion_t, wp
          implicit none (type, external)
@@ -72,6 +75,22 @@ module force_set
    end interface
 
 contains
+
+   !> Energy that the elements store: none, unless the kind says otherwise. No allocation.
+   pure real(wp) function force_elastic_energy(self, motion) result(energy)
+      class(force_set_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion    !! positions
+
+      energy = 0.0_wp*size(motion%angle)*self%n
+   end function force_elastic_energy
+
+   !> Power that the elements turn into heat, none, unless the kind says otherwise. No allocation.
+   pure real(wp) function force_lost_power(self, motion) result(power)
+      class(force_set_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion    !! positions and velocities
+
+      power = 0.0_wp*size(motion%angle)*self%n
+   end function force_lost_power
 
    !> Numbers that the set must keep in a checkpoint: none, unless the kind says otherwise.
    integer function force_memory_size(self) result(n)

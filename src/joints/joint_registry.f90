@@ -1,7 +1,12 @@
 !> The kinds of ideal joints and drivers: two lines each (`use`, `case`).
 module joint_registry
    use driver_angle, only: driver_angle_t
+   use driver_distance, only: driver_distance_t
+   use driver_position, only: driver_position_t
    use driver_speed, only: driver_speed_t
+   use initial_speed, only: initial_speed_t
+   use joint_distance, only: joint_distance_t
+   use joint_pin_in_slot, only: joint_pin_in_slot_t
    use joint_revolute, only: joint_revolute_t
    use joint_rigid, only: joint_rigid_t
    use joint_set, only: joint_set_t
@@ -10,7 +15,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 5  !! number of kinds
+   integer, parameter :: n_joint_kinds = 10  !! number of kinds
 
 contains
 
@@ -25,7 +30,12 @@ contains
       case (2); allocate (driver_speed_t :: set)
       case (3); allocate (driver_angle_t :: set)
       case (4); allocate (joint_translational_t :: set)
-      case (5); allocate (joint_rigid_t :: set)
+      case (5); allocate (joint_pin_in_slot_t :: set)
+      case (6); allocate (joint_distance_t :: set)
+      case (7); allocate (joint_rigid_t :: set)
+      case (8); allocate (driver_distance_t :: set)
+      case (9); allocate (driver_position_t :: set)
+      case (10); allocate (initial_speed_t :: set)
       end select
    end subroutine new_joint_set
 

@@ -57,6 +57,7 @@ module joint_set
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure :: new => joint_new
+      procedure :: set_start => joint_set_start
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: coordinate => joint_coordinate
@@ -127,6 +128,12 @@ contains
       end do
    end subroutine joint_new
 
+   !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
+   subroutine joint_set_start(self, motion)
+      class(joint_set_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
+   end subroutine joint_set_start
+
    !> Tell the bodies of the set's rows, and which are angles.
    subroutine joint_declare_rows(self, rows)
       class(joint_set_t), intent(in) :: self  !! the set
@@ -158,8 +165,8 @@ contains
       class(joint_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                !! item
       type(motion_t), intent(in) :: motion    !! positions and velocities
-      real(wp), intent(out) :: value          !! coordinate [rad]
-      real(wp), intent(out) :: rate           !! its rate [rad/s]
+      real(wp), intent(out) :: value          !! coordinate [rad or m]
+      real(wp), intent(out) :: rate           !! its rate [rad/s or m/s]
 
       value = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
       rate = motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k))

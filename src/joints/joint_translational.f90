@@ -16,7 +16,7 @@ module joint_translational
    use motion, only: motion_t, point_position
    implicit none (type, external)
    private
-   public :: joint_translational_t
+   public :: add_axis_columns, joint_translational_t
 
    !> All translational joints of a planar scene.
    type, extends(joint_set_t) :: joint_translational_t
@@ -25,6 +25,8 @@ module joint_translational
    contains
       procedure, nopass :: info => translational_info
       procedure :: prepare => translational_prepare
+      procedure :: set_axes
+      procedure :: fill_rows
       procedure :: evaluate => translational_evaluate
       procedure :: reaction_point => translational_reaction_point
    end type joint_translational_t
@@ -41,10 +43,18 @@ contains
       info%n_row = 2
       call add_reference(info, "i", "points", "point of the guide")
       call add_reference(info, "j", "points", "point of the slider")
-      call add_word(info, "axis", "direction of the guide: an axis of the body of i", choices="x y")
-      call add_number(info, "axis_angle", dim_angle, "angle from that axis to the guide, counter-clockwise", default="0 rad")
+      call add_axis_columns(info, "guide")
       call add_joint_channels(info)
    end function translational_info
+
+   !> The columns of a direction fixed in body i: numbers 3 and 4 of a kind.
+   subroutine add_axis_columns(info, what)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+      character(*), intent(in) :: what          !! what has the direction
+
+      call add_word(info, "axis", "direction of the "//what//": an axis of the body of i", choices="x y")
+      call add_number(info, "axis_angle", dim_angle, "angle from that axis to the "//what//", counter-clockwise", default="0 rad")
+   end subroutine add_axis_columns
 
    !> Axis and angle of each item.
    subroutine translational_prepare(self, items, angle)
@@ -52,10 +62,19 @@ contains
       type(item_t), intent(in) :: items(:)                 !! (n) rows of the table
       real(wp), intent(in) :: angle(0:)                    !! (0:bodies) angles at the start [rad]
 
+      self%is_angle(2) = .true.
+      call self%set_axes(items, angle)
+   end subroutine translational_prepare
+
+   !> Axes and angles of the items.
+   subroutine set_axes(self, items, angle)
+      class(joint_translational_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)                 !! (n) rows of the table
+      real(wp), intent(in) :: angle(0:)                    !! (0:bodies) angles at the start [rad]
+
       real(wp) :: c, s
       integer :: k
 
-      self%is_angle(2) = .true.
       allocate (self%axis(2, self%n), self%difference(self%n))
       do k = 1, self%n
          c = cos(items(k)%values(4)%number)
@@ -63,7 +82,7 @@ contains
          self%axis(:, k) = merge([c, s], [-s, c], items(k)%values(3)%text == "x")
          self%difference(k) = angle(self%body(1, k)) - angle(self%body(2, k))
       end do
-   end subroutine translational_prepare
+   end subroutine set_axes
 
    !> The point of j.
    function translational_reaction_point(self, k, motion) result(p)
@@ -82,15 +101,25 @@ contains
       type(motion_t), intent(in) :: motion              !! positions and velocities
       type(rows_t), intent(inout) :: rows               !! rows, those of the set are filled
 
-      call translational_rows(self%n, self%body, self%s_i, self%s_j, self%axis, self%difference, ubound(motion%angle, 1), &
-                              motion%r, motion%rot, motion%v, motion%omega, motion%angle, self%first_row, rows%n, &
-                              rows%phi, rows%phi_t, rows%jac, rows%gam)
+      call self%fill_rows(motion, rows)
    end subroutine translational_evaluate
 
+   !> Fill the rows of all items: that of the line, and with two rows an item that of the angle.
+   subroutine fill_rows(self, motion, rows)
+      class(joint_translational_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion              !! positions and velocities
+      type(rows_t), intent(inout) :: rows               !! rows, those of the set are filled
+
+      call translational_rows(self%n, self%n_row_item, self%body, self%s_i, self%s_j, self%axis, self%difference, &
+                              ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, &
+                              self%first_row, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
+   end subroutine fill_rows
+
    !> The rows on plain arrays.
-   pure subroutine translational_rows(n, body, s_i, s_j, axis, difference, n_body, r, rot, v, omega, angle, first, n_row, &
-                                      phi, phi_t, jac, gam)
+   pure subroutine translational_rows(n, n_row_item, body, s_i, s_j, axis, difference, n_body, r, rot, v, omega, angle, &
+                                      first, n_row, phi, phi_t, jac, gam)
       integer, intent(in) :: n                          !! number of joints
+      integer, intent(in) :: n_row_item                 !! rows of a joint: 1 the line, 2 the line and the angle
       integer, intent(in) :: body(2, n)                 !! (2, n) bodies i and j
       real(wp), intent(in) :: s_i(3, n)                 !! (3, n) point of body i, its frame [m]
       real(wp), intent(in) :: s_j(3, n)                 !! (3, n) point of body j, its frame [m]
@@ -115,7 +144,7 @@ contains
       do k = 1, n
          i = body(1, k)
          j = body(2, k)
-         row = first + 2*k - 1
+         row = first + n_row_item*(k - 1) + 1
          w_i = omega(3, i)
          w_j = omega(3, j)
          ! axis a, normal (-a_y, a_x), points from the centres of mass p_i and p_j, all in the world frame
@@ -126,21 +155,22 @@ contains
          d_dot(1) = v(1, j) - w_j*p_j(2) - v(1, i) + w_i*p_i(2)
          d_dot(2) = v(2, j) + w_j*p_j(1) - v(2, i) - w_i*p_i(1)
          phi(row) = a(1)*d(2) - a(2)*d(1)
-         phi(row + 1) = angle(i) - angle(j) - difference(k)
          phi_t(row) = 0.0_wp
-         phi_t(row + 1) = 0.0_wp
          jac(1, row) = a(2)
          jac(2, row) = -a(1)
          jac(3, row) = -(a(1)*(d(1) + p_i(1)) + a(2)*(d(2) + p_i(2)))
          jac(4, row) = -a(2)
          jac(5, row) = a(1)
          jac(6, row) = a(1)*p_j(1) + a(2)*p_j(2)
+         gam(row) = phi(row)*w_i*w_i + 2.0_wp*w_i*(a(1)*d_dot(1) + a(2)*d_dot(2)) &
+                    + a(1)*(p_j(2)*w_j*w_j - p_i(2)*w_i*w_i) - a(2)*(p_j(1)*w_j*w_j - p_i(1)*w_i*w_i)
+         if (n_row_item == 1) cycle
+         phi(row + 1) = angle(i) - angle(j) - difference(k)
+         phi_t(row + 1) = 0.0_wp
          jac(1:2, row + 1) = 0.0_wp
          jac(3, row + 1) = 1.0_wp
          jac(4:5, row + 1) = 0.0_wp
          jac(6, row + 1) = -1.0_wp
-         gam(row) = phi(row)*w_i*w_i + 2.0_wp*w_i*(a(1)*d_dot(1) + a(2)*d_dot(2)) &
-                    + a(1)*(p_j(2)*w_j*w_j - p_i(2)*w_i*w_i) - a(2)*(p_j(1)*w_j*w_j - p_i(1)*w_i*w_i)
          gam(row + 1) = 0.0_wp
       end do
    end subroutine translational_rows

@@ -5,6 +5,7 @@
 !> What does not exist (sqrt(-1), 1/0, exp(1000)) evaluates to NaN; no exception is raised for it.
 module expression
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use curve, only: curve_t, jet_of_curve
    use jets, only: jet_acos, jet_asin, jet_atan, jet_atan2, jet_chain, jet_cosh, jet_exp, jet_integer_power, jet_log, &
                  & jet_power, jet_product, jet_quotient, jet_real_power, jet_sinh, jet_sqrt, jet_tan, jet_tanh
    use kind_info, only: dim_none, dim_t
@@ -12,7 +13,8 @@ module expression
    implicit none (type, external)
    private
    public :: constant_expression, evaluate, evaluate_code, expression_t
-   public :: op_abs, op_acos, op_add, op_asin, op_atan, op_atan2, op_cos, op_cosh, op_divide, op_exp, op_integer_power
+   public :: op_abs, op_acos, op_add, op_asin, op_atan, op_atan2, op_cos, op_cosh, op_curve, op_divide, op_exp
+   public :: op_integer_power
    public :: op_log, op_log10, op_max, op_min, op_multiply, op_negate, op_number, op_power, op_real_power, op_sin
    public :: op_sinh, op_sqrt, op_step, op_subtract, op_tan, op_tanh, op_time
    public :: stack_size
@@ -47,11 +49,13 @@ module expression
    integer, parameter :: op_sqrt = 26          !! square root
    integer, parameter :: op_abs = 27           !! absolute value
    integer, parameter :: op_step = 28          !! 0 below zero, 1 from zero on; derivatives 0
+   integer, parameter :: op_curve = 29         !! the curve whose number is the operand
 
    !> A compiled expression; before it is compiled it is the constant 0.
    type :: expression_t
       integer, allocatable :: code(:)        !! (n) operations
       real(wp), allocatable :: operand(:)    !! (n) numbers that belong to them [any]
+      type(curve_t), allocatable :: curves(:) !! (any) named functions that it calls; unallocated if it cannot
       type(dim_t) :: dimension = dim_none    !! of the value
       logical :: is_soft = .false.           !! its radians may be taken or left, see expression_compile
       logical :: is_constant = .true.        !! the time does not occur
@@ -100,19 +104,20 @@ contains
       real(wp) :: jet(3)
 
       jet = 0.0_wp
-      if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, t, jet)
+      if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, self%curves, t, jet)
       value = jet(1)
       d1 = jet(2)
       d2 = jet(3)
    end subroutine evaluate
 
    !> Run a program.
-   pure subroutine evaluate_code(n, code, operand, t, jet)
-      integer, intent(in) :: n            !! number of operations
-      integer, intent(in) :: code(n)      !! (n) operations
-      real(wp), intent(in) :: operand(n)  !! (n) their numbers [any]
-      real(wp), intent(in) :: t           !! time [s]
-      real(wp), intent(out) :: jet(3)     !! (3) value and derivatives [any]
+   pure subroutine evaluate_code(n, code, operand, curves, t, jet)
+      integer, intent(in) :: n                             !! number of operations
+      integer, intent(in) :: code(n)                       !! (n) operations
+      real(wp), intent(in) :: operand(n)                   !! (n) their numbers [any]
+      type(curve_t), allocatable, intent(in) :: curves(:)  !! (any) named functions
+      real(wp), intent(in) :: t                            !! time [s]
+      real(wp), intent(out) :: jet(3)                      !! (3) value and derivatives [any]
 
       real(wp) :: stack(3, stack_size)
       integer :: k, top
@@ -133,6 +138,8 @@ contains
             stack(:, top) = jet_integer_power(stack(:, top), nint(operand(k)))
          case (op_real_power)
             stack(:, top) = jet_real_power(stack(:, top), operand(k))
+         case (op_curve)
+            stack(:, top) = jet_of_curve(curves(nint(operand(k))), stack(:, top))
          case default
             stack(:, top) = of_one(code(k), stack(:, top))
          end select

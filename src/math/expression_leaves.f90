@@ -4,8 +4,7 @@ module expression_leaves
    use expression_dimension, only: term_t
    use expression_functions, only: function_names, function_operation
    use expression_state, only: advance, digits, emit, fail, letters, name_length, parser_t, peek, resolve, &
-                             & suggestion, symbol_number, symbol_word
-   use kind_info, only: dim_time
+                             & suggestion, symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
    use text, only: append_text, text_t
@@ -30,12 +29,17 @@ contains
          term%is_soft = .true.
          call emit(parser, op_number, pi)
          return
-      else if (name == "t") then
-         term%dimension = dim_time
+      else if (name == parser%variable) then
+         term%dimension = parser%argument
          term%is_constant = .false.
-         if (.not. parser%has_time) call fail(parser, term%first, last, "the time 't' has no place here", &
-                                            & "only drivers and loads depend on the time")
+         do i = 1, size(parser%symbols)
+            if (parser%symbols(i)%name == name) call fail(parser, term%first, last, "'"//name &
+               & //"' is the variable here, and a parameter", "rename the parameter")
+         end do
          call emit(parser, op_time)
+         return
+      else if (name == "t") then
+         call fail(parser, term%first, last, "the time 't' has no place here", "only drivers and loads depend on the time")
          return
       end if
       allocate (names(0))
@@ -44,7 +48,7 @@ contains
             call use_symbol(parser, i, term, last)
             return
          end if
-         call append_text(names, parser%symbols(i)%name)
+         if (parser%symbols(i)%kind /= symbol_function) call append_text(names, parser%symbols(i)%name)
       end do
       if (function_operation(name) > 0) then
          call fail(parser, term%first, last, "the function '"//name//"' lacks its argument in parentheses")
@@ -70,6 +74,9 @@ contains
       case (symbol_word)
          call fail(parser, term%first, last, "the parameter '"//parser%symbols(i)%name//"' is the word '" &
                  & //parser%symbols(i)%word//"', not a number")
+      case (symbol_function)
+         call fail(parser, term%first, last, "the function '"//parser%symbols(i)%name &
+                 & //"' lacks its argument in parentheses", "as "//parser%symbols(i)%name//"(t)")
       case default
          call fail(parser, term%first, last, "")
       end select
@@ -126,7 +133,7 @@ contains
 
       integer :: i
 
-      is_name = word == "t" .or. word == "pi" .or. function_operation(word) > 0
+      is_name = word == "t" .or. word == parser%variable .or. word == "pi" .or. function_operation(word) > 0
       do i = 1, size(parser%symbols)
          is_name = is_name .or. parser%symbols(i)%name == word
       end do

@@ -6,17 +6,19 @@
 !>     power   = primary [ "^" signed ]                    right-associative: 2^3^2 is 2^9
 !>     primary = number [unit] | name | name "(" sum {"," sum} ")" | "(" sum ")"
 !>
+!> Functions are those of expression_functions, and the deck's own by their names.
 !> Names are parameters, `pi`, and the time `t` where it is allowed. A unit follows its number with or
 !> without a blank; inside, it has none: `5 rad/s * t`, `3kg.m^2`. `10 mm^2` is ten square millimetres.
 !> After a number a slash belongs to the unit if a known unit follows at once. `t` is always the time.
 module expression_parser
    use dimension_text, only: dimension_name
-   use expression, only: evaluate_code, op_add, op_divide, op_integer_power, op_multiply, op_negate, op_power, &
+   use expression, only: evaluate_code, op_add, op_curve, op_divide, op_integer_power, op_multiply, op_negate, op_power, &
                        & op_real_power, op_subtract
-   use expression_dimension, only: combine_power, combine_product, combine_sum, term_t
+   use expression_dimension, only: combine_power, combine_product, combine_sum, dimension_agrees, term_t
    use expression_functions, only: apply_function, function_names, function_operation, n_argument
    use expression_leaves, only: parse_name, parse_number
-   use expression_state, only: advance, descend, emit, fail, letters, name_length, parser_t, peek, suggestion
+   use expression_state, only: advance, descend, emit, fail, find_function, function_list, letters, name_length, parser_t, &
+                             & peek, suggestion, symbol_broken
    use kind_info, only: dim_none, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
@@ -163,7 +165,7 @@ contains
 
       n = parser%n_code - right%start + 1
       call evaluate_code(n, parser%code(right%start:parser%n_code), parser%operand(right%start:parser%n_code), &
-                       & 0.0_wp, jet)
+                       & parser%curves, 0.0_wp, jet)
       parser%n_code = right%start - 1
       if (.not. abs(jet(1)) <= largest) then
          call fail(parser, right%first, right%last, "this exponent is not a number up to 1000")
@@ -224,8 +226,10 @@ contains
          return
       end if
       operation = function_operation(name)
-      if (operation == 0) call fail(parser, term%first, parser%last, "there is no function '"//name//"'", &
-                                  & suggestion(name, split_blank(function_names), "functions: "//function_names))
+      if (operation == 0) then
+         call parse_call(parser, name, term)
+         return
+      end if
       n = n_argument(operation)
       call descend(parser)
       do k = 1, n
@@ -245,6 +249,58 @@ contains
       if (len(message) > 0) call fail(parser, arguments(k)%first, arguments(k)%last, message)
       call emit(parser, operation)
    end subroutine parse_word
+
+   !> A named function of the deck with its argument.
+   recursive subroutine parse_call(parser, name, term)
+      type(parser_t), intent(inout) :: parser  !! the reader, at the parenthesis
+      character(*), intent(in) :: name         !! of the function
+      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+
+      type(term_t) :: argument
+      character(:), allocatable :: known
+      integer :: i
+
+      i = find_function(parser, name)
+      if (i == 0) then
+         if (is_broken(parser, name)) then
+            call fail(parser, term%first, parser%last, "")
+         else
+            known = function_names//function_list(parser)
+            call fail(parser, term%first, parser%last, "there is no function '"//name//"'", &
+                    & suggestion(name, split_blank(known), "functions: "//known))
+         end if
+         return
+      end if
+      call descend(parser)
+      if (allocated(parser%fault)) return
+      call advance(parser, 1)
+      call parse_sum(parser, argument)
+      if (allocated(parser%fault)) return
+      if (peek(parser) == ",") call fail(parser, parser%at, parser%at, "too many arguments for '"//name//"'")
+      call close_parenthesis(parser, term%first)
+      if (allocated(parser%fault)) return
+      if (.not. dimension_agrees(argument%dimension, argument%is_soft, parser%symbols(i)%argument)) then
+         call fail(parser, argument%first, argument%last, "'"//name//"' takes "//dimension_name(parser%symbols(i)%argument) &
+                 & //", this is "//dimension_name(argument%dimension))
+      end if
+      term%dimension = parser%symbols(i)%dimension
+      term%is_soft = .false.
+      term%is_constant = argument%is_constant
+      call emit(parser, op_curve, real(i, wp))
+   end subroutine parse_call
+
+   !> Whether a name is that of a function or parameter whose mistake was reported already.
+   pure logical function is_broken(parser, name)
+      type(parser_t), intent(in) :: parser  !! the reader
+      character(*), intent(in) :: name      !! the name
+
+      integer :: i
+
+      is_broken = .false.
+      do i = 1, size(parser%symbols)
+         is_broken = is_broken .or. (parser%symbols(i)%name == name .and. parser%symbols(i)%kind == symbol_broken)
+      end do
+   end function is_broken
 
    !> The end of a parenthesis.
    subroutine close_parenthesis(parser, first)

@@ -1,5 +1,6 @@
 !> The state of the reader of expressions, and its small tools.
 module expression_state
+   use curve, only: curve_t
    use dimension_text, only: base_text
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
@@ -7,13 +8,16 @@ module expression_state
    implicit none (type, external)
    private
    public :: advance, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion
-   public :: digits, fault_t, letters, parser_t, symbol_broken, symbol_number, symbol_t, symbol_word
+   public :: digits, fault_t, find_function, function_list, letters, parser_t, symbol_broken, symbol_function, symbol_number
+   public :: symbol_t, symbol_word
 
    integer, parameter :: symbol_number = 1  !! a parameter with a value and a dimension
    integer, parameter :: symbol_word = 2    !! a parameter that is a word
    integer, parameter :: symbol_broken = 3  !! a parameter whose mistake was reported already
 
-   !> A parameter.
+   integer, parameter :: symbol_function = 4  !! a named function
+
+   !> A parameter, or a named function.
    type :: symbol_t
       character(:), allocatable :: name    !! as written
       integer :: kind = symbol_number      !! one of the above
@@ -21,6 +25,8 @@ module expression_state
       type(dim_t) :: dimension = dim_none  !! of the value
       logical :: is_soft = .false.         !! its radians may be taken or left
       character(:), allocatable :: word    !! of a word
+      type(curve_t) :: curve               !! of a function, whose value has the dimension
+      type(dim_t) :: argument = dim_none   !! what a function takes
    end type symbol_t
 
    !> A mistake in an expression.
@@ -42,11 +48,13 @@ module expression_state
       integer :: at = 1                             !! next character
       integer :: last = 0                           !! last character of what was read
       integer :: depth = 0                          !! open parentheses and signs
-      logical :: has_time = .false.                 !! `t` is allowed
+      character(1) :: variable = " "                !! name of the variable, blank: there is none
+      type(dim_t) :: argument = dim_none            !! its dimension
       integer :: n_code = 0                         !! operations so far
       integer :: code(longest_code) = 0             !! (longest_code) operations
       real(wp) :: operand(longest_code) = 0.0_wp    !! (longest_code) their numbers [any]
-      type(symbol_t), allocatable :: symbols(:)     !! parameters
+      type(symbol_t), allocatable :: symbols(:)     !! parameters and functions
+      type(curve_t), allocatable :: curves(:)       !! (symbols) the functions' curves
       type(fault_t), allocatable :: fault           !! the first mistake
    end type parser_t
 
@@ -57,20 +65,23 @@ module expression_state
 contains
 
    !> Set up a reader at the first character.
-   subroutine new_parser(parser, source, symbols, has_time)
+   subroutine new_parser(parser, source, symbols, variable, argument)
       type(parser_t), intent(out) :: parser     !! the reader
       character(*), intent(in) :: source        !! text of the expression
       type(symbol_t), intent(in) :: symbols(:)  !! (n) parameters
-      logical, intent(in) :: has_time           !! `t` is allowed
+      character(1), intent(in) :: variable      !! name of the variable, blank: there is none
+      type(dim_t), intent(in) :: argument       !! its dimension
 
       integer :: i
 
       parser%source = source
       parser%resolved = ""
-      parser%has_time = has_time
-      allocate (parser%symbols(size(symbols)))
+      parser%variable = variable
+      parser%argument = argument
+      allocate (parser%symbols(size(symbols)), parser%curves(size(symbols)))
       do i = 1, size(symbols)
          parser%symbols(i) = symbols(i)
+         parser%curves(i) = symbols(i)%curve
       end do
       call advance(parser, 0)
    end subroutine new_parser
@@ -108,6 +119,32 @@ contains
       name_length = verify(string, letters//digits//"_") - 1
       if (name_length < 0) name_length = len(string)
    end function name_length
+
+   !> Number of the symbol that is a function of some name, 0 if there is none.
+   pure integer function find_function(parser, name)
+      type(parser_t), intent(in) :: parser  !! the reader
+      character(*), intent(in) :: name      !! of the function
+
+      integer :: i
+
+      find_function = 0
+      do i = 1, size(parser%symbols)
+         if (parser%symbols(i)%name == name .and. parser%symbols(i)%kind == symbol_function) find_function = i
+      end do
+   end function find_function
+
+   !> The named functions, each after a blank.
+   pure function function_list(parser) result(list)
+      type(parser_t), intent(in) :: parser  !! the reader
+      character(:), allocatable :: list     !! empty if there are none
+
+      integer :: i
+
+      list = ""
+      do i = 1, size(parser%symbols)
+         if (parser%symbols(i)%kind == symbol_function) list = list//" "//parser%symbols(i)%name
+      end do
+   end function function_list
 
    !> Append an operation to the program.
    subroutine emit(parser, op, x)

@@ -7,6 +7,8 @@ module kind_list
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_set_t
    use friction_law, only: friction_law_t
+   use function_kind, only: function_kind_t
+   use function_registry, only: n_function_kinds, new_function_kind
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
@@ -14,7 +16,7 @@ module kind_list
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    implicit none (type, external)
    private
-   public :: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
+   public :: all_kinds, clearance_info, force_info, friction_info, function_info, joint_info, law_info
 
 contains
 
@@ -39,6 +41,17 @@ contains
       call new_force_set(k, set)
       info = set%info()
    end function force_info
+
+   !> What kind number k of named functions says of itself.
+   function function_info(k) result(info)
+      integer, intent(in) :: k   !! number in the registry
+      type(kind_info_t) :: info  !! the kind
+
+      class(function_kind_t), allocatable :: kind
+
+      call new_function_kind(k, kind)
+      info = kind%info()
+   end function function_info
 
    !> What geometry number k says of itself.
    function clearance_info(k) result(info)
@@ -79,7 +92,8 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(8 + n_joint_kinds + n_force_kinds + n_clearance_kinds + n_law_kinds + n_friction_kinds))
+      allocate (kinds(8 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+                      + n_friction_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
       kinds(3) = points_info()
@@ -92,6 +106,10 @@ contains
          kinds(n + k) = force_info(k)
       end do
       n = n + n_force_kinds
+      do k = 1, n_function_kinds
+         kinds(n + k) = function_info(k)
+      end do
+      n = n + n_function_kinds
       kinds(n + 1) = material_info()
       n = n + 1
       do k = 1, n_clearance_kinds

@@ -5,7 +5,7 @@ module read_scene
    use clearance_set, only: clearance_set_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use deck_reader, only: check_sections, has_section, read_items, read_settings
-   use deck_types, only: deck_t, location_of_end
+   use deck_types, only: add_default, deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
    use imsl_names, only: fold_imsl_names
@@ -14,6 +14,7 @@ module read_scene
    use kind_info, only: kind_info_t
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use kinds, only: wp
+   use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
       n_analysis, n_base, scene_t, table_bodies, table_materials, table_points
@@ -41,6 +42,7 @@ contains
       call all_kinds(kinds)
       call check_sections(deck, kinds, diagnostics)
       scene%output_kind = output_info()
+      call functions_from_deck(deck, scene, diagnostics)
       call read_settings(deck, scene_info(), scene%header, is_present, diagnostics)
       call read_analyses(deck, scene, diagnostics)
       call read_settings(deck, scene%output_kind, scene%output, is_present, diagnostics)
@@ -62,7 +64,7 @@ contains
       call new_bodies(scene%base(table_bodies)%items, scene%bodies)
       call new_points(scene%base(table_points)%items, scene%points)
       call new_materials(scene%base(table_materials)%items, scene%materials)
-      call check_meaning(scene, diagnostics)
+      call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck
 
    !> The sections of the analyses. The one that runs is the first that the deck has; a deck without
@@ -286,7 +288,8 @@ contains
    end subroutine check_names
 
    !> What rows of tables cannot say of themselves: joints of a body with itself, journals that do not fit.
-   subroutine check_meaning(scene, diagnostics)
+   subroutine check_meaning(deck, scene, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck; lengths of the start are noted as defaults
       type(scene_t), intent(in) :: scene                  !! the scene
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
@@ -298,6 +301,13 @@ contains
          if (scene%joints(k)%info%columns(1)%name == "joint") cycle
          do i = 1, size(scene%joints(k)%items)
             call check_pair(scene%joints(k)%info, scene%joints(k)%items(i))
+            call check_start_length(scene%joints(k)%info, scene%joints(k)%items(i))
+         end do
+      end do
+      do k = 1, n_force_kinds
+         if (scene%forces(k)%info%columns(1)%name /= "i") cycle
+         do i = 1, size(scene%forces(k)%items)
+            call check_pair(scene%forces(k)%info, scene%forces(k)%items(i))
          end do
       end do
       do k = 1, n_clearance_kinds
@@ -312,23 +322,69 @@ contains
 
    contains
 
-      !> The two points of a joint must belong to different bodies.
+      !> The two points of a joint or spring must belong to different bodies, and two bodies must differ.
       subroutine check_pair(info, item)
          type(kind_info_t), intent(in) :: info  !! the kind
          type(item_t), intent(in) :: item       !! the row
 
-         character(:), allocatable :: name
-         integer :: body
+         character(:), allocatable :: group, name
+         integer :: body(2), end
 
-         body = scene%points%body(item%values(1)%index)
-         if (body /= scene%points%body(item%values(2)%index)) return
+         do end = 1, 2
+            body(end) = item%values(end)%index
+            if (info%columns(end)%refers_to == "points") body(end) = scene%points%body(body(end))
+         end do
+         if (body(1) /= body(2)) return
          name = "ground"
-         if (body > 0) name = scene%bodies%names(body)%s
-         call diagnostics%add(item%values(2)%location, "joint '"//item%name//"' ties '"//name//"' to itself", &
-                              "a point of the same body", "columns "//info%columns(1)%name//" and "//info%columns(2)%name// &
-                              " must name points of two bodies")
+         if (body(1) > 0) name = scene%bodies%names(body(1))%s
+         group = "joint"
+         if (index(info%name, "force.") == 1) group = "force"
+         call diagnostics%add(item%values(2)%location, group//" '"//item%name//"' ties '"//name//"' to itself", &
+                              "the same body", "columns "//info%columns(1)%name//" and "//info%columns(2)%name// &
+                              " must name two bodies or points of them")
       end subroutine check_pair
 
+      !> A length that is left out is the distance of the points at the start, which must not coincide.
+      subroutine check_start_length(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         real(wp), parameter :: least = 1.0e-9_wp  ! distance that counts as none, of the points' coordinates [1]
+         real(wp) :: length, p(3, 2)
+         integer :: c, end
+
+         c = column_of(info, "length")
+         if (c > size(info%columns)) return
+         if (item%values(c)%given) return
+         do end = 1, 2
+            p(:, end) = start_position(scene, item%values(end)%index)
+         end do
+         length = norm2(p(:, 2) - p(:, 1))
+         if (length > least*maxval(abs(p))) then
+            call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the distance at the start")
+            return
+         end if
+         call diagnostics%add(item%values(2)%location, "joint '"//item%name//"' has no length", &
+                              "the two points coincide at the start", "give the column length, or move the bodies")
+      end subroutine check_start_length
+
    end subroutine check_meaning
+
+   !> Where the deck puts a point at the start.
+   pure function start_position(scene, point) result(p)
+      type(scene_t), intent(in) :: scene  !! the scene
+      integer, intent(in) :: point        !! the point
+      real(wp) :: p(3)                    !! (3) its position, world frame [m]
+
+      real(wp) :: c, s
+
+      p = scene%points%s(:, point)
+      associate (body => scene%points%body(point))
+         if (body == 0) return
+         c = cos(scene%bodies%angle(body))
+         s = sin(scene%bodies%angle(body))
+         p = scene%bodies%r(:, body) + [c*p(1) - s*p(2), s*p(1) + c*p(2), p(3)]
+      end associate
+   end function start_position
 
 end module read_scene

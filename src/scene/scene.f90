@@ -5,6 +5,7 @@ module scene
    use contact_registry, only: n_friction_kinds, n_law_kinds
    use friction_law, only: friction_law_t
    use force_registry, only: n_force_kinds
+   use function_registry, only: n_function_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
    use kind_info, only: kind_info_t
@@ -55,6 +56,7 @@ module scene
       type(friction_slot_t), allocatable :: frictions(:)     !! (laws) friction laws
       type(item_t) :: header                                 !! settings of the scene itself
       type(table_t) :: base(n_base)                          !! (kinds) bodies, points, materials
+      type(table_t) :: functions(n_function_kinds)           !! (kinds) named functions
       type(table_t) :: law_tables(n_law_kinds)               !! (kinds) normal laws
       type(table_t) :: friction_tables(n_friction_kinds)     !! (kinds) friction laws
       type(table_t) :: joints(n_joint_kinds)                 !! (kinds) joints and drivers

@@ -17,6 +17,7 @@ contains
 
       text = "# the deck as understood: every default written out, units in SI"//new_line("a")//echo_start(deck)//new_line("a")// &
              echo_settings(scene_info(), scene%header)
+      call add(scene%functions)
       call add(scene%base)
       call add(scene%joints)
       call add(scene%forces)

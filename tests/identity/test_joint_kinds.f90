@@ -2,19 +2,23 @@
 !>
 !> Rows are taken at positions that violate them, at any velocity: nothing here needs a solution.
 module test_joint_kinds
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: points_t
    use check, only: check_close, check_equal, check_true, suite_t
    use differences, only: five_point, places
+   use driver_position, only: driver_position_t
    use errors, only: error_t
    use fixed_random, only: random_t
    use generic_item, only: fill_item
    use item, only: item_t
+   use joint_distance, only: joint_distance_t
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t, new_rows, rows_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use lapack, only: dgelsd
    use motion, only: motion_t, new_motion, set_planar_motion
+   use span, only: span_of
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -26,6 +30,7 @@ module test_joint_kinds
    integer, parameter :: n_seed = 4       !! geometries for each kind
    real(wp), parameter :: step = 1.0e-3_wp  !! of differences [any]
    real(wp), parameter :: now = 0.37_wp     !! time of all tests [s]
+   real(wp), parameter :: far = 1.2_wp      !! least distance of the points of an item, so that directions are smooth [m]
 
    !> A kind with generic geometry and motion.
    type :: bench_t
@@ -51,6 +56,9 @@ contains
       call suite%test("rotation_of_everything", test_rotation_of_everything)
       call suite%test("lengths_and_angles", test_lengths_and_angles)
       call suite%test("coordinate", test_coordinate)
+      call suite%test("left_out_at_start", test_left_out_at_start)
+      call suite%test("coinciding_points", test_coinciding_points)
+      call suite%test("position_along_axis", test_position_along_axis)
       call suite%test("memory", test_memory)
    end subroutine run_test_joint_kinds
 
@@ -92,12 +100,28 @@ contains
       call new_rows(before + n_item*info%n_row + 1, bench%rows)
       call bench%set%declare_rows(bench%rows)
       call new_motion(n_body, bench%motion)
+      do
+         do k = 1, n_body
+            bench%q(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
+         end do
+         call set_planar_motion(n_body, bench%q, 0.0_wp*bench%q, bench%motion)
+         if (all([(span_between(bench, k), k=1, n_item)] > far*length)) exit
+      end do
       do k = 1, n_body
-         bench%q(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
          bench%v(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
          bench%a(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
       end do
    end subroutine make_bench
+
+   !> Distance of the two points of an item.
+   real(wp) function span_between(bench, item) result(length)
+      type(bench_t), intent(in) :: bench  !! the kind
+      integer, intent(in) :: item         !! the item
+
+      real(wp) :: rate, u(3)
+
+      call span_of(bench%motion, bench%set%body(:, item), bench%set%s_i(:, item), bench%set%s_j(:, item), u, length, rate)
+   end function span_between
 
    !> Rows after a time with the bench's accelerations.
    subroutine evaluate_after(bench, dt)
@@ -350,6 +374,86 @@ contains
          end do
       end do
    end subroutine test_coordinate
+
+   !> A length that a row leaves out is that of the start, whatever stands elsewhere in the row.
+   subroutine test_left_out_at_start(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(bench_t) :: bench
+      integer :: item, kind, n_kind
+
+      n_kind = 0
+      do kind = 1, n_joint_kinds
+         call make_bench(kind, 1, bench)
+         call evaluate_after(bench, 0.0_wp)
+         call bench%set%set_start(bench%motion)
+         select type (set => bench%set)
+         type is (joint_distance_t)
+            n_kind = n_kind + 1
+            call check_true(error, all(abs(bench%rows%phi(before + 1:before + n_item)) > 1.0e-3_wp), "given lengths differ")
+            set%is_open = [.true., .false., .true.]
+            call set%set_start(bench%motion)
+            call evaluate_after(bench, 0.0_wp)
+            do item = 1, n_item, 2
+               call check_close(error, bench%rows%phi(before + item), 0.0_wp, 1.0e-15_wp, "closed at the start")
+               call check_close(error, set%length(item), span_between(bench, item), 1.0e-15_wp, "distance at the start")
+            end do
+            call check_true(error, abs(bench%rows%phi(before + 2)) > 1.0e-3_wp, "a given length stands")
+         end select
+      end do
+      call check_equal(error, n_kind, 1, "kinds with a length that may be left out")
+   end subroutine test_left_out_at_start
+
+   !> A length between points that coincide: the row is finite, and its violation is the length itself.
+   subroutine test_coinciding_points(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(bench_t) :: bench
+      integer :: kind, row
+
+      row = before + 2
+      do kind = 1, n_joint_kinds
+         call make_bench(kind, 1, bench)
+         ! item 2: ground and body 1
+         bench%q(1:2, 1) = 0.0_wp
+         call evaluate_after(bench, 0.0_wp)
+         bench%q(1:2, 1) = bench%set%s_i(1:2, 2) - matmul(bench%motion%rot(1:2, 1:2, 1), bench%set%s_j(1:2, 2))
+         call evaluate_after(bench, 0.0_wp)
+         call check_true(error, all(ieee_is_finite([bench%rows%phi, bench%rows%gam, bench%rows%jac])), bench%name//": finite")
+         select type (set => bench%set)
+         type is (joint_distance_t)
+            call check_close(error, bench%rows%phi(row), -set%length(2), 1.0e-14_wp, "violation is the length")
+            call check_close(error, norm2(bench%rows%jac(4:5, row)), 1.0_wp, 1.0e-15_wp, "a direction of its own")
+         end select
+      end do
+   end subroutine test_coinciding_points
+
+   !> A driven position and the line of a slot with the same axis: two orthogonal components of one vector.
+   subroutine test_position_along_axis(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(bench_t) :: bench
+      real(wp) :: axis(2), d(2), rate, value
+      integer :: k, kind
+
+      do kind = 1, n_joint_kinds
+         call make_bench(kind, 2, bench)
+         call evaluate_after(bench, 0.0_wp)
+         select type (set => bench%set)
+         type is (driver_position_t)
+            do k = 1, n_item
+               associate (i => set%body(1, k), j => set%body(2, k))
+                  d = matmul(bench%motion%rot(1:2, 1:2, j), set%s_j(1:2, k)) + bench%motion%r(1:2, j) &
+                      - matmul(bench%motion%rot(1:2, 1:2, i), set%s_i(1:2, k)) - bench%motion%r(1:2, i)
+                  axis = matmul(bench%motion%rot(1:2, 1:2, i), [-set%axis(2, k), set%axis(1, k)])
+               end associate
+               call set%coordinate(k, bench%motion, value, rate)
+               call check_close(error, value, dot_product(axis, d), 1.0e-14_wp, "position along the axis")
+               call check_close(error, norm2(axis), 1.0_wp, 1.0e-15_wp, "unit axis")
+            end do
+         end select
+      end do
+   end subroutine test_position_along_axis
 
    !> A set puts as many numbers into a checkpoint as it says, and takes as many out.
    subroutine test_memory(error)

@@ -211,16 +211,16 @@ contains
       y(10:18) = 0.0_wp
       y(5) = 2.0_wp
       y(13:15) = [3.0_wp, 4.0_wp, 10.0_wp]
-      y(19:23) = [1.0_wp, 20.0_wp, 300.0_wp, 4000.0_wp, 50000.0_wp]
+      y(19:24) = [1.0_wp, 20.0_wp, 300.0_wp, 6.0e5_wp, 4000.0_wp, 50000.0_wp]
       call system%set_motion(0.0_wp, y)
       energy = energy_of(system, y)
       call check_close(error, energy%kinetic, 0.5_wp*(0.21_wp*25.0_wp + 2.5e-4_wp*100.0_wp), 1.0e-14_wp, "kinetic")
       call check_close(error, energy%potential, 0.21_wp*9.81_wp*2.0_wp, 1.0e-14_wp, "potential")
       call check_close(error, energy%elastic, 0.0_wp, 0.0_wp, "elastic")
-      call check_close(error, [energy%drive_work, energy%load_work, energy%stabilisation_work, energy%dissipated_contact, &
-                               energy%dissipated_friction], y(19:23), 0.0_wp, "works and losses")
+      call check_close(error, [energy%drive_work, energy%load_work, energy%stabilisation_work, energy%dissipated_damper, &
+                               energy%dissipated_contact, energy%dissipated_friction], y(19:24), 0.0_wp, "works and losses")
       call check_close(error, energy%mechanical(), energy%kinetic + energy%potential, 0.0_wp, "mechanical")
-      call check_close(error, energy%balance(), energy%mechanical() - 321.0_wp + 54000.0_wp, 1.0e-10_wp, "balance")
+      call check_close(error, energy%balance(), energy%mechanical() - 321.0_wp + 654000.0_wp, 1.0e-10_wp, "balance")
    end subroutine test_energies
 
    !> Without a ledger the motion is the very same, and there are no quadratures.
@@ -237,8 +237,8 @@ contains
       call start_text(slider_crank("ledger = off", "damped", "none", "clearance"), bare, y_bare, error)
       if (allocated(error)) return
       call check_equal(error, bare%n, 18, "entries of the state")
-      call check_equal(error, system%n, 18 + 3 + 2, "entries with a ledger")
-      call check_equal(error, system%n_quadrature, 5, "quadratures")
+      call check_equal(error, system%n, 18 + 4 + 2, "entries with a ledger")
+      call check_equal(error, system%n_quadrature, 6, "quadratures")
       ydot = y
       ydot_bare = y_bare
       call system%evaluate(0.0_wp, y, ydot, status)

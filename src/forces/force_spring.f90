@@ -1,0 +1,218 @@
+!> Translational spring, damper and actuator between a point of i and a point of j.
+!>
+!> With d = r_j + s_j - r_i - s_i, l = |d|, u = d/l:
+!> f = k x + c l' + f_0 + f_l(x) + f_a(t),   x = l - l_0
+!> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x
+!> lost power = c l'^2,   power of the actuator = -f_a l'
+!> k stiffness, c damping, l_0 free length, f_0 preload (the tension at the free length), f_l law
+!> of a spring that is not linear, f_a actuator. Without stiffness the preload stores nothing: it is then a constant
+!> part of the actuator.
+!>
+!> Signs: f, channel `tension`, is positive if it pulls the points together; f u acts on the body of i at its
+!> point, channel `force`, and -f u on the body of j. Source: Flores et al. (2008), section 2.3; Nikravesh,
+!> Computer-aided analysis of mechanical systems (1988), chapter 9 (the pull positive). Limits: where the
+!> points coincide there is no direction and no force is applied; a spring without free length, preload and
+!> actuator has none there anyhow.
+module force_spring
+   use bodies, only: points_t
+   use expression, only: expression_t
+   use force_set, only: force_set_t
+   use item, only: item_t
+   use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_damping, dim_force, dim_length, &
+      dim_stiffness, kind_info_t
+   use kinds, only: wp
+   use motion, only: apply_force, loads_t, motion_t, point_position
+   use quadrature, only: integral_of
+   use span, only: span_of
+   implicit none (type, external)
+   private
+   public :: force_spring_t
+
+   !> All translational springs.
+   type, extends(force_set_t) :: force_spring_t
+      integer, allocatable :: body(:, :)                !! (2, n) bodies i and j, 0: ground
+      real(wp), allocatable :: s_i(:, :)                !! (3, n) point of body i, its frame [m]
+      real(wp), allocatable :: s_j(:, :)                !! (3, n) point of body j, its frame [m]
+      real(wp), allocatable :: stiffness(:)             !! (n) k [N/m]
+      real(wp), allocatable :: damping(:)               !! (n) c [N.s/m]
+      real(wp), allocatable :: free_length(:)           !! (n) l_0 [m]
+      real(wp), allocatable :: relaxed(:)               !! (n) length without force of the stiffness, l_0 - f_0/k [m]
+      real(wp), allocatable :: constant(:)              !! (n) constant part of the actuator, f_0 without stiffness [N]
+      type(expression_t), allocatable :: law(:)         !! (n) f_l over the stretch [N]
+      logical, allocatable :: has_law(:)                !! (n) whether it is not zero
+      type(expression_t), allocatable :: actuator(:)    !! (n) f_a [N]
+   contains
+      procedure, nopass :: info => spring_info
+      procedure :: prepare => spring_prepare
+      procedure :: evaluate => spring_evaluate
+      procedure :: elastic_energy => spring_elastic_energy
+      procedure :: lost_power => spring_lost_power
+      procedure :: report => spring_report
+   end type force_spring_t
+
+contains
+
+   !> What the kind says of itself.
+   function spring_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "force.spring"
+      info%help = "spring, damper and actuator between two points"
+      info%source = "Flores et al. (2008), section 2.3"
+      call add_reference(info, "i", "points", "point of the first body")
+      call add_reference(info, "j", "points", "point of the second body")
+      call add_number(info, "stiffness", dim_stiffness, "stiffness", default="0 N/m", lower=0.0_wp)
+      call add_number(info, "damping", dim_damping, "coefficient of the damper", default="0 N.s/m", lower=0.0_wp)
+      call add_number(info, "free_length", dim_length, "distance of the points at which the stiffness gives no force", &
+                      default="0 m", lower=0.0_wp)
+      call add_number(info, "preload", dim_force, "tension at the free length, negative if it pushes", default="0 N")
+      call add_expression(info, "actuator", dim_force, "tension as a function of time", default="0 N")
+      call add_expression(info, "law", dim_force, "tension as a function of the stretch x from the free length, beside the " &
+                          //"stiffness", default="0 N", variable="x", argument=dim_length)
+      call add_channel(info, "force", "N", "world", 2, "force on the body of i")
+      call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive if it pulls them together")
+      call add_channel(info, "length", "m", "none", 1, "distance of the points")
+      call add_channel(info, "rate", "m/s", "none", 1, "rate of the distance")
+      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together")
+   end function spring_info
+
+   !> Make the set.
+   subroutine spring_prepare(self, items, points)
+      class(force_spring_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)          !! (n) rows of the table
+      type(points_t), intent(in) :: points          !! all points
+
+      integer :: i, j, k
+
+      self%n = size(items)
+      allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n), self%actuator(self%n))
+      allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
+      allocate (self%free_length(self%n), self%law(self%n), self%has_law(self%n))
+      do k = 1, self%n
+         associate (values => items(k)%values)
+            i = values(1)%index
+            j = values(2)%index
+            self%names(k)%s = items(k)%name
+            self%body(:, k) = [points%body(i), points%body(j)]
+            self%s_i(:, k) = points%s(:, i)
+            self%s_j(:, k) = points%s(:, j)
+            self%stiffness(k) = values(3)%number
+            self%damping(k) = values(4)%number
+            self%free_length(k) = values(5)%number
+            self%relaxed(k) = values(5)%number
+            self%constant(k) = values(6)%number
+            if (self%stiffness(k) > 0.0_wp) then
+               self%relaxed(k) = self%relaxed(k) - self%constant(k)/self%stiffness(k)
+               self%constant(k) = 0.0_wp
+            end if
+            self%actuator(k) = values(7)%expression
+            self%law(k) = values(8)%expression
+            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(values(8)%number) > 0.0_wp
+         end associate
+      end do
+   end subroutine spring_prepare
+
+   !> Length, tension and what of it the actuator gives.
+   pure subroutine tension_of(self, k, t, motion, u, length, rate, tension, actuator)
+      class(force_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: u(3)              !! (3) direction from i to j, world frame; zero if there is none [1]
+      real(wp), intent(out) :: length            !! distance of the points [m]
+      real(wp), intent(out) :: rate              !! its rate [m/s]
+      real(wp), intent(out) :: tension           !! force that pulls the points together [N]
+      real(wp), intent(out) :: actuator          !! the actuator's part of it [N]
+
+      real(wp) :: by_law, first_derivative, second_derivative
+
+      call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
+      call self%actuator(k)%evaluate(t, actuator, first_derivative, second_derivative)
+      actuator = actuator + self%constant(k)
+      tension = self%stiffness(k)*(length - self%relaxed(k)) + self%damping(k)*rate + actuator
+      if (.not. self%has_law(k)) return
+      call self%law(k)%evaluate(length - self%free_length(k), by_law, first_derivative, second_derivative)
+      tension = tension + by_law
+   end subroutine tension_of
+
+   !> Add the loads of all items; the power is that of the actuators.
+   subroutine spring_evaluate(self, t, motion, loads, power)
+      class(force_spring_t), intent(in) :: self  !! the set
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(loads_t), intent(inout) :: loads      !! loads on the bodies
+      real(wp), intent(inout) :: power           !! power given to the mechanism [W]
+
+      real(wp) :: actuator, length, rate, tension, u(3)
+      integer :: k
+
+      do k = 1, self%n
+         call tension_of(self, k, t, motion, u, length, rate, tension, actuator)
+         associate (i => self%body(1, k), j => self%body(2, k))
+            call apply_force(loads, motion, i, point_position(motion, i, self%s_i(:, k)), tension*u)
+            call apply_force(loads, motion, j, point_position(motion, j, self%s_j(:, k)), -tension*u)
+         end associate
+         power = power - actuator*rate
+      end do
+   end subroutine spring_evaluate
+
+   !> Energy stored by stiffness and law.
+   pure real(wp) function spring_elastic_energy(self, motion) result(energy)
+      class(force_spring_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion       !! positions
+
+      real(wp) :: length, rate, u(3)
+      integer :: k
+
+      energy = 0.0_wp
+      do k = 1, self%n
+         call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
+         energy = energy + 0.5_wp*self%stiffness(k)*(length - self%relaxed(k))**2
+         if (self%has_law(k)) energy = energy + integral_of(self%law(k), length - self%free_length(k))
+      end do
+   end function spring_elastic_energy
+
+   !> Power lost in the dampers.
+   pure real(wp) function spring_lost_power(self, motion) result(power)
+      class(force_spring_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+
+      real(wp) :: length, rate, u(3)
+      integer :: k
+
+      power = 0.0_wp
+      do k = 1, self%n
+         call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
+         power = power + self%damping(k)*rate*rate
+      end do
+   end function spring_lost_power
+
+   !> Values of a channel for all items.
+   subroutine spring_report(self, channel, t, motion, values)
+      class(force_spring_t), intent(in) :: self  !! the set
+      character(*), intent(in) :: channel        !! name of the channel
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(inout) :: values(:, :)    !! (components, n) values [N, m, m/s or W]
+
+      real(wp) :: actuator, length, rate, tension, u(3)
+      integer :: k
+
+      do k = 1, self%n
+         call tension_of(self, k, t, motion, u, length, rate, tension, actuator)
+         select case (channel)
+         case ("force")
+            values(:, k) = tension*u(1:size(values, 1))
+         case ("tension")
+            values(1, k) = tension
+         case ("length")
+            values(1, k) = length
+         case ("rate")
+            values(1, k) = rate
+         case ("power")
+            values(1, k) = -tension*rate
+         end select
+      end do
+   end subroutine spring_report
+
+end module force_spring

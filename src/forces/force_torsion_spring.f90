@@ -1,0 +1,204 @@
+!> Torsional spring, damper and actuator between the bodies i and j.
+!>
+!> With the angle phi = angle_j - angle_i, turns counted:
+!> m = k x + c phi' + m_0 + m_l(x) + m_a(t),   x = phi - phi_0
+!> stored energy = k (x + m_0/k)^2/2 + integral of m_l from 0 to x
+!> lost power = c phi'^2,   power of the actuator = -m_a phi'
+!> k stiffness, c damping, phi_0 free angle, m_0 preload (the moment at the free angle), m_l law
+!> of a spring that is not linear, m_a actuator. Without stiffness the preload stores nothing: it is then a constant
+!> part of the actuator.
+!>
+!> Signs: m acts on the body of i, channel `moment`, and -m on the body of j; counter-clockwise positive: a positive
+!> moment turns the bodies back towards each other as a tension pulls points together. Source: Flores et al. (2008),
+!> section 2.3; Nikravesh, Computer-aided analysis of mechanical systems (1988), chapter 9. Limits: none.
+module force_torsion_spring
+   use bodies, only: points_t
+   use expression, only: expression_t
+   use force_set, only: force_set_t
+   use item, only: item_t
+   use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_angle, dim_angular_damping, &
+      dim_angular_stiffness, dim_moment, kind_info_t
+   use kinds, only: wp
+   use motion, only: loads_t, motion_t
+   use quadrature, only: integral_of
+   implicit none (type, external)
+   private
+   public :: force_torsion_spring_t
+
+   !> All torsional springs.
+   type, extends(force_set_t) :: force_torsion_spring_t
+      integer, allocatable :: body(:, :)                !! (2, n) bodies i and j, 0: ground
+      real(wp), allocatable :: stiffness(:)             !! (n) k [N.m/rad]
+      real(wp), allocatable :: damping(:)               !! (n) c [N.m.s/rad]
+      real(wp), allocatable :: free_angle(:)            !! (n) phi_0 [rad]
+      real(wp), allocatable :: relaxed(:)               !! (n) angle without moment of the stiffness, phi_0 - m_0/k [rad]
+      real(wp), allocatable :: constant(:)              !! (n) constant part of the actuator, m_0 without stiffness [N.m]
+      type(expression_t), allocatable :: law(:)         !! (n) m_l over the angle [N.m]
+      logical, allocatable :: has_law(:)                !! (n) whether it is not zero
+      type(expression_t), allocatable :: actuator(:)    !! (n) m_a [N.m]
+   contains
+      procedure, nopass :: info => torsion_info
+      procedure :: prepare => torsion_prepare
+      procedure :: evaluate => torsion_evaluate
+      procedure :: elastic_energy => torsion_elastic_energy
+      procedure :: lost_power => torsion_lost_power
+      procedure :: report => torsion_report
+   end type force_torsion_spring_t
+
+contains
+
+   !> What the kind says of itself.
+   function torsion_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "force.torsion_spring"
+      info%help = "torsional spring, damper and actuator between two bodies"
+      info%source = "Flores et al. (2008), section 2.3"
+      call add_reference(info, "i", "bodies", "first body")
+      call add_reference(info, "j", "bodies", "second body")
+      call add_number(info, "stiffness", dim_angular_stiffness, "stiffness", default="0 N.m/rad", lower=0.0_wp)
+      call add_number(info, "damping", dim_angular_damping, "coefficient of the damper", default="0 N.m.s/rad", lower=0.0_wp)
+      call add_number(info, "free_angle", dim_angle, "angle of j relative to i at which the stiffness gives no moment", &
+                      default="0 rad")
+      call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
+      call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
+      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
+                          default="0 N.m", variable="x", argument=dim_angle)
+      call add_channel(info, "moment", "N.m", "world", 1, "moment on the body of i, counter-clockwise positive")
+      call add_channel(info, "angle", "rad", "none", 1, "angle of j relative to i, counter-clockwise, turns counted")
+      call add_channel(info, "angular_rate", "rad/s", "none", 1, "rate of the angle")
+      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together")
+   end function torsion_info
+
+   !> Make the set.
+   subroutine torsion_prepare(self, items, points)
+      class(force_torsion_spring_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)                  !! (n) rows of the table
+      type(points_t), intent(in) :: points                  !! all points
+
+      integer :: k
+
+      self%n = size(items)
+      allocate (self%names(self%n), self%body(2, self%n), self%actuator(self%n))
+      allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
+      allocate (self%free_angle(self%n), self%law(self%n), self%has_law(self%n))
+      do k = 1, self%n
+         associate (values => items(k)%values)
+            self%names(k)%s = items(k)%name
+            self%body(:, k) = [values(1)%index, values(2)%index]
+            self%stiffness(k) = values(3)%number
+            self%damping(k) = values(4)%number
+            self%free_angle(k) = values(5)%number
+            self%relaxed(k) = values(5)%number
+            self%constant(k) = values(6)%number
+            if (self%stiffness(k) > 0.0_wp) then
+               self%relaxed(k) = self%relaxed(k) - self%constant(k)/self%stiffness(k)
+               self%constant(k) = 0.0_wp
+            end if
+            self%actuator(k) = values(7)%expression
+            self%law(k) = values(8)%expression
+            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(values(8)%number) > 0.0_wp
+         end associate
+      end do
+   end subroutine torsion_prepare
+
+   !> Angle, its rate, moment and what of it the actuator gives.
+   pure subroutine moment_of(self, k, t, motion, angle, rate, moment, actuator)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                           !! item
+      real(wp), intent(in) :: t                          !! time [s]
+      type(motion_t), intent(in) :: motion               !! positions and velocities
+      real(wp), intent(out) :: angle                     !! of j relative to i [rad]
+      real(wp), intent(out) :: rate                      !! its rate [rad/s]
+      real(wp), intent(out) :: moment                    !! on the body of i [N.m]
+      real(wp), intent(out) :: actuator                  !! the actuator's part of it [N.m]
+
+      real(wp) :: by_law, first_derivative, second_derivative
+
+      angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
+      rate = motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k))
+      call self%actuator(k)%evaluate(t, actuator, first_derivative, second_derivative)
+      actuator = actuator + self%constant(k)
+      moment = self%stiffness(k)*(angle - self%relaxed(k)) + self%damping(k)*rate + actuator
+      if (.not. self%has_law(k)) return
+      call self%law(k)%evaluate(angle - self%free_angle(k), by_law, first_derivative, second_derivative)
+      moment = moment + by_law
+   end subroutine moment_of
+
+   !> Add the loads of all items; the power is that of the actuators.
+   subroutine torsion_evaluate(self, t, motion, loads, power)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      real(wp), intent(in) :: t                          !! time [s]
+      type(motion_t), intent(in) :: motion               !! positions and velocities
+      type(loads_t), intent(inout) :: loads              !! loads on the bodies
+      real(wp), intent(inout) :: power                   !! power given to the mechanism [W]
+
+      real(wp) :: actuator, angle, moment, rate
+      integer :: k
+
+      do k = 1, self%n
+         call moment_of(self, k, t, motion, angle, rate, moment, actuator)
+         associate (i => self%body(1, k), j => self%body(2, k))
+            loads%moment(3, i) = loads%moment(3, i) + moment
+            loads%moment(3, j) = loads%moment(3, j) - moment
+         end associate
+         power = power - actuator*rate
+      end do
+   end subroutine torsion_evaluate
+
+   !> Energy stored by stiffness and law.
+   pure real(wp) function torsion_elastic_energy(self, motion) result(energy)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion               !! positions
+
+      real(wp) :: angle
+      integer :: k
+
+      energy = 0.0_wp
+      do k = 1, self%n
+         angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
+         energy = energy + 0.5_wp*self%stiffness(k)*(angle - self%relaxed(k))**2
+         if (self%has_law(k)) energy = energy + integral_of(self%law(k), angle - self%free_angle(k))
+      end do
+   end function torsion_elastic_energy
+
+   !> Power lost in the dampers.
+   pure real(wp) function torsion_lost_power(self, motion) result(power)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion               !! positions and velocities
+
+      integer :: k
+
+      power = 0.0_wp
+      do k = 1, self%n
+         power = power + self%damping(k)*(motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k)))**2
+      end do
+   end function torsion_lost_power
+
+   !> Values of a channel for all items.
+   subroutine torsion_report(self, channel, t, motion, values)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      character(*), intent(in) :: channel                !! name of the channel
+      real(wp), intent(in) :: t                          !! time [s]
+      type(motion_t), intent(in) :: motion               !! positions and velocities
+      real(wp), intent(inout) :: values(:, :)            !! (components, n) values [N.m, rad, rad/s or W]
+
+      real(wp) :: actuator, angle, moment, rate
+      integer :: k
+
+      do k = 1, self%n
+         call moment_of(self, k, t, motion, angle, rate, moment, actuator)
+         select case (channel)
+         case ("moment")
+            values(1, k) = moment
+         case ("angle")
+            values(1, k) = angle
+         case ("angular_rate")
+            values(1, k) = rate
+         case ("power")
+            values(1, k) = -moment*rate
+         end select
+      end do
+   end subroutine torsion_report
+
+end module force_torsion_spring

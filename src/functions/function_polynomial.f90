@@ -1,0 +1,89 @@
+!> Polynomial of the time.
+!>
+!> f(t) = sum_k c_k (t - origin)^k,   k = 0 to 7
+!>
+!> Each coefficient has the dimension of the function over a time to its power. Source: Flores et al. (2008),
+!> section 2.2 (driver functions). Limits: degree 7.
+module function_polynomial
+   use curve, only: beyond_same
+   use dimension_text, only: dimension_name, unit_text
+   use function_kind, only: function_kind_t, made_t
+   use item, only: item_t
+   use kind_info, only: add_any_number, add_number, dim_time, dim_t, kind_info_t, same_dimension
+   use kinds, only: wp
+   use text, only: to_text
+   use units, only: dimension_power, dimension_product
+   implicit none (type, external)
+   private
+   public :: function_polynomial_t
+
+   integer, parameter :: degree = 7            !! greatest power
+   integer, parameter :: column_origin = 9     !! column of the origin, after those of the coefficients
+
+   !> The kind.
+   type, extends(function_kind_t) :: function_polynomial_t
+   contains
+      procedure, nopass :: info => polynomial_info
+      procedure, nopass :: make => polynomial_make
+   end type function_polynomial_t
+
+contains
+
+   !> What the kind says of itself.
+   function polynomial_info() result(info)
+      type(kind_info_t) :: info  !! name and columns
+
+      integer :: k
+
+      info%name = "function.polynomial"
+      info%help = "polynomial of the time, called by its name in expressions: {lift(t)}"
+      info%source = "Flores et al. (2008), section 2.2"
+      do k = 0, degree
+         call add_any_number(info, "c"//to_text(k), "coefficient of (t - origin)^"//to_text(k), default="0")
+      end do
+      call add_number(info, "origin", dim_time, "time from which the powers count", default="0 s")
+   end function polynomial_info
+
+   !> The curve of a row.
+   subroutine polynomial_make(item, made)
+      type(item_t), intent(inout) :: item  !! the row
+      type(made_t), intent(out) :: made    !! the curve, or the first mistake
+
+      type(dim_t) :: dimension
+      integer :: first, k
+
+      made%argument = dim_time
+      allocate (made%curve%x(1), source=item%values(column_origin)%number)
+      allocate (made%curve%c(0:degree, 1), source=0.0_wp)
+      made%curve%beyond = beyond_same
+      first = 0
+      do k = 0, degree
+         associate (value => item%values(k + 1))
+            if (.not. value%given) cycle
+            made%curve%c(k, 1) = value%number
+            dimension = dimension_product(value%dimensions(1), dimension_power(dim_time, real(k, wp)), 1.0_wp)
+            if (first == 0) then
+               first = k + 1
+               made%dimension = dimension
+            else if (.not. same_dimension(dimension, made%dimension)) then
+               made%column = k + 1
+               made%message = "column c"//to_text(first - 1)//" makes the function "//dimension_name(made%dimension)
+               made%help = "so the unit of c"//to_text(k)//" is "//unit_over_time(made%dimension, k)
+               return
+            end if
+         end associate
+      end do
+   end subroutine polynomial_make
+
+   !> The SI unit of a quantity over a time to some power.
+   function unit_over_time(dimension, power) result(unit)
+      type(dim_t), intent(in) :: dimension  !! of the quantity
+      integer, intent(in) :: power          !! of the time
+      character(:), allocatable :: unit     !! as N/s^2
+
+      unit = unit_text(dimension)
+      if (power > 0) unit = unit//"/s"
+      if (power > 1) unit = unit//"^"//to_text(power)
+   end function unit_over_time
+
+end module function_polynomial

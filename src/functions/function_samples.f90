@@ -1,0 +1,182 @@
+!> Smooth curve through samples: a cubic spline, twice continuously differentiable.
+!>
+!> The samples stand in the row, as two lists in quotes with a unit each, or in a text file whose first line
+!> names two columns with their units, as `t[ms] lift[mm]`. The argument is what the places are: a time for drivers
+!> and loads, or any other quantity.
+!>
+!> `ends` closes the spline: not_a_knot (exact for cubics), natural (no curvature at the ends), clamped (no slope
+!> there). `beyond` says what is outside the samples: error (the function does not exist, which ends a run that
+!> gets there), hold (the value of the end), linear (the tangent of the end), periodic (the samples repeat; the last
+!> value is the first one, and the spline closes smoothly, so that `ends` has no meaning).
+!>
+!> Source: de Boor, A practical guide to splines (1978), chapter IV. Limits: at least 4 samples; hold and linear
+!> have a jump of the first or second derivative at the end unless the samples flatten out there.
+module function_samples
+   use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_periodic
+   use function_kind, only: function_kind_t, made_t
+   use item, only: item_t
+   use kind_info, only: add_file, add_list, add_word, kind_info_t
+   use kinds, only: wp
+   use spline, only: ends_clamped, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: function_samples_t
+
+   integer, parameter :: column_at = 1      !! column of the places
+   integer, parameter :: column_value = 2   !! column of the values
+   integer, parameter :: column_file = 3    !! column of the file
+   integer, parameter :: column_ends = 4    !! column of the ends
+   integer, parameter :: column_beyond = 5  !! column of what is outside
+
+   real(wp), parameter :: closed = 1.0e-9_wp  !! difference of the ends of a period, of the greatest value [1]
+
+   !> The kind.
+   type, extends(function_kind_t) :: function_samples_t
+   contains
+      procedure, nopass :: info => samples_info
+      procedure, nopass :: make => samples_make
+   end type function_samples_t
+
+contains
+
+   !> What the kind says of itself.
+   function samples_info() result(info)
+      type(kind_info_t) :: info  !! name and columns
+
+      info%name = "function.samples"
+      info%help = "smooth curve through samples, called by its name in expressions: {lift(t)}"
+      info%source = "de Boor (1978), chapter IV"
+      call add_list(info, "at", "places of the samples, increasing", default="")
+      call add_list(info, "value", "values of the samples", default="")
+      call add_file(info, "file", "two columns, relative to the deck, with names and units in the first line; instead of at " &
+                    //"and value", default="")
+      call add_word(info, "ends", "how the curve is closed; left out: not_a_knot", default="", choices="not_a_knot natural clamped")
+      call add_word(info, "beyond", "what is outside the samples", default="error", choices="error hold linear periodic")
+   end function samples_info
+
+   !> The curve of a row.
+   subroutine samples_make(item, made)
+      type(item_t), intent(inout) :: item  !! the row; samples of a file become lists
+      type(made_t), intent(out) :: made    !! the curve, or the first mistake
+
+      call take_file(item, made)
+      if (made%column > 0) return
+      call check_samples(item, made)
+      if (made%column > 0) return
+      associate (at => item%values(column_at), value => item%values(column_value))
+         made%argument = at%dimensions(1)
+         made%dimension = value%dimensions(1)
+         call new_spline(at%table(:, 1), value%table(:, 1), ends_of(item), beyond_of(item), made%curve)
+      end associate
+   end subroutine samples_make
+
+   !> Samples of a file become the lists of the row.
+   subroutine take_file(item, made)
+      type(item_t), intent(inout) :: item  !! the row
+      type(made_t), intent(inout) :: made  !! receives a mistake
+
+      integer :: k
+
+      associate (file => item%values(column_file))
+         if (.not. file%given) return
+         do k = column_at, column_value
+            associate (list => item%values(k))
+               if (list%given) then
+                  made%column = k
+                  made%message = "the samples stand in a file already"
+                  made%help = "give columns at and value, or column file"
+                  return
+               end if
+               list%given = .true.
+               list%location = file%location
+               list%table = file%table(:, k:k)
+               list%places = file%places
+               list%dimensions(1) = file%dimensions(k)
+            end associate
+         end do
+         file%given = .false.
+      end associate
+   end subroutine take_file
+
+   !> Whether there are enough samples, in order, and closed if they repeat.
+   subroutine check_samples(item, made)
+      type(item_t), intent(in) :: item     !! the row
+      type(made_t), intent(inout) :: made  !! receives a mistake
+
+      integer :: k, n
+
+      made%help = ""
+      do k = column_at, column_value
+         if (item%values(k)%given) cycle
+         call complain(k, "there are no samples")
+         made%help = "give columns at and value, as ""0 10 20 30 ms"", or column file"
+         return
+      end do
+      associate (x => item%values(column_at)%table(:, 1), y => item%values(column_value)%table(:, 1))
+         n = size(x)
+         if (size(y) /= n) then
+            call complain(column_value, to_text(size(y))//" values at "//to_text(n)//" places")
+         else if (n < least_samples) then
+            call complain(column_at, "there are "//to_text(n)//" samples, a smooth curve needs "//to_text(least_samples))
+         else if (.not. all(x(2:) > x(:n - 1))) then
+            do k = 2, n
+               if (.not. x(k) > x(k - 1)) exit
+            end do
+            call complain(column_at, "sample "//to_text(k)//" is not behind sample "//to_text(k - 1))
+            made%place = k
+            made%help = "places increase from sample to sample"
+         else if (beyond_of(item) == beyond_periodic .and. abs(y(n) - y(1)) > closed*maxval(abs(y))) then
+            call complain(column_value, "the last value differs from the first one")
+            made%help = "with beyond = periodic the last sample is the first one of the next period"
+         else if (beyond_of(item) == beyond_periodic .and. item%values(column_ends)%given) then
+            call complain(column_ends, "a periodic curve has no ends")
+            made%help = "leave out column ends, or write -"
+         end if
+      end associate
+
+   contains
+
+      !> Note a mistake.
+      subroutine complain(column, message)
+         integer, intent(in) :: column        !! where it is
+         character(*), intent(in) :: message  !! what is wrong
+
+         made%column = column
+         made%message = message
+      end subroutine complain
+
+   end subroutine check_samples
+
+   !> How the spline of a row is closed.
+   pure integer function ends_of(item) result(ends)
+      type(item_t), intent(in) :: item  !! the row
+
+      select case (item%values(column_ends)%text)
+      case ("natural")
+         ends = ends_natural
+      case ("clamped")
+         ends = ends_clamped
+      case default
+         ends = ends_not_a_knot
+      end select
+      if (beyond_of(item) == beyond_periodic) ends = ends_periodic
+   end function ends_of
+
+   !> What is outside the samples of a row.
+   pure integer function beyond_of(item) result(beyond)
+      type(item_t), intent(in) :: item  !! the row
+
+      select case (item%values(column_beyond)%text)
+      case ("hold")
+         beyond = beyond_hold
+      case ("linear")
+         beyond = beyond_linear
+      case ("periodic")
+         beyond = beyond_periodic
+      case default
+         beyond = beyond_error
+      end select
+   end function beyond_of
+
+end module function_samples

@@ -1,0 +1,97 @@
+!> The named functions of a deck: tables of rows become curves that its expressions can call.
+module read_functions
+   use deck_reader, only: deck_t, diagnostics_t, read_items
+   use expression_compile, only: is_reserved, name_length, symbol_broken, symbol_function, symbol_t
+   use function_kind, only: function_kind_t, made_t
+   use function_registry, only: n_function_kinds, new_function_kind
+   use item, only: item_t, location_t
+   use scene, only: scene_t
+   implicit none (type, external)
+   private
+   public :: functions_from_deck
+
+contains
+
+   !> Read all functions. They are known to the deck's expressions only after that.
+   subroutine functions_from_deck(deck, scene, diagnostics)
+      type(deck_t), intent(inout) :: deck                !! the deck; its functions are set
+      type(scene_t), intent(inout) :: scene              !! tables are set
+      type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
+
+      class(function_kind_t), allocatable :: kind
+      type(symbol_t), allocatable :: functions(:)
+      integer :: before, i, k, n
+
+      n = 0
+      do k = 1, n_function_kinds
+         call new_function_kind(k, kind)
+         scene%functions(k)%info = kind%info()
+         call read_items(deck, scene%functions(k)%info, scene%functions(k)%items, diagnostics)
+         n = n + size(scene%functions(k)%items)
+      end do
+      allocate (functions(n))
+      n = 0
+      do k = 1, n_function_kinds
+         call new_function_kind(k, kind)
+         do i = 1, size(scene%functions(k)%items)
+            n = n + 1
+            before = diagnostics%count()
+            call make_function(kind, scene%functions(k)%items(i), functions(n), before == 0, diagnostics)
+            call check_name(deck, functions(:n), scene%functions(k)%items(i), diagnostics)
+            if (diagnostics%count() > before) functions(n)%kind = symbol_broken
+         end do
+      end do
+      call move_alloc(functions, deck%functions)
+   end subroutine functions_from_deck
+
+   !> The curve of a row.
+   subroutine make_function(kind, item, symbol, is_readable, diagnostics)
+      class(function_kind_t), intent(in) :: kind         !! its kind
+      type(item_t), intent(inout) :: item                !! the row
+      type(symbol_t), intent(out) :: symbol              !! the function
+      logical, intent(in) :: is_readable                 !! .false.: some row has a mistake, none is made
+      type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
+
+      type(location_t) :: at
+      type(made_t) :: made
+
+      symbol%name = item%name
+      symbol%kind = symbol_broken
+      if (.not. is_readable) return
+      call kind%make(item, made)
+      if (made%column > 0) then
+         at = item%values(made%column)%location
+         if (made%place > 0) at = item%values(made%column)%places(made%place)
+         call diagnostics%add(at, "function '"//item%name//"' cannot be made", made%message, made%help)
+         return
+      end if
+      symbol%kind = symbol_function
+      symbol%curve = made%curve
+      symbol%dimension = made%dimension
+      symbol%argument = made%argument
+   end subroutine make_function
+
+   !> A function is called in expressions: its name must be one there, and no other's.
+   subroutine check_name(deck, functions, item, diagnostics)
+      type(deck_t), intent(in) :: deck                   !! the deck, for its parameters
+      type(symbol_t), intent(in) :: functions(:)         !! (n) the last one is new
+      type(item_t), intent(in) :: item                   !! its row
+      type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
+
+      character(:), allocatable :: message
+      integer :: k
+
+      if (len(item%name) == 0) return
+      message = ""
+      if (is_reserved(item%name)) message = "it has a meaning in expressions"
+      if (name_length(item%name) /= len(item%name)) message = "a letter first, then letters, digits and _"
+      do k = 1, size(deck%parameters)
+         if (deck%parameters(k)%name == item%name) message = "a parameter has this name"
+      end do
+      do k = 1, size(functions) - 1
+         if (functions(k)%name == item%name) message = "another function has this name"
+      end do
+      if (len(message) > 0) call diagnostics%add(item%location, "'"//item%name//"' cannot be the name of a function", message)
+   end subroutine check_name
+
+end module read_functions
