@@ -6,7 +6,7 @@
 !> than 0.05 rad, is divided, so that the mechanism stays on its branch. When no step however small gets on,
 !> a driver has met a dead point (or jumps), and the run ends there.
 !>
-!> Source: Flores et al. (2008), section 2.2, figure 2.5. Limits: all joints ideal; no integrated works.
+!> Source: Flores et al. (2008), section 2.4, figure 2.5. Limits: all joints ideal; no integrated works.
 module kinematic
    use catalogue, only: catalogue_t
    use consistent_start, only: evaluate_rows, row_scale

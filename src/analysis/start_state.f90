@@ -51,14 +51,13 @@ contains
 
       call deck_positions(scene, q, v)
       associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
-         if (start == "static") then
-            call start_at_rest(scene, system, q, v, report, error)
-         else
-            levels = merge(levels_ideal, levels_as_written, system%n_loose == 0 .or. start == "ideal")
-            call new_system(scene, levels, twin, is_for_start=.true.)
-            call assemble(twin, q, v, report, error)
-         end if
+         levels = levels_as_written
+         if (system%n_loose == 0 .or. start == "ideal") levels = levels_ideal
+         if (start == "static") call start_at_rest(scene, system, q, v, report, error)
       end associate
+      if (allocated(error)) return
+      call new_system(scene, levels, twin, is_for_start=.true.)
+      call assemble(twin, q, v, report, error)
       if (allocated(error)) return
       call find_dependent(system, q, v, report)
       system%is_redundant = size(report%dependent) > 0
@@ -72,12 +71,12 @@ contains
       call refuse_overlap(system, y, error)
    end subroutine find_start
 
-   !> The static equilibrium at t = 0, its contacts begun. The velocities are zero but for what drivers move.
+   !> The static equilibrium at t = 0, its contacts begun.
    subroutine start_at_rest(scene, system, q, v, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that will run
       real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions of the deck, then at rest [m, m, rad]
-      real(wp), intent(inout) :: v(:)                       !! (3 bodies) velocities [m/s, m/s, rad/s]
+      real(wp), intent(out) :: v(:)                         !! (3 bodies) velocities, zero [m/s, m/s, rad/s]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! no equilibrium
 
@@ -87,8 +86,6 @@ contains
       call find_equilibrium(scene, system, q, report, equilibrium, error)
       if (allocated(error)) return
       v = 0.0_wp
-      call assemble(system, q, v, report, error)
-      report%rate_changed = 0.0_wp  ! no velocity of the deck is used
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
             set%n_touching = 0

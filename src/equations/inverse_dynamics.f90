@@ -5,7 +5,7 @@
 !> Signs: the reaction on a body is -Phi_q^T lambda, as in the equations of motion. Where rows are
 !> redundant, lambda is the one of least norm, forces times the size of the bodies against moments.
 !> What the rows cannot take stays unbalanced; its norm is returned.
-!> Source: Flores et al. (2008), section 2.4, eq. (2.14), and figure 2.5. Limits: dense, by singular values
+!> Source: Flores et al. (2008), section 2.5, eq. (2.14). Limits: dense, by singular values
 !> (LAPACK dgelsd).
 module inverse_dynamics
    use consistent_start, only: rank_tolerance, row_scale, scaled_jacobian

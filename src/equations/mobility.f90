@@ -5,7 +5,7 @@
 !> other drivers already: the rows of drivers on the motions that the joints leave free, D V_0, are
 !> factorised with pivoting.
 !>
-!> Source: Flores et al. (2008), section 2.2 (degrees of freedom, redundant constraints); Golub and Van
+!> Source: Flores et al. (2008), section 2.4 (drivers and degrees of freedom); Golub and Van
 !> Loan, Matrix Computations, sections 2.5 and 5.4 (rank). Limits: dense; the present position only.
 module mobility
    use consistent_start, only: rank_tolerance, scaled_jacobian

@@ -6,7 +6,7 @@
 !> motion meet the rows are closed to second order by any position nearby, so that positions are known only to the
 !> square root of round-off, and rates not at all: such an instant is called singular.
 !>
-!> Source: Flores et al. (2008), section 2.2, eqs. (2.9)-(2.11), figure 2.5. Limits: as many independent rows as
+!> Source: Flores et al. (2008), section 2.4, eqs. (2.9)-(2.11), figure 2.5. Limits: as many independent rows as
 !> coordinates; a position near the one given.
 module prescribed_motion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

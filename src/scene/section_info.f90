@@ -72,7 +72,7 @@ contains
 
       info%name = "analysis.kinematic"
       info%help = "motion prescribed by drivers, one for each degree of freedom; forces by inverse dynamics"
-      info%source = "Flores et al. (2008), section 2.2, figure 2.5"
+      info%source = "Flores et al. (2008), section 2.4, figure 2.5"
       info%is_table = .false.
       call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
       call add_number(info, "tolerance", dim_none, "greatest violation of a constraint at which Newton's iteration has " &
@@ -88,7 +88,7 @@ contains
 
       info%name = "analysis.static"
       info%help = "equilibrium at rest under the forces at t = 0, drivers held where they are at t = 0"
-      info%source = "Flores et al. (2008), section 2.3, with velocities and accelerations zero; SUNDIALS KINSOL"
+      info%source = "Flores et al. (2008), eq. (2.14) with velocities and accelerations zero; SUNDIALS KINSOL"
       info%is_table = .false.
       call add_word(info, "start", "ideal: search from the mechanism with ideal joints; given: from where the deck puts the " &
                     //"bodies, the ideal joints assembled", default="ideal", choices="ideal given")

@@ -273,6 +273,25 @@ def test_dead_point(gudgeon, speed, limit):
     assert result.summary["status"] == "failed"
 
 
+def test_slider_driven_beyond_its_reach(gudgeon, slider_crank):
+    """The slider driven outward from midway: crank and rod in line, 170 mm, is as far as it gets."""
+    text = changed(slider_crank, "output", every="1 ms")
+    motor = next(line for line in text.splitlines() if line.startswith("motor "))
+    text = text.replace(motor + "\n", "").replace("[driver.speed]", "[driver.position]")
+    text = text.replace("name     joint    speed\n", "name i j axis position\nram main pin x {150mm + 100mm/1s*t}\n")
+    text = changed(text, "analysis.kinematic", end="1 s").replace("motor.moment", "ram.*")
+    result = run(gudgeon, text.replace("crank    0.30       1.0e-4            25      0       0", MIDWAY), expect=5)
+    found = re.search(r"cannot follow driver 'ram' beyond t = ([0-9.]+) s", result.done.stderr)
+    assert found, result.done.stderr
+    assert_close(float(found[1]), 0.2, absolute=1e-8, what="time")
+    slider = result.item("bodies/position", "slider")[:, 0]
+    assert_close(slider, 0.15 + 0.1 * result.time, absolute=1e-13, what="slider")
+    angle = result.item("bodies/angle", "crank").ravel()
+    exact = np.arccos((CRANK_LENGTH**2 + slider**2 - ROD_LENGTH**2) / (2 * CRANK_LENGTH * slider))
+    assert_close(angle, exact, absolute=1e-10, what="angle of the crank")
+
+
+MIDWAY = "crank    0.30       1.0e-4            15      20       53"
 CHANGE_POINT = """deck = 1
 [bodies]
 name mass[kg] inertia[kg.m^2] x[m] y[m] angle[deg]

@@ -205,6 +205,37 @@ impact  2e9
     assert moving.summary["events"] == 0
 
 
+def test_hung_on_springs(gudgeon):
+    """A bar without joints on two springs: it settles level, each stretched by half the weight; the pull upward is stable."""
+    text = (
+        HEAD
+        + """[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]   angle[deg]
+bar   2.0       0.1              0.1  -0.15   20
+[points]
+name   body    xi[m]  eta[m]
+left   ground  -0.5    0
+right  ground   0.5    0
+a      bar     -0.5    0
+b      bar      0.5    0
+[force.spring]
+name  i      j   stiffness[N/m]  free_length[m]
+one   left   a   500             0.2
+two   right  b   500             0.2
+[analysis.static]
+"""
+    )
+    result = run(gudgeon, text)
+    stretch = 2.0 * GRAVITY / 2 / 500
+    assert_close(result.item("bodies/position", "bar"), [[0.0, -0.2 - stretch]], absolute=1e-12, what="where it hangs")
+    assert_close(angle_of(result, "bar"), 0.0, absolute=1e-11, what="angle")
+    assert result.summary["equilibrium"].startswith("stable")
+    # the lowest is the swing to the side, a pendulum of the springs' length
+    frequency = float(re.search(r"frequency ([0-9.]+) Hz", result.summary["equilibrium"])[1])
+    assert_close(frequency, np.sqrt(GRAVITY / (0.2 + stretch)) / (2 * np.pi), relative=1e-5, what="natural frequency")
+    assert_close(result.read("energy/elastic"), 500 * stretch**2, relative=1e-10, what="energy in the springs")
+
+
 def test_redundant_joint(gudgeon):
     """A pin given twice: each bears half, and a warning names both."""
     result = run(gudgeon, PENDULUM.replace("MORE", "twin wall top"))
