@@ -19,6 +19,7 @@ module build_system
    use motion, only: new_loads, new_motion, set_planar_motion
    use planar_system, only: n_ledger, planar_system_t
    use scene, only: analysis_dynamic, scene_t
+   use scene_size, only: size_of_bodies
    use section_info, only: column_of
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
@@ -80,6 +81,7 @@ contains
       call set_known(scene, links, choices, system)
       call add_forces(scene, system)
       call declare_rows(system)
+      system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
       call choose_hold(scene, system)
       call choose_solver(scene, system)
       allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_loose), source=0.0_wp)
@@ -88,22 +90,7 @@ contains
       system%n = 2*system%n_position + system%n_quadrature
       system%n_event = system%n_loose
       allocate (system%held(2*system%n_position), source=0.0_wp)
-      system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
    end subroutine new_system
-
-   !> Size of the bodies: the greatest distance of a point from its body's centre of mass; the greatest radius of gyration
-   !> if all points are there. It does not depend on where the mechanism stands.
-   pure real(wp) function size_of_bodies(scene) result(length)
-      type(scene_t), intent(in) :: scene  !! the scene
-
-      integer :: k
-
-      length = 0.0_wp
-      do k = 1, scene%points%n
-         if (scene%points%body(k) > 0) length = max(length, norm2(scene%points%s(:, k)))
-      end do
-      if (length <= 0.0_wp) length = maxval(sqrt(scene%bodies%inertia/scene%bodies%mass))
-   end function size_of_bodies
 
    !> Angles of the bodies at the start, with that of the ground.
    pure function start_angles(scene) result(angle)

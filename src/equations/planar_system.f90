@@ -223,13 +223,12 @@ contains
       call find_accelerations(self, self%rest, .false., status)
    end subroutine planar_solve_rows
 
-   !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: through a singular
-   !> position it stays finite, and the control of the step decides what is good enough. Status 1 if rows that are always
-   !> dependent contradict each other; where `b` may be round-off, as that of a correction, they always do.
+   !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: it stays finite, and
+   !> the control of the step decides what is good enough. Status 1 if rows that always depend on others contradict them.
    subroutine find_accelerations(self, g, must_agree, status)
       class(planar_system_t), intent(inout) :: self  !! the system, rows evaluated
       real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
-      logical, intent(in) :: must_agree              !! whether a contradiction of rows that are always dependent is an error
+      logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
       integer, intent(out) :: status                 !! 0: found
 
       integer :: k

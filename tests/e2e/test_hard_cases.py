@@ -1,5 +1,6 @@
 """The hard cases of inputs/hard: the fast ones of the table of `make stability`, and the generator of chains."""
 
+import shutil
 import subprocess
 import sys
 
@@ -35,7 +36,9 @@ def test_hard_case_keeps_its_limit(gudgeon, case, way):
 def start_accelerations(gudgeon, deck, solver):
     """Accelerations of all bodies at the start and a microsecond later, translations and rotations in one array."""
     directory = scratch()
-    text = changed(deck.read_text(), "analysis.dynamic", solver=solver, end="1 us")
+    for beside in deck.parent.glob("*.txt"):  # tables that decks name
+        shutil.copy(beside, directory)
+    text = changed(deck.read_text(), "analysis.dynamic", solver=solver, start="ideal", end="1 us")
     text = changed(text, "output", every="1 us", channels="*.acceleration *.angular_acceleration", figures=None)
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     bodies = Run(directory / "out").group("bodies")
