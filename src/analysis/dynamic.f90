@@ -19,7 +19,9 @@ module dynamic
    public :: limits_t, run_dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
-   integer, parameter :: constraints_lost = -100   !! failure: a violation as large as the bodies
+   integer, parameter :: constraints_lost = -100   !! failure: a violation beyond the next two
+   real(wp), parameter :: lost_length = 0.1_wp     !! violation of a length, of the size of the bodies [1]
+   real(wp), parameter :: lost_angle = 1.0_wp      !! violation of an angle [rad]
    real(wp), parameter :: careful_energy = 1.0e-3_wp     !! residual of the largest energy that is worth a warning [1]
    real(wp), parameter :: careful_violation = 1.0e-4_wp  !! violation, of the size of the bodies or a radian, that is [1]
 
@@ -42,6 +44,7 @@ module dynamic
       real(wp) :: aside = 0.0_wp                 !! CPU time spent on output [s]
       real(wp) :: worst = 0.0_wp                 !! greatest violation so far, over the size of the bodies or one radian [1]
       integer :: worst_row = 0                   !! the row it belongs to
+      logical :: is_lost = .false.               !! whether a violation is beyond all measure
       integer(i8) :: n_sample = 0                !! output instants done
       integer(i8) :: n_last_sample = 0           !! the last of them
    end type run_t
@@ -142,7 +145,7 @@ contains
             return
          end if
          call look_at_step(system, method, run)
-         if (run%worst > 1.0_wp) then
+         if (run%is_lost) then
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
@@ -171,6 +174,7 @@ contains
 
       do k = 1, system%rows%n_solve
          scaled = system%row_weight(k)*abs(system%rows%phi(k))
+         run%is_lost = run%is_lost .or. scaled > merge(lost_angle, lost_length, system%rows%is_angle(k))
          if (scaled > run%worst) then
             run%worst = scaled
             run%worst_row = k
@@ -326,7 +330,7 @@ contains
       case (advance_failed_evaluation)
          message = "the equations of motion cannot be solved"//where_singular
       case (constraints_lost)
-         message = "the constraints are lost: a joint is open by as much as the bodies are large, or an angle is off by a radian"
+         message = "the constraints are lost: a joint is open by a tenth of the size of the bodies, or an angle is off by a radian"
       case default
          message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
          if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular

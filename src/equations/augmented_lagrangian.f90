@@ -21,6 +21,7 @@ module augmented_lagrangian
 
    real(wp), parameter :: converged = 1.0e-14_wp  !! change of the residual, of the greatest term, that ends the iteration [1]
    real(wp), parameter :: solved = 1.0e-8_wp      !! residual, of the greatest term, of a solution [1]
+   real(wp), parameter :: stronger = 1.0e3_wp     !! factor of the penalty where the iteration does not converge [1]
    integer, parameter :: n_iteration = 40         !! iterations, at most
 
    !> Penalty matrix with its structure.
@@ -90,6 +91,7 @@ contains
          end do
          if (pass == 1) allocate (self%pair(5, self%n_pair), source=0)
       end do
+      self%is_iterative = .true.
       allocate (self%alpha(rows%n_solve), self%residual(rows%n_solve), self%x(3*n), source=0.0_wp)
    end subroutine lagrangian_prepare
 
@@ -134,11 +136,11 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row that has not converged, 0: none
 
-      call lagrangian_solve_damped(self, inverse_mass, rows, g, b, 0.0_wp, n_iteration, a, lambda, bad_row)
+      call iterate(self, self%penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
       if (bad_row == 0 .and. .not. self%left_over <= solved) bad_row = maxloc(abs(self%residual), dim=1)
    end subroutine lagrangian_solve
 
-   !> The same, whatever is left over. The penalty stands for the damping.
+   !> The same, with a stronger penalty where that does not converge. The penalty stands for the damping.
    subroutine lagrangian_solve_damped(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
@@ -146,7 +148,24 @@ contains
       real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(in) :: damping                          !! of other solvers [1]
-      integer, intent(in) :: n_refinement                      !! iterations, at most
+      integer, intent(in) :: n_refinement                      !! of other solvers
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
+      integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
+
+      call iterate(self, self%penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
+      if (bad_row == 0 .and. self%left_over <= solved) return
+      call iterate(self, stronger*self%penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
+   end subroutine lagrangian_solve_damped
+
+   !> Iterate with a penalty until the residual no longer falls.
+   subroutine iterate(self, penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
+      class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
+      real(wp), intent(in) :: penalty                          !! of a violated row, of its inverse effective mass [1]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
@@ -156,7 +175,7 @@ contains
 
       n = rows%n_solve
       n_body = size(g, 2) - 1
-      call assemble(self, inverse_mass, rows)
+      call assemble(self, penalty, inverse_mass, rows)
       self%x = 0.0_wp
       call factorise_and_solve(self%k%n, size(self%k%a), self%k%first, self%k%start, 0.0_wp, self%k%a, self%k%inverse, &
                                self%k%row, self%x, bad_row)
@@ -172,7 +191,7 @@ contains
       if (n == 0) return
       greatest = max(tiny(1.0_wp), maxval(abs(b(:n))))
       before = huge(1.0_wp)
-      do k = 0, max(n_refinement, 1)
+      do k = 0, n_iteration
          call row_residuals(n_body, rows%n, n, rows%n_side, rows%side, rows%jac, a, b, self%residual)
          now = maxval(abs(self%residual))
          if (k == 0) greatest = max(greatest, now)
@@ -182,11 +201,12 @@ contains
          before = now
          call change_accelerations(self, rows, a)
       end do
-   end subroutine lagrangian_solve_damped
+   end subroutine iterate
 
    !> M + Phi_q^T alpha Phi_q.
-   subroutine assemble(self, inverse_mass, rows)
+   subroutine assemble(self, penalty, inverse_mass, rows)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
+      real(wp), intent(in) :: penalty                          !! of a violated row, of its inverse effective mass [1]
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
 
@@ -199,7 +219,7 @@ contains
          self%alpha(row) = self%alpha(row) + sum(rows%jac(place + 1:place + 3, row)**2*inverse_mass(:, rows%side(3, k)))
       end do
       ! a row between known bodies has nothing to hold
-      where (self%alpha > 0.0_wp) self%alpha = self%penalty/self%alpha
+      where (self%alpha > 0.0_wp) self%alpha = penalty/self%alpha
       self%k%a = 0.0_wp
       do k = 1, rows%n_unknown
          do c = 1, 3

@@ -2,11 +2,12 @@
 !>
 !> With e the greatest scaled violation at the start of a step and e_0 the target, the gain of the next step is
 !>
-!> alpha = min( 0.3/h, alpha_before sqrt(e/e_0) ), the root between 1/2 and 2, alpha at least 1/s:
+!> alpha = min( 0.3/h, w, alpha_before sqrt(e/e_0) ), the root between 1/2 and 2, alpha at least 1/s:
 !>
 !> strong gains where the violation calls for them, weak ones that leave the motion alone elsewhere; never so strong that
-!> gain times step endangers the integration. Lengths are scaled by the size of the bodies. The option `target` is e_0; left
-!> out it is the tolerance of the integrator.
+!> gain times step endangers the integration, nor faster than the mechanism itself, whose greatest rate is w: beyond that
+!> a violation as small as the tolerance would disturb the velocities by more than the tolerance. Lengths are scaled by the
+!> size of the bodies. The option `target` is e_0; left out it is the tolerance of the integrator.
 !> Source: the idea, gains that follow the error at critical damping, is that of Chang and Nikravesh (1985), cited by Flores
 !> et al. (2008), section 2.5; the rule is gudgeon's own. Limits: the target must be above round-off.
 module hold_baumgarte_adaptive
@@ -72,14 +73,19 @@ contains
       class(ode_system_t), intent(inout) :: system             !! the system, last evaluated at the start of the step
       real(wp), intent(in) :: h                                !! length of the step [s]
 
-      real(wp) :: worst
+      real(wp) :: rate, worst
+      integer :: body
 
       select type (system)
       class is (planar_system_t)
          if (system%rows%n_solve == 0) return
          worst = maxval(system%row_weight(:system%rows%n_solve)*abs(system%rows%phi(:system%rows%n_solve)))
          self%alpha = self%alpha*min(2.0_wp, max(0.5_wp, sqrt(worst/self%target)))
-         self%alpha = max(least, min(self%alpha, most/h))
+         rate = 0.0_wp
+         do body = 1, system%n_body
+            rate = max(rate, norm2(system%motion%v(:, body))/system%length_scale, abs(system%motion%omega(3, body)))
+         end do
+         self%alpha = max(least, min(self%alpha, most/h, rate))
       end select
       call set_gains(system, self%alpha, self%alpha)
    end subroutine adaptive_begin_step

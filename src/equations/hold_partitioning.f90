@@ -6,8 +6,9 @@
 !> Phi(u, v, t) = 0 by Newton's iteration over u,   Phi_u u' = -Phi_t - Phi_v v',
 !>
 !> both as least squares, so that redundant rows do no harm. Newton begins with the u that the integrator has carried along,
-!> which is a better prediction than eq. (2.31) makes from the last step. When the ratio of the pivots of Phi_u has become
-!> ten times worse than it was, the coordinates are sorted anew; the integrator carries all of them, so nothing else changes.
+!> which is a better prediction than eq. (2.31) makes from the last step. When the least pivot of Phi_u, as a part of the
+!> greatest column of Phi_q, has fallen below 0.7 of what it was, the coordinates are sorted anew: a step might otherwise lead
+!> across a position where Phi_u has no inverse. The integrator carries all coordinates, so nothing else changes.
 !> Source: Flores et al. (2008), section 2.5, eqs. (2.25)-(2.31); R. A. Wehage, E. J. Haug (1982). Limits: dense, for
 !> mechanisms of moderate size; at a singular position Phi_u has no inverse, and the step fails.
 module hold_partitioning
@@ -24,7 +25,7 @@ module hold_partitioning
    public :: hold_partitioning_t
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp  !! least ratio of pivots [1]
-   real(wp), parameter :: worse = 0.1_wp              !! of that ratio since the coordinates were sorted: sort anew [1]
+   real(wp), parameter :: worse = 0.7_wp              !! of that ratio since the coordinates were sorted: sort anew [1]
    real(wp), parameter :: round_off = 1.0e-14_wp      !! scaled violation at which Newton's iteration ends [1]
    real(wp), parameter :: closed = 1.0e-9_wp          !! scaled violation that counts as fulfilled [1]
    integer, parameter :: n_newton = 10                !! corrections of the positions, at most
@@ -33,7 +34,7 @@ module hold_partitioning
    type, extends(hold_t) :: hold_partitioning_t
       integer :: rank = -1                        !! dependent coordinates; -1: not sorted yet
       integer, allocatable :: order(:)            !! (coordinates) dependent ones first
-      real(wp) :: quality = 0.0_wp                !! ratio of the least to the greatest pivot when they were sorted [1]
+      real(wp) :: quality = 0.0_wp                !! least pivot over the greatest column when they were sorted [1]
       real(wp), allocatable :: jac(:, :)          !! (rows, coordinates) scaled Jacobian, then factors [1]
       real(wp), allocatable :: right(:, :)        !! (rows or coordinates, 1) right-hand side and solution [1]
       real(wp), allocatable :: tau(:), work(:)    !! (any) scratch of LAPACK [any]
@@ -223,9 +224,9 @@ contains
       integer :: info, k
 
       call scaled_jacobian(self, system)
+      greatest = maxval(norm2(self%jac, dim=1))
       call dgeqrf(size(self%jac, 1), self%rank, self%jac, size(self%jac, 1), self%tau, self%work, size(self%work), info)
       least = minval([(abs(self%jac(k, k)), k=1, self%rank)])
-      greatest = maxval([(abs(self%jac(k, k)), k=1, self%rank)])
       if (least < worse*self%quality*greatest) call sort_coordinates(self, system)
    end subroutine check_quality
 

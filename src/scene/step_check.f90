@@ -12,7 +12,8 @@ module step_check
 
 contains
 
-   !> A method with fixed steps needs their length; one that chooses its steps must not be given any.
+   !> A method with fixed steps needs their length, and so does a stabilisation with gains over the step; a method that chooses
+   !> its steps must not be given any.
    subroutine check_steps(scene, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
@@ -28,6 +29,14 @@ contains
          else if (method%steps() == steps_variable .and. step%number > 0.0_wp) then
             call diagnostics%add(step%location, "method '"//word%text//"' cannot make steps of one length", &
                                  "it chooses its steps", "leave 'step' out; 'maximum_step' bounds the steps")
+         end if
+      end associate
+      associate (hold => scene%dynamic%values(column_of(scene%dynamic_kind, "stabilise")), &
+                 step => scene%dynamic%values(column_of(scene%dynamic_kind, "step")))
+         if (hold%text == "baumgarte_step" .and. step%number <= 0.0_wp) then
+            call diagnostics%add(hold%location, "'baumgarte_step' needs steps of one length", &
+                                 "its gains would drive the control of the step to ever smaller steps", &
+                                 "add 'step' to [analysis.dynamic], or take baumgarte, baumgarte_adaptive or projection")
          end if
       end associate
    end subroutine check_steps
