@@ -19,7 +19,7 @@ module clearance_revolute
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
    use kinds, only: wp
-   use motion, only: loads_t, motion_t, point_acceleration, point_position, point_velocity
+   use motion, only: loads_t, motion_t
    use stiffness, only: internal_stiffness
    use text, only: to_text
    implicit none (type, external)
@@ -333,18 +333,23 @@ contains
       real(wp), intent(out) :: force_rate              !! its rate [N/s]
 
       type(contact_t) :: contact
-      real(wp) :: acceleration, df_ddelta, df_drate, e_dot(3), e_dot_dot(3), f_t, p_i(3), p_j(3)
+      real(wp) :: acceleration(2), arm_i(2), arm_j(2), df_ddelta, df_drate, e_dot(2), f_t
+      integer :: i, j
 
+      i = self%body(1, k)
+      j = self%body(2, k)
       call evaluate_item(self, k, motion, contact, force, df_ddelta, df_drate, f_t)
       delta = contact%delta
       rate = contact%rate
-      p_i = point_position(motion, self%body(1, k), self%s_i(:, k))
-      p_j = point_position(motion, self%body(2, k), self%s_j(:, k))
-      e_dot = point_velocity(motion, self%body(2, k), p_j) - point_velocity(motion, self%body(1, k), p_i)
-      e_dot_dot = point_acceleration(motion, self%body(2, k), p_j) - point_acceleration(motion, self%body(1, k), p_i)
-      acceleration = dot_product(contact%normal, e_dot_dot(1:2)) &
-                     + (dot_product(e_dot, e_dot) - rate**2)/max(delta + self%clearance(k), tiny(1.0_wp))
-      force_rate = df_ddelta*rate + df_drate*acceleration
+      arm_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
+      arm_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      e_dot = motion%v(1:2, j) - motion%v(1:2, i) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
+              - motion%omega(3, i)*[-arm_i(2), arm_i(1)]
+      acceleration = motion%a(1:2, j) - motion%a(1:2, i) &
+                     + motion%alpha(3, j)*[-arm_j(2), arm_j(1)] - motion%omega(3, j)**2*arm_j &
+                     - motion%alpha(3, i)*[-arm_i(2), arm_i(1)] + motion%omega(3, i)**2*arm_i
+      force_rate = df_ddelta*rate + df_drate*(contact%normal(1)*acceleration(1) + contact%normal(2)*acceleration(2) &
+                   + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/max(delta + self%clearance(k), tiny(1.0_wp)))
    end subroutine revolute_watch
 
    !> Values of a channel for all items.

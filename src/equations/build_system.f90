@@ -77,6 +77,7 @@ contains
       call add_joints(scene, choices, is_taken, .true., system)
       call add_clearances(scene, levels, system)
       system%rows%n_solve = system%rows%n
+      system%n_solved_set = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
       call add_joints(scene, choices, is_taken, .false., system)
       call set_known(scene, links, choices, system)
       call add_forces(scene, system)

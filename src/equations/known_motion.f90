@@ -46,42 +46,75 @@ contains
       real(wp), intent(in) :: t                   !! time [s]
       type(motion_t), intent(inout) :: motion     !! the motion of the known bodies is set, accelerations too
 
-      real(wp) :: c, f, f_dot, f_dot_dot, s, w, x, y
-      integer :: a, b, k
+      real(wp) :: f, f_dot, f_dot_dot
+      integer :: k
 
       if (.not. abs(t - known%t) > 0.0_wp) return
       known%t = t
       known%is_finite = .true.
       do k = 1, known%n
-         a = known%base(k)
-         b = known%body(k)
          f = 0.0_wp
          f_dot = 0.0_wp
          f_dot_dot = 0.0_wp
          if (known%slot(k) > 0) call joints(known%slot(k))%set%prescription(known%item(k), t, f, f_dot, f_dot_dot)
          known%is_finite = known%is_finite .and. ieee_is_finite(f + f_dot + f_dot_dot)
-         motion%angle(b) = motion%angle(a) + known%offset(k) + known%sign(k)*f
-         motion%omega(3, b) = motion%omega(3, a) + known%sign(k)*f_dot
-         motion%alpha(3, b) = motion%alpha(3, a) + known%sign(k)*f_dot_dot
-         c = cos(motion%angle(b))
-         s = sin(motion%angle(b))
-         motion%rot(1, 1, b) = c
-         motion%rot(2, 1, b) = s
-         motion%rot(1, 2, b) = -s
-         motion%rot(2, 2, b) = c
-         ! from the common point to the centre of mass
-         x = s*known%s_body(2, k) - c*known%s_body(1, k)
-         y = -s*known%s_body(1, k) - c*known%s_body(2, k)
-         w = motion%omega(3, b)
-         motion%r(1, b) = known%s_base(1, k) + x
-         motion%r(2, b) = known%s_base(2, k) + y
-         motion%v(1, b) = -w*y
-         motion%v(2, b) = w*x
-         motion%a(1, b) = -motion%alpha(3, b)*y - w*w*x
-         motion%a(2, b) = motion%alpha(3, b)*x - w*w*y
-         if (a > 0) call add_base(motion, a, b, known%s_base(:, k))
+         call place_body(known%n, k, known%body, known%base, known%s_body, known%s_base, known%sign, known%offset, f, f_dot, &
+                         f_dot_dot, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, &
+                         motion%a, motion%alpha)
+         if (known%base(k) > 0) call add_base(motion, known%base(k), known%body(k), known%s_base(:, k))
       end do
    end subroutine move_known
+
+   !> Motion of one body, its common point at rest.
+   pure subroutine place_body(n, k, body, base, s_body, s_base, sign, offset, f, f_dot, f_dot_dot, n_body, r, rot, v, omega, &
+                              angle, acceleration, alpha)
+      integer, intent(in) :: n                              !! number of known bodies
+      integer, intent(in) :: k                              !! which of them
+      integer, intent(in) :: body(n)                        !! (n) their numbers
+      integer, intent(in) :: base(n)                        !! (n) what they are tied to
+      real(wp), intent(in) :: s_body(3, n)                  !! (3, n) common point in the frame of the body [m]
+      real(wp), intent(in) :: s_base(3, n)                  !! (3, n) the same in the frame of its base [m]
+      real(wp), intent(in) :: sign(n)                       !! (n) of the driver's angle in that of the body [1]
+      real(wp), intent(in) :: offset(n)                     !! (n) angle of the body less that of its base, less sign times f [rad]
+      real(wp), intent(in) :: f                             !! angle of the driver [rad]
+      real(wp), intent(in) :: f_dot                         !! its first time derivative [rad/s]
+      real(wp), intent(in) :: f_dot_dot                     !! its second time derivative [rad/s^2]
+      integer, intent(in) :: n_body                         !! number of bodies
+      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(inout) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
+      real(wp), intent(inout) :: acceleration(3, 0:n_body)  !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(inout) :: alpha(3, 0:n_body)         !! (3, 0:bodies) angular accelerations [rad/s^2]
+
+      real(wp) :: c, e, s, theta, w, x, y
+      integer :: a, b
+
+      a = base(k)
+      b = body(k)
+      theta = angle(a) + offset(k) + sign(k)*f
+      w = omega(3, a) + sign(k)*f_dot
+      e = alpha(3, a) + sign(k)*f_dot_dot
+      c = cos(theta)
+      s = sin(theta)
+      ! from the common point to the centre of mass
+      x = s*s_body(2, k) - c*s_body(1, k)
+      y = -s*s_body(1, k) - c*s_body(2, k)
+      angle(b) = theta
+      omega(3, b) = w
+      alpha(3, b) = e
+      rot(1, 1, b) = c
+      rot(2, 1, b) = s
+      rot(1, 2, b) = -s
+      rot(2, 2, b) = c
+      r(1, b) = s_base(1, k) + x
+      r(2, b) = s_base(2, k) + y
+      v(1, b) = -w*y
+      v(2, b) = w*x
+      acceleration(1, b) = -e*y - w*w*x
+      acceleration(2, b) = e*x - w*w*y
+   end subroutine place_body
 
    !> What the motion of the body that carries the common point adds to that of a body.
    pure subroutine add_base(motion, a, b, s_base)

@@ -1,4 +1,4 @@
-!> A planar scene in the stabilised form of index 2, see `dae_system`, and the terms that it shares with the ordinary form.
+!> A planar scene in the stabilised form of index 2, see `dae_system`.
 !>
 !> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
 submodule(planar_system) planar_dae
@@ -7,26 +7,6 @@ submodule(planar_system) planar_dae
 
 contains
 
-   !> Motion, loads and solved rows.
-   module procedure evaluate_terms
-      integer :: k
-
-      call self%set_motion(t, y)
-      self%bad_row = 0
-      status = merge(0, 1, self%known%is_finite)
-      if (status /= 0) return
-      call start_loads(self%n_body, self%weight, self%loads%force, self%loads%moment)
-      self%load_power = 0.0_wp
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%evaluate(t, self%motion, self%loads, self%load_power)
-      end do
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
-      end do
-      call self%evaluate_rows(t)
-      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
-   end procedure evaluate_terms
-
    !> What is left of the equations.
    module procedure planar_dae_residual
       integer :: m, n
@@ -34,7 +14,8 @@ contains
       n = self%rows%n_unknown
       m = self%n_row
       self%n_evaluations = self%n_evaluations + 1
-      call evaluate_terms(self, t, y, status)
+      call self%set_motion(t, y)
+      call self%evaluate_terms(t, status)
       if (status /= 0) return
       call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, lambda, self%a)
       call remains(n, self%rows%unknown, self%n_body, y, ydot, self%inverse_mass, self%g, self%a, r_y)

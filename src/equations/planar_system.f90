@@ -20,9 +20,8 @@ module planar_system
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
    use known_motion, only: find_multipliers, known_t, move_known
-   use memory, only: get, put
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
-   use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates
+   use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates, take_known
    implicit none (type, external)
    private
    public :: planar_system_t
@@ -55,6 +54,7 @@ module planar_system
       logical :: with_ledger = .true.                    !! whether the ledger is kept
       logical :: with_energies = .true.                  !! whether energies are reported, with or without a ledger
       type(joint_slot_t), allocatable :: joints(:)       !! ideal joints and drivers, one set per kind
+      integer :: n_solved_set = 0                        !! sets of them with rows that are solved for, the first ones
       type(joint_slot_t), allocatable :: ideal(:)        !! joints with clearance taken as ideal: at most one set
       type(force_slot_t), allocatable :: forces(:)       !! force elements, one set per kind
       type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
@@ -81,6 +81,7 @@ module planar_system
    contains
       procedure :: evaluate => planar_evaluate
       procedure :: dae_residual => planar_dae_residual
+      procedure, private :: evaluate_terms
       procedure, private :: ledger_rates
       procedure :: weights => planar_weights
       procedure :: events => planar_events
@@ -101,14 +102,27 @@ module planar_system
    end type planar_system_t
 
    interface
-      !> Motion, loads and solved rows at coordinates and rates as they are. Status 1 if a known motion is not finite.
-      module subroutine evaluate_terms(self, t, y, status)
+      !> Numbers that a checkpoint needs: the memory of all sets and the counters.
+      module integer function planar_memory_size(self) result(n)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+      end function planar_memory_size
+
+      !> Write what the system remembers.
+      module subroutine planar_save(self, row, place)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         real(wp), intent(inout) :: row(:)              !! (any) checkpoint [any]
+         integer, intent(inout) :: place                !! last place used
+      end subroutine planar_save
+
+      !> Read what the system remembers.
+      module subroutine planar_load(self, row, place)
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(in), contiguous :: y(:)       !! (2 positions or more) coordinates and rates [any]
-         integer, intent(out) :: status                 !! outcome
-      end subroutine evaluate_terms
+         real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
+         integer, intent(inout) :: place                !! last place used
+      end subroutine planar_load
 
       !> What is left of the equations in the stabilised form of index 2.
       module subroutine planar_dae_residual(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
@@ -136,19 +150,38 @@ contains
       real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
+      self%n_evaluations = self%n_evaluations + 1
+      if (self%way%at_stages) then
+         call correct_stage(self, t, y, status)
+         if (status /= 0) return
+         call planar_set_motion(self, t, self%held)
+      else
+         call planar_set_motion(self, t, y)
+      end if
+      call evaluate_terms(self, t, status)
+      if (status /= 0) return
+      call find_accelerations(self, self%g, .true., status)
+      if (status /= 0) return
+      call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, ydot, status)
+      if (.not. self%with_ledger) return
+      if (self%known%n > 0) call self%find_reactions(t)
+      call self%ledger_rates(ydot(2*self%n_position + 1:))
+   end subroutine planar_evaluate
+
+   !> Correct the coordinates and rates that an evaluation begins with, into `held`.
+   subroutine correct_stage(self, t, y, status)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
+      integer, intent(out) :: status                 !! outcome
+
       class(hold_t), allocatable :: way
 
-      self%n_evaluations = self%n_evaluations + 1
-      if (.not. self%way%at_stages) then
-         call evaluate_state(self, t, y, ydot, status)
-         return
-      end if
       self%held = y(:2*self%n_position)
       call move_alloc(self%way, way)  ! the system that it corrects must not hold it too
       call way%correct_stage(self, t, self%held, status)
       call move_alloc(way, self%way)
-      if (status == 0) call evaluate_state(self, t, self%held, ydot, status)
-   end subroutine planar_evaluate
+   end subroutine correct_stage
 
    !> The length of the step that begins, for gains that follow it.
    subroutine planar_set_step(self, h)
@@ -176,25 +209,28 @@ contains
       call move_alloc(way, self%way)
    end subroutine planar_hold
 
-   !> The right-hand side at coordinates and rates as they are.
-   subroutine evaluate_state(self, t, y, ydot, status)
-      class(planar_system_t), intent(inout) :: self  !! the system
+   !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
+   subroutine evaluate_terms(self, t, status)
+      class(planar_system_t), intent(inout) :: self  !! the system, its motion set
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (2 positions or more) coordinates and rates [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) derivative of the state [any]
       integer, intent(out) :: status                 !! outcome
 
-      integer :: nq
+      integer :: k
 
-      nq = self%n_position
-      call evaluate_terms(self, t, y, status)
-      if (status == 0) call find_accelerations(self, self%g, .true., status)
+      self%bad_row = 0
+      status = merge(0, 1, self%known%is_finite)
       if (status /= 0) return
-      call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, y(nq + 1:2*nq), self%a, ydot, status)
-      if (.not. self%with_ledger) return
-      if (self%known%n > 0) call self%find_reactions(t)
-      call self%ledger_rates(ydot(2*nq + 1:))
-   end subroutine evaluate_state
+      call start_loads(self%n_body, self%weight, self%loads%force, self%loads%moment)
+      self%load_power = 0.0_wp
+      do k = 1, size(self%forces)
+         call self%forces(k)%set%evaluate(t, self%motion, self%loads, self%load_power)
+      end do
+      do k = 1, size(self%clearances)
+         call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
+      end do
+      call planar_evaluate_rows(self, t)
+      call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
+   end subroutine evaluate_terms
 
    !> Solved rows, rates of their violations and right-hand sides at the present motion.
    subroutine planar_evaluate_rows(self, t)
@@ -203,15 +239,18 @@ contains
 
       integer :: k
 
-      do k = 1, size(self%joints)
-         if (self%joints(k)%set%is_solved) call self%joints(k)%set%evaluate(t, self%motion, self%rows)
+      do k = 1, self%n_solved_set
+         call self%joints(k)%set%evaluate(t, self%motion, self%rows)
       end do
       do k = 1, size(self%ideal)
          call self%ideal(k)%set%evaluate(t, self%motion, self%rows)
       end do
-      call right_hand_side(self%n_body, self%rows%n, self%rows%n_solve, self%rows%n_side, self%rows%side, self%rows%n_known, &
-                           self%rows%known, self%rows%phi, self%rows%phi_t, self%rows%jac, self%rows%gam, self%motion%v, &
-                           self%motion%omega, self%motion%a, self%motion%alpha, self%alpha, self%beta, self%phi_dot, self%b)
+      associate (rows => self%rows, motion => self%motion)
+         call right_hand_side(self%n_body, rows%n, rows%n_solve, rows%body, rows%phi, rows%phi_t, rows%jac, rows%gam, motion%v, &
+                              motion%omega, self%alpha, self%beta, self%phi_dot, self%b)
+         if (rows%n_known > 0) call take_known(self%n_body, rows%n, rows%n_known, rows%known, rows%jac, motion%a, &
+                                               motion%alpha, self%b)
+      end associate
    end subroutine planar_evaluate_rows
 
    !> Least change of coordinates or rates in the metric of the masses, into `a`: Phi_q a = b for the b that is set.
@@ -243,8 +282,10 @@ contains
       k = merge(2, 1, self%is_redundant)
       call self%solver%solve_damped(self%inverse_mass, self%rows, g, self%b, damping(k), n_refinement(k), self%a, &
                                     self%lambda, self%bad_row)
-      if (must_agree .and. self%is_redundant .and. self%bad_row == 0 .and. .not. self%solver%left_over <= contradiction) then
-         self%bad_row = maxloc(abs(self%solver%residual(:self%rows%n_solve)), dim=1)
+      if (self%bad_row == 0 .and. must_agree .and. (self%is_redundant .or. self%solver%is_iterative)) then
+         if (.not. self%solver%left_over <= contradiction) then
+            self%bad_row = maxloc(abs(self%solver%residual(:self%rows%n_solve)), dim=1)
+         end if
       end if
       if (self%bad_row > 0) status = 1
    end subroutine find_accelerations
@@ -256,8 +297,8 @@ contains
 
       integer :: body, k
 
-      do k = 1, size(self%joints)
-         if (.not. self%joints(k)%set%is_solved) call self%joints(k)%set%evaluate(t, self%motion, self%rows)
+      do k = self%n_solved_set + 1, size(self%joints)
+         call self%joints(k)%set%evaluate(t, self%motion, self%rows)
       end do
       do k = 1, self%known%n
          body = self%known%body(k)
@@ -432,69 +473,5 @@ contains
       end subroutine look
 
    end function planar_row_name
-
-   !> Numbers that a checkpoint needs: the memory of all sets and the counter.
-   integer function planar_memory_size(self) result(n)
-      class(planar_system_t), intent(in) :: self  !! the system
-
-      integer :: k
-
-      n = 3 + self%way%memory_size()
-      do k = 1, size(self%joints)
-         n = n + self%joints(k)%set%memory_size()
-      end do
-      do k = 1, size(self%forces)
-         n = n + self%forces(k)%set%memory_size()
-      end do
-      do k = 1, size(self%clearances)
-         n = n + self%clearances(k)%set%memory_size()
-      end do
-   end function planar_memory_size
-
-   !> Write what the system remembers.
-   subroutine planar_save(self, row, place)
-      class(planar_system_t), intent(in) :: self  !! the system
-      real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
-
-      integer :: k
-
-      call put(row, place, self%n_evaluations)
-      call put(row, place, self%n_damped)
-      call self%way%save(row, place)
-      call put(row, place, self%solver%n_factorisations)
-      do k = 1, size(self%joints)
-         call self%joints(k)%set%save(row, place)
-      end do
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%save(row, place)
-      end do
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%save(row, place)
-      end do
-   end subroutine planar_save
-
-   !> Read what the system remembers.
-   subroutine planar_load(self, row, place)
-      class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
-
-      integer :: k
-
-      call get(row, place, self%n_evaluations)
-      call get(row, place, self%n_damped)
-      call self%way%load(row, place)
-      call get(row, place, self%solver%n_factorisations)
-      do k = 1, size(self%joints)
-         call self%joints(k)%set%load(row, place)
-      end do
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%load(row, place)
-      end do
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%load(row, place)
-      end do
-   end subroutine planar_load
 
 end module planar_system

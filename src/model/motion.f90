@@ -6,7 +6,7 @@ module motion
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: cross, loads_t, motion_t, new_loads, new_motion, point_acceleration, point_position, point_velocity
+   public :: cross, loads_t, motion_t, new_loads, new_motion, point_position, point_velocity
    public :: apply_force, set_planar_motion, set_some_acceleration, set_some_motion
 
    !> Kinematic state of all bodies.
@@ -148,19 +148,6 @@ contains
 
       v = motion%v(:, body) + cross(motion%omega(:, body), p - motion%r(:, body))
    end function point_velocity
-
-   !> Acceleration of the material point of a body that is at a world position now.
-   pure function point_acceleration(motion, body, p) result(a)
-      type(motion_t), intent(in) :: motion  !! the motion, with accelerations
-      integer, intent(in) :: body           !! the body
-      real(wp), intent(in) :: p(3)          !! (3) the position, world frame [m]
-      real(wp) :: a(3)                      !! (3) acceleration, world frame [m/s^2]
-
-      real(wp) :: s(3)
-
-      s = p - motion%r(:, body)
-      a = motion%a(:, body) + cross(motion%alpha(:, body), s) + cross(motion%omega(:, body), cross(motion%omega(:, body), s))
-   end function point_acceleration
 
    !> Add a force that acts on a body at a world position.
    pure subroutine apply_force(loads, motion, body, p, f)

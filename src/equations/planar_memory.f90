@@ -1,0 +1,62 @@
+!> What a planar scene remembers, for checkpoints.
+submodule(planar_system) planar_memory
+   use memory, only: get, put
+   implicit none (type, external)
+
+contains
+
+   !> Numbers that a checkpoint needs: the memory of all sets and the counter.
+   module procedure planar_memory_size
+      integer :: k
+
+      n = 3 + self%way%memory_size()
+      do k = 1, size(self%joints)
+         n = n + self%joints(k)%set%memory_size()
+      end do
+      do k = 1, size(self%forces)
+         n = n + self%forces(k)%set%memory_size()
+      end do
+      do k = 1, size(self%clearances)
+         n = n + self%clearances(k)%set%memory_size()
+      end do
+   end procedure planar_memory_size
+
+   !> Write what the system remembers.
+   module procedure planar_save
+      integer :: k
+
+      call put(row, place, self%n_evaluations)
+      call put(row, place, self%n_damped)
+      call self%way%save(row, place)
+      call put(row, place, self%solver%n_factorisations)
+      do k = 1, size(self%joints)
+         call self%joints(k)%set%save(row, place)
+      end do
+      do k = 1, size(self%forces)
+         call self%forces(k)%set%save(row, place)
+      end do
+      do k = 1, size(self%clearances)
+         call self%clearances(k)%set%save(row, place)
+      end do
+   end procedure planar_save
+
+   !> Read what the system remembers.
+   module procedure planar_load
+      integer :: k
+
+      call get(row, place, self%n_evaluations)
+      call get(row, place, self%n_damped)
+      call self%way%load(row, place)
+      call get(row, place, self%solver%n_factorisations)
+      do k = 1, size(self%joints)
+         call self%joints(k)%set%load(row, place)
+      end do
+      do k = 1, size(self%forces)
+         call self%forces(k)%set%load(row, place)
+      end do
+      do k = 1, size(self%clearances)
+         call self%clearances(k)%set%load(row, place)
+      end do
+   end procedure planar_load
+
+end submodule planar_memory
