@@ -18,7 +18,7 @@ module known_motion
    use motion, only: cross, motion_t
    implicit none (type, external)
    private
-   public :: find_multipliers, known_t, move_known
+   public :: find_multipliers, known_t, move_known, power_of_known
 
    !> The known bodies, each after the body that it is tied to.
    type :: known_t
@@ -131,6 +131,40 @@ contains
       motion%v(1:2, b) = motion%v(1:2, b) + motion%v(1:2, a) + w*[-s(2), s(1)]
       motion%a(1:2, b) = motion%a(1:2, b) + motion%a(1:2, a) + motion%alpha(3, a)*[-s(2), s(1)] - w*w*s
    end subroutine add_base
+
+   !> Power that the drivers of known bodies give to the mechanism. The rows that fix these bodies are fulfilled, so that it is
+   !> lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and what the solved rows take from them, times their speed.
+   pure real(wp) function power_of_known(n, body, n_known, known, n_body, n_row, mass, g, jac, lambda, v, omega, a, alpha) &
+      result(power)
+      integer, intent(in) :: n                      !! number of known bodies
+      integer, intent(in) :: body(n)                !! (n) the bodies
+      integer, intent(in) :: n_known                !! sides of solved rows that are known bodies
+      integer, intent(in) :: known(3, n_known)      !! (3, known sides) row, place in the Jacobian, body
+      integer, intent(in) :: n_body                 !! number of bodies
+      integer, intent(in) :: n_row                  !! number of rows
+      real(wp), intent(in) :: mass(3, n_body)       !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: g(3, 0:n_body)        !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: jac(6*n_row)          !! (6 rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: lambda(n_row)         !! (rows) multipliers of the solved rows [N or N.m]
+      real(wp), intent(in) :: v(3, 0:n_body)        !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)    !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(in) :: alpha(3, 0:n_body)    !! (3, 0:bodies) angular accelerations [rad/s^2]
+
+      integer :: b, k, place
+
+      power = 0.0_wp
+      do k = 1, n
+         b = body(k)
+         power = power + (mass(1, b)*a(1, b) - g(1, b))*v(1, b) + (mass(2, b)*a(2, b) - g(2, b))*v(2, b) &
+                 + (mass(3, b)*alpha(3, b) - g(3, b))*omega(3, b)
+      end do
+      do k = 1, n_known
+         place = known(2, k)
+         b = known(3, k)
+         power = power + lambda(known(1, k))*(jac(place + 1)*v(1, b) + jac(place + 2)*v(2, b) + jac(place + 3)*omega(3, b))
+      end do
+   end function power_of_known
 
    !> Multipliers of the rows that fix the known bodies. Those of the solved rows are there; all rows are evaluated.
    pure subroutine find_multipliers(known, rows, mass, g, a, rest, lambda)

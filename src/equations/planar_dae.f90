@@ -23,7 +23,6 @@ contains
       call add_positions(n, self%rows%unknown, self%n_body, self%a, r_y)
       if (self%with_ledger) then
          self%lambda(:m) = lambda
-         if (self%known%n > 0) call self%find_reactions(t)
          call self%ledger_rates(r_y(6*n + 1:))
          r_y(6*n + 1:) = ydot(6*n + 1:) - r_y(6*n + 1:)
       end if

@@ -161,7 +161,7 @@ contains
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
-      if (.not. system%with_ledger .and. system%known%n > 0) call system%find_reactions(t)
+      if (system%known%n > 0) call system%find_reactions(t)
       call system%set_state(t, y, ydot)
       call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state

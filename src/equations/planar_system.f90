@@ -19,7 +19,7 @@ module planar_system
    use hold, only: hold_t
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
-   use known_motion, only: find_multipliers, known_t, move_known
+   use known_motion, only: find_multipliers, known_t, move_known, power_of_known
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
    use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates, take_known
    implicit none (type, external)
@@ -164,7 +164,6 @@ contains
       if (status /= 0) return
       call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, ydot, status)
       if (.not. self%with_ledger) return
-      if (self%known%n > 0) call self%find_reactions(t)
       call self%ledger_rates(ydot(2*self%n_position + 1:))
    end subroutine planar_evaluate
 
@@ -290,7 +289,7 @@ contains
       if (self%bad_row > 0) status = 1
    end subroutine find_accelerations
 
-   !> Multipliers of the rows that fix the known bodies, at the state evaluated last. The ledger and reports want them.
+   !> Multipliers of the rows that fix the known bodies, at the state evaluated last. Reports want them.
    subroutine planar_find_reactions(self, t)
       class(planar_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                      !! time [s]
@@ -316,10 +315,13 @@ contains
 
       power(work_drive) = 0.0_wp
       power(work_stabilisation) = 0.0_wp
-      do k = 1, self%rows%n
-         power(work_drive) = power(work_drive) + self%lambda(k)*self%rows%phi_t(k)
-      end do
+      if (self%known%n > 0) then
+         power(work_drive) = power_of_known(self%known%n, self%known%body, self%rows%n_known, self%rows%known, self%n_body, &
+                                            self%rows%n, self%mass, self%g, self%rows%jac, self%lambda, self%motion%v, &
+                                            self%motion%omega, self%motion%a, self%motion%alpha)
+      end if
       do k = 1, self%rows%n_solve
+         power(work_drive) = power(work_drive) + self%lambda(k)*self%rows%phi_t(k)
          power(work_stabilisation) = power(work_stabilisation) - self%lambda(k)*self%phi_dot(k)
       end do
       power(work_load) = self%load_power
