@@ -17,6 +17,7 @@ module augmented_schur
    implicit none (type, external)
    private
    public :: augmented_schur_t, schur_is_cheap
+   public :: multiply_pairs, part_t, prepare_part, weigh_rows
 
    real(wp), parameter :: threshold = 1.0e-5_wp  !! least pivot, as a part of its diagonal: below, rows are nearly dependent [1]
 
