@@ -85,7 +85,7 @@ contains
       end if
       ease = merge(1.0_wp, give_way, reshape(system%bodies%is_rate_given, [n]))
       v_given = v
-      do k = 1, 2  ! the second takes away the round-off of the first
+      do k = 1, merge(1, 2, with_sparse)  ! the second takes away the round-off of the first, as refinement does
          call rates(system, v, right)
          call correct(-right)
          v = v + correction

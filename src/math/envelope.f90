@@ -9,6 +9,7 @@
 !> equations, Comput. J. 9 (1966) 281-285. Limits: no pivoting, so positive (semi-)definite only.
 module envelope
    use kinds, only: wp
+   use lapack, only: ddot
    implicit none (type, external)
    private
    public :: envelope_t, factorise_and_solve, factorise_semidefinite, new_envelope, solve_factored, vanishing_vector
@@ -98,16 +99,15 @@ contains
       logical, intent(out) :: is_dependent(:)    !! (n) rows set aside
 
       real(wp) :: factor, pivot, sum
-      integer :: i, j, k
+      integer :: from, i, j
 
       associate (a => matrix%a, first => matrix%first, start => matrix%start, row => matrix%row)
          do i = 1, matrix%n
             pivot = a(start(i) + i)
             do j = first(i), i - 1
+               from = max(first(i), first(j))
                sum = a(start(i) + j)
-               do k = max(first(i), first(j)), j - 1
-                  sum = sum - row(k)*a(start(j) + k)
-               end do
+               if (from < j) sum = sum - ddot(j - from, row(from:), 1, a(start(j) + from:), 1)
                row(j) = sum  ! L(i,j) D(j)
                factor = sum*matrix%inverse(j)
                a(start(i) + j) = factor
