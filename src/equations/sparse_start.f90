@@ -86,32 +86,35 @@ contains
       integer, intent(out) :: rank                       !! independent rows
 
       real(wp) :: change(3, 0:self%n_body), lambda(self%rows%n), none(3, 0:self%n_body), residual(self%rows%n)
+      real(wp) :: total(3, 0:self%n_body)
       real(wp) :: before, now
       integer :: k
 
       call self%factorise(jac, weight)
       rank = count(.not. self%is_dependent)
       none = 0.0_wp
-      lambda = 0.0_wp
       change = 0.0_wp
-      x = 0.0_wp
+      total = 0.0_wp
       residual = -right
       before = huge(1.0_wp)
       associate (part => self%part, rows => self%rows)
          do k = 0, n_refinement
             part%x = residual(part%order)
             call solve_factored(size(part%x), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, part%x)
-            lambda(part%order) = lambda(part%order) + part%x
+            lambda(part%order) = part%x
             call body_accelerations(self%n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
                                     weight, jac, none, lambda, change)
+            ! the sum of changes is kept, not that of multipliers: large weights would make the round-off of these visible
+            change = total + change
             call row_residuals(self%n_body, rows%n, rows%n, rows%n_side, rows%side, jac, change, right, residual)
             now = maxval(abs(residual))
             if (.not. now < before) exit
-            x = reshape(change(:, 1:), [size(x)])
+            total = change
             if (now <= round_off*maxval(abs(right)) .or. now > stagnant*before) exit
             before = now
          end do
       end associate
+      x = reshape(total(:, 1:), [size(x)])
    end subroutine start_correct
 
    !> Rows that depend on others, and all rows that occur in a combination that vanishes.
