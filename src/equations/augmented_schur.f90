@@ -17,6 +17,7 @@ module augmented_schur
    implicit none (type, external)
    private
    public :: augmented_schur_t, schur_is_cheap
+   public :: multiply_pairs, part_t, prepare_part, weigh_rows
 
    real(wp), parameter :: threshold = 1.0e-5_wp  !! least pivot, as a part of its diagonal: below, rows are nearly dependent [1]
 
@@ -164,7 +165,7 @@ contains
       do k = 1, n
          is_taken(pack(self%lone%row(:, k), self%lone%row(:, k) > 0)) = .false.
       end do
-      self%unknown = pack(rows%unknown,.not. is_lone(rows%unknown))
+      self%unknown = pack(rows%unknown, .not. is_lone(rows%unknown))
       call prepare_part(rows, is_taken, self%rest)
       is_taken = .true.
       call prepare_part(rows, is_taken, self%all)

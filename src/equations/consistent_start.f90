@@ -5,7 +5,7 @@
 !> Phi_q dq = -Phi until Phi is at round-off;  Phi_q dv = -(Phi_q v + Phi_t).
 !> Velocities that the deck leaves out give way before those that it gives.
 !> Rank and least-norm solutions come from singular values (LAPACK dgelsd), dependent rows from a
-!> column-pivoted QR factorisation of Phi_q^T (dgeqp3).
+!> column-pivoted QR factorisation of Phi_q^T (dgeqp3); both of `sparse_start` where there are many rows.
 !> Source: Flores et al. (2008), section 2.2, eqs. (2.10), (2.13). Limits: a position near the start
 !> that the deck gives.
 module consistent_start
@@ -14,6 +14,7 @@ module consistent_start
    use lapack, only: dgelsd, dgeqp3, dtrtrs
    use motion, only: set_planar_motion
    use planar_system, only: planar_system_t
+   use sparse_start, only: new_sparse_start, sparse_start_t
    use text, only: real_text, to_text
    implicit none (type, external)
    private
@@ -26,6 +27,7 @@ module consistent_start
    real(wp), parameter :: round_off = 1.0e-15_wp        !! scaled violation at which Newton stops early [1]
    real(wp), parameter :: give_way = 1.0e4_wp           !! how much easier a velocity changes that is not given [1]
    integer, parameter :: n_newton = 50                  !! corrections of positions allowed
+   integer, parameter :: few_rows = 400                 !! rows up to which matrices are dense
 
    !> How an assembly went.
    type :: assembly_t
@@ -42,13 +44,16 @@ module consistent_start
 contains
 
    !> Make positions and velocities consistent with the constraints at t = 0.
-   subroutine assemble(system, q, v, report, error)
+   subroutine assemble(system, q, v, report, error, is_sparse)
       class(planar_system_t), intent(inout) :: system    !! all joints ideal
       real(wp), intent(inout) :: q(:)                    !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(inout) :: v(:)                    !! (3 bodies) their rates [m/s, m/s, rad/s]
       type(assembly_t), intent(out) :: report            !! how it went
       type(error_t), allocatable, intent(out) :: error   !! cannot be assembled, names the worst joint
+      logical, intent(in), optional :: is_sparse         !! whether matrices are sparse; absent: where there are many rows
 
+      type(sparse_start_t) :: sparse
+      logical :: with_sparse
       real(wp), allocatable :: correction(:), ease(:), q_given(:), right(:), v_given(:)
       real(wp) :: before, now
       integer :: k, n
@@ -58,6 +63,8 @@ contains
       if (system%rows%n == 0) return
       allocate (correction(n), right(system%rows%n))
       allocate (ease(n), source=1.0_wp)
+      with_sparse = wants_sparse(system, is_sparse)
+      if (with_sparse) call new_sparse_start(system%n_body, system%rows, sparse)
       q_given = q
       before = huge(1.0_wp)
       do k = 1, n_newton
@@ -65,7 +72,7 @@ contains
          now = worst_violation(system)
          if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
          before = now
-         call least_correction(system, -system%rows%phi, ease, correction, report%rank)
+         call correct(-system%rows%phi)
          q = q + limit_step(correction)
          report%corrections = k
       end do
@@ -78,9 +85,9 @@ contains
       end if
       ease = merge(1.0_wp, give_way, reshape(system%bodies%is_rate_given, [n]))
       v_given = v
-      do k = 1, 2  ! the second takes away the round-off of the first
+      do k = 1, merge(1, 2, with_sparse)  ! the second takes away the round-off of the first, as refinement does
          call rates(system, v, right)
-         call least_correction(system, -right, ease, correction, report%rank)
+         call correct(-right)
          v = v + correction
       end do
       correction = merge(abs(v - v_given)*coordinate_scale(system, n), 0.0_wp, ease <= 1.0_wp)
@@ -90,7 +97,41 @@ contains
       if (maxval(abs(right)*row_scale(system)) > 1.0e-8_wp*(1.0_wp + maxval(abs(system%rows%phi_t)*row_scale(system)))) then
          call velocity_error(system, right, error)
       end if
+
+   contains
+
+      !> The least change of positions or velocities.
+      subroutine correct(change)
+         real(wp), intent(in) :: change(:)  !! (rows) what the rows should change by [m or rad, or rates]
+
+         if (with_sparse) then
+            call sparse%correct(system%rows%jac, weights(system, ease), change, correction, report%rank)
+         else
+            call least_correction(system, change, ease, correction, report%rank)
+         end if
+      end subroutine correct
+
    end subroutine assemble
+
+   !> Whether matrices are sparse.
+   pure logical function wants_sparse(system, is_sparse)
+      class(planar_system_t), intent(in) :: system  !! the system
+      logical, intent(in), optional :: is_sparse    !! what the caller wants; absent: sparse where there are many rows
+
+      wants_sparse = system%rows%n > few_rows
+      if (present(is_sparse)) wants_sparse = is_sparse
+   end function wants_sparse
+
+   !> Squares of how much each coordinate may change, for lengths in sizes of the bodies; nothing for the ground.
+   pure function weights(system, ease) result(weight)
+      class(planar_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each coordinate changes [1]
+      real(wp) :: weight(3, 0:system%n_body)        !! (3, 0:bodies) weights [m^2, m^2, 1]
+
+      weight(:, 0) = 0.0_wp
+      weight(:, 1:) = reshape(ease**2, [3, system%n_body])
+      weight(1:2, :) = weight(1:2, :)*system%length_scale**2
+   end function weights
 
    !> Rows at a state, without accelerations.
    subroutine evaluate_rows(system, t, q, v)
@@ -226,12 +267,14 @@ contains
    !> Rows that depend on others at an assembled position, and all rows whose multipliers are therefore not unique: those that
    !> occur in a combination of rows that vanishes, Phi_q^T x = 0. From the factors R = [ R_1, R_2; 0, 0 ] of the rows in the
    !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
-   subroutine find_dependent(system, q, v, report)
+   subroutine find_dependent(system, q, v, report, is_sparse)
       class(planar_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
       type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
+      logical, intent(in), optional :: is_sparse       !! whether matrices are sparse; absent: where there are many rows
 
+      type(sparse_start_t) :: sparse
       real(wp), allocatable :: jac(:, :), tau(:), transposed(:, :), work(:)
       integer, allocatable :: order(:)
       logical, allocatable :: is_shared(:)
@@ -241,6 +284,13 @@ contains
       report%shared = [integer ::]
       if (system%rows%n == 0) return
       call evaluate_rows(system, 0.0_wp, q, v)
+      if (wants_sparse(system, is_sparse)) then
+         call new_sparse_start(system%n_body, system%rows, sparse)
+         call sparse%find_dependent(system%rows%jac, weights(system, spread(1.0_wp, 1, size(q))), row_scale(system), share, &
+                                    report%dependent, report%shared)
+         report%rank = system%rows%n - size(report%dependent)
+         return
+      end if
       call scaled_jacobian(system, jac)
       transposed = transpose(jac)
       n = size(transposed, 1)

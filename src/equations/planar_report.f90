@@ -49,8 +49,9 @@ contains
       integer :: i, k
 
       catalogue%n_coordinates = 2
+      info = bodies_info()
       do k = 1, system%n_body
-         call catalogue%add_item(room_bodies, system%bodies%names(k)%s, info=bodies_info())
+         call catalogue%add_item(room_bodies, system%bodies%names(k)%s, info=info)
       end do
       call catalogue%add_kind(room_bodies, bodies_info())
       do k = 1, size(system%joints)

@@ -2,14 +2,17 @@
 !>
 !> Row i keeps its entries from column `first(i)` to the diagonal, one after the other; the factor
 !> fills exactly that envelope. Pivots are tested against the diagonal they came from: a pivot
-!> smaller than `threshold` times that means that the row depends on earlier ones.
+!> smaller than `threshold` times that means that the row depends on earlier ones. Such rows end a factorisation, or are
+!> set aside: then D is zero there, L z = 0 on all others gives the combination of rows that vanishes, and a solution has
+!> zeros there.
 !> Source: A. Jennings, A compact storage scheme for the solution of symmetric linear simultaneous
-!> equations, Comput. J. 9 (1966) 281-285. Limits: no pivoting, so positive definite only.
+!> equations, Comput. J. 9 (1966) 281-285. Limits: no pivoting, so positive (semi-)definite only.
 module envelope
    use kinds, only: wp
+   use lapack, only: ddot
    implicit none (type, external)
    private
-   public :: envelope_t, factorise_and_solve, new_envelope, solve_factored
+   public :: envelope_t, factorise_and_solve, factorise_semidefinite, new_envelope, solve_factored, vanishing_vector
 
    !> A symmetric matrix or its factors, in an envelope that is fixed at set-up.
    type :: envelope_t
@@ -88,6 +91,61 @@ contains
       end do
       call solve_upper(n, n_entry, first, start, a, inverse, x)
    end subroutine factorise_and_solve
+
+   !> Factorise a semi-definite matrix in place; rows that depend on earlier ones are set aside.
+   pure subroutine factorise_semidefinite(threshold, matrix, is_dependent)
+      real(wp), intent(in) :: threshold          !! least pivot, as a part of the diagonal it came from [1]
+      type(envelope_t), intent(inout) :: matrix  !! the matrix, then its factors, for `solve_factored`
+      logical, intent(out) :: is_dependent(:)    !! (n) rows set aside
+
+      real(wp) :: factor, pivot, sum
+      integer :: from, i, j
+
+      associate (a => matrix%a, first => matrix%first, start => matrix%start, row => matrix%row)
+         do i = 1, matrix%n
+            pivot = a(start(i) + i)
+            do j = first(i), i - 1
+               from = max(first(i), first(j))
+               sum = a(start(i) + j)
+               if (from < j) sum = sum - ddot(j - from, row(from:), 1, a(start(j) + from:), 1)
+               row(j) = sum  ! L(i,j) D(j)
+               factor = sum*matrix%inverse(j)
+               a(start(i) + j) = factor
+               pivot = pivot - sum*factor
+            end do
+            is_dependent(i) = .not. pivot > threshold*a(start(i) + i)
+            a(start(i) + i) = merge(0.0_wp, pivot, is_dependent(i))
+            matrix%inverse(i) = 0.0_wp
+            if (.not. is_dependent(i)) matrix%inverse(i) = 1.0_wp/pivot
+         end do
+      end associate
+   end subroutine factorise_semidefinite
+
+   !> The combination of rows that vanishes because a row was set aside, A z = 0 with z = 1 there.
+   pure subroutine vanishing_vector(matrix, dependent, negligible, z, lowest)
+      type(envelope_t), intent(in) :: matrix     !! factors of `factorise_semidefinite`
+      integer, intent(in) :: dependent           !! the row that was set aside
+      real(wp), intent(in) :: negligible         !! entries of at most this size are taken as zero [1]
+      real(wp), intent(inout) :: z(:)            !! (n) zero; then the combination in places `lowest` to `dependent` [1]
+      integer, intent(out) :: lowest             !! first place that can be other than zero
+
+      integer :: i, j
+
+      lowest = dependent
+      z(dependent) = 1.0_wp
+      i = dependent
+      do while (i >= lowest)
+         if (abs(z(i)) > negligible) then
+            do j = matrix%first(i), i - 1
+               z(j) = z(j) - matrix%a(matrix%start(i) + j)*z(i)
+            end do
+            lowest = min(lowest, matrix%first(i))
+         else
+            z(i) = 0.0_wp
+         end if
+         i = i - 1
+      end do
+   end subroutine vanishing_vector
 
    !> Solve for one more right-hand side with the factors of `factorise_and_solve`.
    pure subroutine solve_factored(n, n_entry, first, start, a, inverse, x)

@@ -1,11 +1,20 @@
-!> Interfaces of the LAPACK routines that gudgeon calls.
+!> Interfaces of the LAPACK and BLAS routines that gudgeon calls.
 module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
+   public :: ddot, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
 
    interface
+      !> Sum of products.
+      pure real(wp) function ddot(n, x, incx, y, incy)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: n, incx, incy                !! how many, distances
+         real(wp), intent(in) :: x(*)                        !! (n) first factors [any]
+         real(wp), intent(in) :: y(*)                        !! (n) second factors [any]
+      end function ddot
+
       !> Least-norm least-squares solution by singular values, with the rank.
       subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
          import :: wp

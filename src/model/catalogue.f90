@@ -37,6 +37,7 @@ module catalogue
 
    !> The items of one sort.
    type :: room_t
+      integer :: n = 0                         !! number of items
       character(:), allocatable :: name        !! path in the output file: bodies, joints, clearances/contacts ...
       type(text_t), allocatable :: names(:)    !! (items) name of each item; of a contact: its joint's
       type(text_t), allocatable :: labels(:)   !! (items) of contacts: label within the joint; else blank
@@ -120,31 +121,42 @@ contains
       real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
       type(kind_info_t), intent(in), optional :: info  !! its kind; present: the item has only the kind's channels
 
-      type(text_t), allocatable :: channels(:), names(:), labels(:)
-      real(wp), allocatable :: radii(:)
-      integer :: k, n
-
-      n = 0
-      if (allocated(self%rooms(room)%names)) n = size(self%rooms(room)%names)
-      allocate (names(n + 1), labels(n + 1), radii(n + 1), channels(n + 1))
-      do k = 1, n
-         names(k) = self%rooms(room)%names(k)
-         labels(k) = self%rooms(room)%labels(k)
-         radii(k) = self%rooms(room)%radius(k)
-         channels(k) = self%rooms(room)%channels(k)
-      end do
-      names(n + 1)%s = name
-      labels(n + 1)%s = ""
-      if (present(label)) labels(n + 1)%s = label
-      radii(n + 1) = 0.0_wp
-      if (present(radius)) radii(n + 1) = radius
-      channels(n + 1)%s = ""
-      if (present(info)) channels(n + 1)%s = names_of_channels(info)
-      call move_alloc(names, self%rooms(room)%names)
-      call move_alloc(labels, self%rooms(room)%labels)
-      call move_alloc(radii, self%rooms(room)%radius)
-      call move_alloc(channels, self%rooms(room)%channels)
+      associate (items => self%rooms(room))
+         if (.not. allocated(items%names)) call resize(items, 8)
+         if (items%n == size(items%names)) call resize(items, 2*items%n)
+         items%n = items%n + 1
+         items%names(items%n)%s = name
+         items%labels(items%n)%s = ""
+         if (present(label)) items%labels(items%n)%s = label
+         items%radius(items%n) = 0.0_wp
+         if (present(radius)) items%radius(items%n) = radius
+         items%channels(items%n)%s = ""
+         if (present(info)) items%channels(items%n)%s = names_of_channels(info)
+      end associate
    end subroutine catalogue_add_item
+
+   !> Give a room another number of places, and keep its items.
+   subroutine resize(room, places)
+      type(room_t), intent(inout) :: room  !! the room
+      integer, intent(in) :: places        !! as many as it has items, or more
+
+      type(text_t), allocatable :: channels(:), names(:), labels(:)
+      real(wp), allocatable :: radius(:)
+      integer :: k
+
+      allocate (names(places), labels(places), channels(places))
+      allocate (radius(places), source=0.0_wp)
+      do k = 1, room%n
+         call move_alloc(room%names(k)%s, names(k)%s)
+         call move_alloc(room%labels(k)%s, labels(k)%s)
+         call move_alloc(room%channels(k)%s, channels(k)%s)
+         radius(k) = room%radius(k)
+      end do
+      call move_alloc(names, room%names)
+      call move_alloc(labels, room%labels)
+      call move_alloc(channels, room%channels)
+      call move_alloc(radius, room%radius)
+   end subroutine resize
 
    !> The channels of a kind, each between blanks.
    pure function names_of_channels(info) result(list)
@@ -172,7 +184,7 @@ contains
       end associate
    end function catalogue_item_has
 
-   !> Make room for the values, all NaN, and for the names of rooms without items.
+   !> Make room for the values, all NaN; no more items come.
    subroutine catalogue_allocate_data(self)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
 
@@ -186,8 +198,7 @@ contains
       self%rooms(room_forces)%name = "forces"
       self%rooms(room_energy)%name = "energy"
       do k = 1, n_rooms
-         if (allocated(self%rooms(k)%names)) cycle
-         allocate (self%rooms(k)%names(0), self%rooms(k)%labels(0), self%rooms(k)%radius(0), self%rooms(k)%channels(0))
+         call resize(self%rooms(k), self%rooms(k)%n)
       end do
       if (.not. allocated(self%groups)) allocate (self%groups(0))
       do k = 1, size(self%groups)

@@ -11,7 +11,7 @@ module text_writer
    use kinds, only: i8, wp
    use output_plan, only: output_plan_t
    use posix, only: make_directory
-   use text, only: append_text, buffer_t, text_t, to_text
+   use text, only: buffer_t, text_t, to_text
    use text_file, only: fail_file, replace_file, text_file_t
    use text_table, only: file_heading, number_format, number_width, text_table_t
    implicit none (type, external)
@@ -72,7 +72,6 @@ contains
       integer :: item, k, n, room, pass
 
       self%block = max(fewest_rows, min(most_rows, numbers_in_memory/max(1, selection%count())))
-      allocate (self%names(0))
       do pass = 1, 2
          n = 0
          do room = 1, n_rooms
@@ -88,7 +87,7 @@ contains
                            plan, catalogue, error)
             if (allocated(error)) return
          end do
-         if (pass == 1) allocate (self%tables(n))
+         if (pass == 1) allocate (self%tables(n), self%names(n))
       end do
       self%with_events = .not. plan%is_twin()
       if (self%with_events) call start_events(self, plan, error)
@@ -119,7 +118,7 @@ contains
             return
          end if
       end if
-      call append_text(self%names, name)
+      self%names(n)%s = name
       call self%tables(n)%start(plan%directory//"/"//name, columns, self%block, plan, catalogue, error)
    end subroutine add_table
 

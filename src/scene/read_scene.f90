@@ -14,6 +14,7 @@ module read_scene
    use kind_info, only: kind_info_t
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use kinds, only: wp
+   use name_table, only: name_table_t
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
@@ -173,15 +174,15 @@ contains
       type(text_t), intent(in) :: names(:)                !! names taken
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      integer :: i, k
+      type(name_table_t) :: table
+      integer :: k
 
+      if (size(items) == 0) return
+      call table%list(names)
       do k = 1, size(items)
-         do i = 1, size(names)
-            if (names(i)%s == items(k)%name) then
-               call diagnostics%add(items(k)%location, "name '"//items(k)%name//"' is used twice", &
-                                    "the name of another item already", "names of one sort must differ")
-            end if
-         end do
+         if (table%find(items(k)%name) == 0) cycle
+         call diagnostics%add(items(k)%location, "name '"//items(k)%name//"' is used twice", &
+                              "the name of another item already", "names of one sort must differ")
       end do
    end subroutine report_doubled
 

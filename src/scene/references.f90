@@ -3,7 +3,8 @@ module references
    use diagnostics, only: diagnostics_t
    use item, only: item_t
    use kind_info, only: cell_reference, column_t, kind_info_t
-   use text, only: append_text, join, nearest_word, text_t
+   use name_table, only: name_table_t
+   use text, only: join, nearest_word, text_t
    implicit none (type, external)
    private
    public :: add_names, directory_t, resolve
@@ -25,12 +26,20 @@ contains
       type(item_t), intent(in) :: items(:)                     !! rows
       type(text_t), allocatable, intent(inout) :: names(:)     !! list, grown
 
-      integer :: k
+      type(text_t), allocatable :: grown(:)
+      integer :: k, n
 
       if (.not. allocated(names)) allocate (names(0))
-      do k = 1, size(items)
-         call append_text(names, items(k)%name)
+      if (size(items) == 0) return
+      n = size(names)
+      allocate (grown(n + size(items)))
+      do k = 1, n
+         call move_alloc(names(k)%s, grown(k)%s)
       end do
+      do k = 1, size(items)
+         grown(n + k)%s = items(k)%name
+      end do
+      call move_alloc(grown, names)
    end subroutine add_names
 
    !> Look up all references of the rows of a kind.
@@ -40,40 +49,56 @@ contains
       type(item_t), intent(inout) :: items(:)              !! its rows; indices are set
       type(diagnostics_t), intent(inout) :: diagnostics    !! mistakes found
 
-      integer :: c, k
+      integer :: c
 
       if (.not. allocated(info%columns)) return
+      if (size(items) == 0) return
       do c = 1, size(info%columns)
          if (info%columns(c)%cell /= cell_reference) cycle
-         do k = 1, size(items)
-            select case (info%columns(c)%refers_to)
-            case ("bodies")
-               call look_up(directory%bodies, "body", "bodies", .true.)
-            case ("points")
-               call look_up(directory%points, "point", "points", .false.)
-            case ("material")
-               call look_up(directory%materials, "material", "materials", .false.)
-            case ("joint.revolute")
-               call look_up(directory%revolutes, "joint", "revolute joints", .false.)
-            case ("contact.")
-               call look_up(directory%laws, "law", "contact laws", .false.)
-            case ("friction.")
-               call look_up(directory%frictions, "friction", "friction laws", .false.)
-            end select
-         end do
+         select case (info%columns(c)%refers_to)
+         case ("bodies")
+            call look_up_all(directory%bodies, "body", "bodies", .true.)
+         case ("points")
+            call look_up_all(directory%points, "point", "points", .false.)
+         case ("material")
+            call look_up_all(directory%materials, "material", "materials", .false.)
+         case ("joint.revolute")
+            call look_up_all(directory%revolutes, "joint", "revolute joints", .false.)
+         case ("contact.")
+            call look_up_all(directory%laws, "law", "contact laws", .false.)
+         case ("friction.")
+            call look_up_all(directory%frictions, "friction", "friction laws", .false.)
+         end select
       end do
 
    contains
 
+      !> Look up the cells of a column.
+      subroutine look_up_all(names, one, many, with_ground)
+         type(text_t), intent(in) :: names(:)    !! names they may be
+         character(*), intent(in) :: one         !! what one of them is called
+         character(*), intent(in) :: many        !! what they are called together
+         logical, intent(in) :: with_ground      !! whether `ground` is one of them
+
+         type(name_table_t) :: table
+         integer :: k
+
+         call table%list(names)
+         do k = 1, size(items)
+            call look_up(k, names, table, one, many, with_ground)
+         end do
+      end subroutine look_up_all
+
       !> Look up one cell.
-      subroutine look_up(names, one, many, with_ground)
+      subroutine look_up(k, names, table, one, many, with_ground)
+         integer, intent(in) :: k                !! its row
          type(text_t), intent(in) :: names(:)    !! names it may be
+         type(name_table_t), intent(in) :: table !! the same, to find one
          character(*), intent(in) :: one         !! what one of them is called
          character(*), intent(in) :: many        !! what they are called together
          logical, intent(in) :: with_ground      !! whether `ground` is one of them
 
          character(:), allocatable :: hint, near, word
-         integer :: i
 
          items(k)%values(c)%index = 0
          if (.not. allocated(items(k)%values(c)%text)) return
@@ -81,12 +106,8 @@ contains
          if (word == "") return
          if (with_ground .and. word == "ground") return
          if (word == "none" .and. has_none(info%columns(c))) return
-         do i = 1, size(names)
-            if (names(i)%s == word) then
-               items(k)%values(c)%index = i
-               return
-            end if
-         end do
+         items(k)%values(c)%index = table%find(word)
+         if (items(k)%values(c)%index > 0) return
          near = nearest_word(word, names)
          hint = ""
          if (near /= "") hint = "did you mean '"//near//"'? "

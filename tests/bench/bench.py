@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "tests" / "e2e"))
 from reference_values import IMPACT_FIELDS, IMPACTS  # noqa: E402
 from support import Run, plain_deck, written  # noqa: E402
 
-BOUND = 400.0  # most nanoseconds per right-hand side with the ledger off
+BOUND = 200.0  # most nanoseconds per right-hand side with the ledger off
 TOLERANCES = [f"1e-{k}" for k in range(4, 13)]
 COLUMNS = ("program", "ledger", "tolerance", "steps", "rejected", "rhs", "cpu_us", "ns_per_rhs", "error_onsets",
            "error_speeds", "error_forces", "residual")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Speed against error of the dry slider-crank: gudgeon beside a hand-coded program of the same scene.
-# Called by `make bench`, which builds both. Options go to bench.py: --repeat N, --callgrind, --quick.
+# Speed against error of the dry slider-crank beside a hand-coded program of the same scene (bench.py), time and memory of
+# large scenes (large_scenes.py), speed against error of each way of holding the constraints (holding.py).
+# Called by `make bench`, which builds the programs. Options go to all three: --repeat N, --quick; --callgrind to the first.
 # Speed fails nothing: the exit code is 0 unless something could not be run at all.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -15,4 +16,6 @@ for program in "$build/gudgeon" "$build/bench/minimal_slider_crank"; do
       exit 1
    fi
 done
-exec "$python" tests/bench/bench.py --build "$build" "$@"
+"$python" tests/bench/bench.py --build "$build" "$@"
+"$python" tests/bench/large_scenes.py --build "$build" "$@"
+"$python" tests/bench/holding.py --build "$build" "$@"

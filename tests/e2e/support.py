@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 import h5py
@@ -70,6 +71,14 @@ def written(directory, text, name="scene.deck"):
     path = pathlib.Path(directory) / name
     path.write_text(text)
     return path
+
+
+def made(*arguments):
+    """What scripts/make_chain writes."""
+    done = subprocess.run(
+        [sys.executable, "-B", ROOT / "scripts" / "make_chain", *map(str, arguments)], capture_output=True, text=True, check=True
+    )
+    return done.stdout
 
 
 def plain(value):

@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from support import ROOT, Run, call, changed, scratch, written
+from support import ROOT, Run, call, changed, made, scratch, written
 
 sys.path.insert(0, str(ROOT / "tests" / "stability"))
 from cases import CASES, SOLVERS  # noqa: E402
@@ -16,14 +16,6 @@ FAST = [pytest.param(case, way, id=f"{case.name}, {way.tolerance}") for case in 
 DYNAMIC = [deck for folder in ("inputs", "inputs/hard") for deck in sorted((ROOT / folder).glob("*.deck"))
            if "[analysis.dynamic]" in deck.read_text()]
 GENERATED = (("four_bars", 1), ("four_bars", 2), ("four_bars", 10), ("four_bars", 40))
-
-
-def made(*arguments):
-    """What scripts/make_chain writes."""
-    done = subprocess.run(
-        [sys.executable, "-B", ROOT / "scripts" / "make_chain", *map(str, arguments)], capture_output=True, text=True, check=True
-    )
-    return done.stdout
 
 
 @pytest.mark.parametrize("case, way", FAST)
