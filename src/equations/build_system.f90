@@ -80,6 +80,7 @@ contains
       call set_known(scene, links, choices, system)
       call add_forces(scene, system)
       call declare_rows(system)
+      system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
       call choose_hold(scene, system)
       call choose_solver(scene, system)
       allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_loose), source=0.0_wp)
@@ -88,7 +89,6 @@ contains
       system%n = 2*system%n_position + system%n_quadrature
       system%n_event = system%n_loose
       allocate (system%held(2*system%n_position), source=0.0_wp)
-      system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
    end subroutine new_system
 
    !> Size of the bodies: the greatest distance of a point from its body's centre of mass; the greatest radius of gyration
