@@ -9,11 +9,12 @@ module test_augmented
    use fixed_random, only: random_t
    use hold, only: hold_t
    use hold_registry, only: n_hold_kinds, new_hold
+   use item, only: option_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use planar_system, only: planar_system_t
    use scene_fixture, only: nl, slider_crank, start_text
-   use section_info, only: column_of, dynamic_info
+   use section_info, only: column_of, dynamic_info, hold_options
    use solver_registry, only: n_solver_kinds, new_solver
    use text, only: replace, to_text
    implicit none (type, external)
@@ -31,6 +32,7 @@ contains
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
       call suite%test("words_of_the_registries", test_words)
+      call suite%test("options_of_the_ways", test_options)
       call suite%test("slider_crank", test_slider_crank)
       call suite%test("decks", test_decks)
       call suite%test("chain", test_chain)
@@ -66,6 +68,37 @@ contains
       end do
       call check_equal(error, info%columns(column_of(info, "stabilise"))%choices, words, "words for the way of holding")
    end subroutine test_words
+
+   !> An option that a deck may give changes what a way says of itself; any other leaves it as it is.
+   subroutine test_options(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      character(*), parameter :: names(6) = [character(7) :: "alpha", "beta", "target", "penalty", "omega", "mu"]
+      class(hold_t), allocatable :: set, unset
+      type(kind_info_t) :: info
+      type(option_t) :: option
+      character(:), allocatable :: all_names
+      integer :: i, k
+
+      all_names = ""
+      do i = 1, size(names)
+         all_names = trim(all_names//" "//names(i))
+      end do
+      info = dynamic_info()
+      call check_equal(error, " "//info%columns(column_of(info, "stabilise"))%options, all_names, "options of the key")
+      option%number = 0.1234_wp
+      do k = 1, n_hold_kinds
+         do i = 1, size(names)
+            option%name = trim(names(i))
+            call new_hold(k, set)
+            call new_hold(k, unset)
+            call unset%configure([option_t ::], 1.0e-8_wp)
+            call set%configure([option], 1.0e-8_wp)
+            call check_true(error, (set%words() == unset%words()) .neqv. index(hold_options(set%name()), " "//option%name) > 0, &
+                            "option "//option%name//" of "//set%name()//" is taken if it is documented")
+         end do
+      end do
+   end subroutine test_options
 
    !> All solvers at one state: the residuals of both equations and, without redundant rows, the results by full
    !> pivoting.
