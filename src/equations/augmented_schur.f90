@@ -164,7 +164,7 @@ contains
       do k = 1, n
          is_taken(pack(self%lone%row(:, k), self%lone%row(:, k) > 0)) = .false.
       end do
-      self%unknown = pack(rows%unknown,.not. is_lone(rows%unknown))
+      self%unknown = pack(rows%unknown, .not. is_lone(rows%unknown))
       call prepare_part(rows, is_taken, self%rest)
       is_taken = .true.
       call prepare_part(rows, is_taken, self%all)

@@ -225,8 +225,8 @@ contains
       call check_way("baumgarte_step alpha=0.1 beta=0.1"//by_steps, 1.0e-6_wp, 1.0e-8_wp, 1.0e-5_wp)
       call check_way("baumgarte_adaptive target=1e-9"//by_verner, 1.0e-7_wp, 1.0e-9_wp, 1.0e-7_wp)
       call check_way("augmented_lagrangian omega=20s^-1"//by_verner, 1.0e-7_wp, 1.0e-9_wp, 1.0e-7_wp)
-      call check_way("partitioning"//by_verner, 1.0e-8_wp, 1.0e-12_wp, 1.0e-9_wp)
-      call check_way("projection"//by_verner, 1.0e-8_wp, 1.0e-12_wp, 1.0e-9_wp)
+      call check_way("partitioning"//by_verner, 1.0e-7_wp, 1.0e-12_wp, 1.0e-7_wp)
+      call check_way("projection"//by_verner, 1.0e-7_wp, 1.0e-12_wp, 1.0e-7_wp)
       call check_way("projection"//by_steps, 1.0e-6_wp, 1.0e-12_wp, 1.0e-5_wp)
       call check_equal(error, n_way, n_hold_kinds + 1, "ways that were looked at, one of them twice")
 
