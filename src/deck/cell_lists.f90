@@ -178,6 +178,7 @@ contains
       end if
       option%is_number = quantity%is_good
       option%number = quantity%x
+      option%dimension = quantity%dimension
    end subroutine read_option
 
    !> Report an option that stands twice.

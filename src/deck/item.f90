@@ -26,6 +26,7 @@ module item
       character(:), allocatable :: text     !! after it, as written
       real(wp) :: number = 0.0_wp           !! its value if it is a number, SI [any]
       logical :: is_number = .false.        !! whether it is a number
+      type(dim_t) :: dimension = dim_none   !! of the number
       type(location_t) :: location          !! of the whole option
    end type option_t
 

@@ -74,6 +74,7 @@ contains
       type(rows_t), intent(in) :: rows                               !! rows
       real(wp), intent(in) :: damping                                !! on the diagonal of the rows [1]
 
+      real(wp) :: diagonal
       integer :: body, i, k, nq, row, side
 
       nq = self%n_coordinate
@@ -89,10 +90,12 @@ contains
          self%matrix(i + 1:i + 3, nq + row) = rows%jac(side + 1:side + 3, row)*sqrt(inverse_mass(:, body))
       end do
       do row = 1, rows%n_solve
-         self%row_scale(row) = 1.0_wp/sqrt(max(sum(self%matrix(1:nq, nq + row)**2), tiny(1.0_wp)))
+         diagonal = sum(self%matrix(1:nq, nq + row)**2)
+         self%row_scale(row) = 1.0_wp
+         if (diagonal > 0.0_wp) self%row_scale(row) = 1.0_wp/sqrt(diagonal)
          self%matrix(1:nq, nq + row) = self%matrix(1:nq, nq + row)*self%row_scale(row)
          self%matrix(nq + row, 1:nq) = self%matrix(1:nq, nq + row)
-         self%matrix(nq + row, nq + row) = -damping
+         self%matrix(nq + row, nq + row) = -merge(damping, 1.0_wp, diagonal > 0.0_wp)  ! 1: a row that moves nothing
       end do
    end subroutine assemble
 

@@ -453,6 +453,7 @@ contains
          end if
       end associate
       system%holds = system%way%at_steps
+      system%follows_step = system%way%follows_step
       call system%set_step(huge(1.0_wp))  ! gains that do not wait for a step
    end subroutine choose_hold
 

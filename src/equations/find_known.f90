@@ -1,8 +1,10 @@
 !> Which bodies of a scene move as known functions of time, and which rows of joints and drivers fix them.
 !>
 !> Starting from the ground: a revolute joint with a driver, or a rigid joint, makes the body on its other side known.
-!> Rows that tie known bodies to one another a second time stay in the equations, where they are redundant or contradict.
+!> Where rows tie such bodies to one another a second time, they are redundant or contradict: then no body is known, so that
+!> the solvers tell which, and share the reactions.
 module find_known
+   use clearance_registry, only: n_clearance_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
    use scene, only: scene_t
@@ -38,7 +40,34 @@ contains
          call look_at_rigid_joints(scene, is_known, links)
          if (size(links) == n) exit
       end do
+      if (are_tied_twice(scene, is_known, links)) links = links(:0)
    end subroutine find_known_bodies
+
+   !> Whether any row but those of the links lies between known bodies; joints with clearance count, in case they are ideal.
+   pure logical function are_tied_twice(scene, is_known, links) result(are_tied)
+      type(scene_t), intent(in) :: scene      !! the scene
+      logical, intent(in) :: is_known(0:)     !! (0:bodies) which bodies are known
+      type(link_t), intent(in) :: links(:)    !! (known bodies) how they are fixed
+
+      integer :: i, k, n, point(2)
+
+      n = 0
+      do k = 1, n_joint_kinds
+         if (scene%joints(k)%info%is_start_only) cycle
+         do i = 1, size(scene%joints(k)%items)
+            call joint_points(scene, k, i, point(1), point(2))
+            if (all(is_known(scene%points%body(point)))) n = n + 1
+         end do
+      end do
+      do k = 1, n_clearance_kinds
+         do i = 1, size(scene%clearances(k)%items)
+            associate (cells => scene%clearances(k)%items(i)%values)
+               if (all(is_known(scene%points%body([cells(1)%index, cells(2)%index])))) n = n + 1
+            end associate
+         end do
+      end do
+      are_tied = n > size(links) + count(links%driver > 0)
+   end function are_tied_twice
 
    !> Driven revolute joints between a known and an unknown body.
    subroutine look_at_drivers(scene, is_known, links)
@@ -104,7 +133,7 @@ contains
    end subroutine add_if_new
 
    !> Points i and j of a row of a joint table; a driver's are those of its joint.
-   subroutine joint_points(scene, kind, row, i, j)
+   pure subroutine joint_points(scene, kind, row, i, j)
       type(scene_t), intent(in) :: scene   !! the scene
       integer, intent(in) :: kind          !! number of the kind
       integer, intent(in) :: row           !! row of its table

@@ -14,6 +14,7 @@ module hold
    !> A way of holding the constraints.
    type, abstract :: hold_t
       logical :: at_stages = .false.  !! whether `correct_stage` is to be called
+      logical :: follows_step = .false.  !! whether gains follow the step
       logical :: at_steps = .false.   !! whether `correct_step` is to be called
    contains
       procedure(name_interface), nopass, deferred :: name

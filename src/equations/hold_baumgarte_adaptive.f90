@@ -2,7 +2,8 @@
 !>
 !> With e the greatest scaled violation at the start of a step and e_0 the target, the gain of the next step is
 !>
-!> alpha = min( 0.3/h, w, alpha_before sqrt(e/e_0) ), the root between 1/2 and 2, alpha at least 1/s:
+!> alpha = min( 0.3/h, w, alpha_before sqrt(e/e_0) ), the root between 1/2 and 1 + alpha h, alpha at least 1/s: it grows
+!> no faster than a violation can answer, and not at all when a step is tried again:
 !>
 !> strong gains where the violation calls for them, weak ones that leave the motion alone elsewhere; never so strong that
 !> gain times step endangers the integration, nor faster than the mechanism itself, whose greatest rate is w: beyond that
@@ -31,6 +32,7 @@ module hold_baumgarte_adaptive
    type, extends(hold_t) :: hold_baumgarte_adaptive_t
       real(wp) :: target = 1.0e-8_wp  !! scaled violation to be kept [1]
       real(wp) :: alpha = 5.0_wp      !! present gain [1/s]
+      real(wp) :: worst = 0.0_wp      !! scaled violation when it was set [1]
    contains
       procedure, nopass :: name => adaptive_name
       procedure :: words => adaptive_words
@@ -64,6 +66,7 @@ contains
       type(option_t), intent(in) :: options(:)                 !! (any) target
       real(wp), intent(in) :: tolerance                        !! of the integrator [1]
 
+      self%follows_step = .true.
       self%target = max(smallest, option_number(options, "target", tolerance))
    end subroutine adaptive_configure
 
@@ -80,7 +83,11 @@ contains
       class is (planar_system_t)
          if (system%rows%n_solve == 0) return
          worst = maxval(system%row_weight(:system%rows%n_solve)*abs(system%rows%phi(:system%rows%n_solve)))
-         self%alpha = self%alpha*min(2.0_wp, max(0.5_wp, sqrt(worst/self%target)))
+         ! the same violation again: the step is tried again, shorter, and a gain that grew as it shrinks would not let it succeed
+         if (abs(worst - self%worst) > 0.0_wp) then
+            self%alpha = self%alpha*min(1.0_wp + self%alpha*min(h, 1.0_wp), max(0.5_wp, sqrt(worst/self%target)))
+         end if
+         self%worst = worst
          rate = 0.0_wp
          do body = 1, system%n_body
             rate = max(rate, norm2(system%motion%v(:, body))/system%length_scale, abs(system%motion%omega(3, body)))

@@ -48,6 +48,7 @@ contains
       type(option_t), intent(in) :: options(:)             !! (any) alpha, beta
       real(wp), intent(in) :: tolerance                    !! of the integrator [1]
 
+      self%follows_step = .true.
       self%alpha = option_number(options, "alpha", self%alpha)
       self%beta = option_number(options, "beta", self%beta)
    end subroutine step_configure

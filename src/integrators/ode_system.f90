@@ -22,6 +22,7 @@ module ode_system
       integer :: n_quadrature = 0   !! trailing entries that are quadratures
       integer :: n_event = 0        !! event functions
       logical :: holds = .false.    !! whether `hold` must be called on the states given out
+      logical :: follows_step = .false.  !! whether `set_step` changes the derivative
    contains
       procedure(evaluate_interface), deferred :: evaluate
       procedure(weights_interface), deferred :: weights

@@ -214,8 +214,8 @@ contains
       real(wp), intent(out) :: norm                 !! of the error over the tolerance; huge: not known [1]
       integer, intent(out) :: status                !! 0: accepted; > 0: smaller; < 0: give up
 
-      call system%set_step(h)
-      call self%make_stages(system, h, status)
+      call tell_step(self, system, h, status)
+      if (status == 0) call self%make_stages(system, h, status)
       norm = 0.0_wp
       if (status == 0 .and. self%controls%fixed_step <= 0.0_wp) norm = self%error_norm(system, h)
       if (status == 0 .and. .not. norm <= 1.0_wp) then
@@ -230,6 +230,22 @@ contains
       end if
       if (status /= 0) norm = huge(1.0_wp)
    end subroutine try_step
+
+   !> Tell the system the step. A system that follows it was evaluated at the start just before, also after a step that was
+   !> rejected, and its derivative there is the one that belongs to the step.
+   subroutine tell_step(self, system, h, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the step [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      status = 0
+      if (system%follows_step) call system%evaluate(self%step%t0, self%step%y0, self%step%f0, status)
+      call system%set_step(h)
+      if (status /= 0 .or. .not. system%follows_step) return
+      call system%evaluate(self%step%t0, self%step%y0, self%step%f0, status)
+      self%n_evaluations = self%n_evaluations + 2
+   end subroutine tell_step
 
    !> Length of the next step. A step cut short by the end of a stretch says little about it.
    pure subroutine choose_next_step(self, h, norm, was_rejected, is_last)
@@ -295,8 +311,8 @@ contains
       real(wp), intent(in) :: h                     !! length of the part [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      call system%set_step(h)
-      call self%make_stages(system, h, status)
+      call tell_step(self, system, h, status)
+      if (status == 0) call self%make_stages(system, h, status)
       if (status == 0 .and. system%holds) call system%hold(self%step%t0 + h, self%trial, status)
    end subroutine make_part
 

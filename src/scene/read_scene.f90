@@ -15,6 +15,7 @@ module read_scene
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use kinds, only: wp
    use name_table, only: name_table_t
+   use option_check, only: check_options
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
@@ -91,6 +92,9 @@ contains
          scene%dynamic_kind%columns(column_of(scene%dynamic_kind, "end"))%default = "0 s"
       end if
       call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
+      associate (k => column_of(scene%dynamic_kind, "stabilise"))
+         call check_options(scene%dynamic%values(k), scene%dynamic_kind%columns(k)%options, diagnostics)
+      end associate
       call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
       call read_settings(deck, scene%static_kind, scene%static, is_present, diagnostics)
       if (scene%has_analysis(analysis_kinematic)) then

@@ -7,7 +7,7 @@ module section_info
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
+   public :: column_of, dynamic_info, hold_options, kinematic_info, output_info, scene_info, static_info
 
 contains
 
@@ -65,6 +65,20 @@ contains
                       default="0 m", lower=0.0_wp)
       call add_control_columns(info)
    end function dynamic_info
+
+   !> Options that a word of `stabilise` takes, with the units of those that have one.
+   pure function hold_options(word) result(options)
+      character(*), intent(in) :: word          !! as in `stabilise = word`
+      character(:), allocatable :: options      !! " name name[unit] "
+
+      select case (word)
+      case ("baumgarte"); options = " alpha[s^-1] beta[s^-1] "
+      case ("baumgarte_step"); options = " alpha beta "
+      case ("baumgarte_adaptive"); options = " target "
+      case ("augmented_lagrangian"); options = " penalty omega[s^-1] mu "
+      case default; options = " "
+      end select
+   end function hold_options
 
    !> The section [analysis.kinematic].
    function kinematic_info() result(info)

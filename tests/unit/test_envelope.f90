@@ -1,7 +1,7 @@
 !> Factorisation within an envelope against LAPACK on full matrices.
 module test_envelope
    use check, only: check_close, check_equal, check_true, suite_t
-   use envelope, only: envelope_t, factorise_and_solve, new_envelope
+   use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, wp
@@ -20,6 +20,7 @@ contains
 
       call suite%test("places", test_places)
       call suite%test("against_lapack", test_against_lapack)
+      call suite%test("further_right_hand_sides", test_further)
       call suite%test("product_of_factors", test_product_of_factors)
       call suite%test("dependent_row", test_dependent_row)
       call suite%test("threshold", test_threshold)
@@ -111,6 +112,30 @@ contains
          call check_close(error, x, b(:, 1), 1.0e-12_wp, "solution of order "//to_text(n), relative=.true.)
       end do
    end subroutine test_against_lapack
+
+   !> The factors serve further right-hand sides: A x is what was asked for.
+   subroutine test_further(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(envelope_t) :: matrix
+      type(random_t) :: random
+      real(wp), allocatable :: b(:), full(:, :), x(:)
+      integer :: attempt, bad_row, k, n
+
+      random%state = 44_i8
+      do attempt = 1, 30
+         n = attempt
+         call make_matrix(random, n, matrix, full)
+         x = random%vector(n, -1.0_wp, 1.0_wp)
+         call solve(matrix, x, bad_row)
+         do k = 1, 3
+            b = random%vector(n, -1.0_wp, 1.0_wp)
+            x = b
+            call solve_factored(n, size(matrix%a), matrix%first, matrix%start, matrix%a, matrix%inverse, x)
+            call check_close(error, matmul(full, x), b, 1.0e-13_wp, "right-hand side of order "//to_text(n), relative=.true.)
+         end do
+      end do
+   end subroutine test_further
 
    !> L D L^T is the matrix; what is kept as one over D is that.
    subroutine test_product_of_factors(error)

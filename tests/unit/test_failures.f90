@@ -150,16 +150,23 @@ contains
       if (.not. allocated(error)) call check_equal(error, index(message, "deepest"), 0, "nothing touches: place of the word")
    end subroutine test_deepest_contact
 
-   !> A driver that ends at half a second: smooth up to there, then not a number.
+   !> A driver that ends at half a second: smooth up to there, then not a number. It is named, and not its joint, also where
+   !> its body is known and another one hangs on that.
    subroutine test_driver_not_finite(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(keeper_t) :: keeper
+      character(*), parameter :: driver = "[driver.angle]"//nl//"name joint angle"//nl// &
+                                 "motor pin {0.3 rad*(1 - t/(0.5 s))^2.5}"//nl
+      type(keeper_t) :: keeper, other
       type(summary_t) :: summary
       character(:), allocatable :: message
 
-      call run_text(pendulum//"[driver.angle]"//nl//"name joint angle"//nl//"motor pin {0.3 rad*(1 - t/(0.5 s))^2.5}"//nl// &
-                    second, .true., keeper, summary, message, error)
+      call run_text(pendulum//driver//second, .true., keeper, summary, message, error)
+      call check_says(error, message, "'motor' or a derivative of it is not a finite number")
+      call check_says(error, message, "at t = 0.5")
+      call run_text(replace(replace(pendulum, "[points]", "tail 1 0.05 1.2 0"//nl//"[points]"), "[joint.revolute]", &
+                            "toe bob 0.4 0"//nl//"top tail -0.4 0"//nl//"[joint.revolute]")//"low toe top"//nl//driver//second, &
+                    .true., other, summary, message, error)
       call check_says(error, message, "'motor' or a derivative of it is not a finite number")
       call check_says(error, message, "at t = 0.5")
    end subroutine test_driver_not_finite

@@ -1,0 +1,411 @@
+!> Bodies whose motion is a known function of time, against the same deck with all bodies among the unknowns.
+!>
+!> At any state of the other bodies, and with the known ones where their drivers want them, both systems of equations must
+!> give the same accelerations, reactions, driving moments and powers: nothing but which rows are solved for differs.
+module test_known_bodies
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use augmented, only: augmented_t
+   use catalogue, only: catalogue_t
+   use check, only: check_close, check_equal, check_true, suite_t
+   use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
+   use errors, only: error_t
+   use fixed_random, only: random_t
+   use kinds, only: i8, two_pi, wp
+   use planar_energy, only: energy_of, energy_t
+   use planar_report, only: build_catalogue, report_state
+   use planar_system, only: planar_system_t
+   use recorder, only: summary_t
+   use scene_fixture, only: nl, slider_crank, start_text, system_of_text
+   use solver_registry, only: n_solver_kinds, new_solver
+   use text, only: replace, to_text
+   implicit none (type, external)
+   private
+   public :: run_test_known_bodies
+
+   character(*), parameter :: words(2) = ["unknown", "known  "]  !! words of `driven_bodies`
+
+   !> Two driven links in series, the second joint with its body i as the moving one; a plate welded to the second link,
+   !> a free hand on the plate, a spring, gravity.
+   character(*), parameter :: arm = "[scene]"//nl//"gravity = 1 -9.81 m/s^2"//nl// &
+      "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m] angle[rad] omega[rad/s]"//nl// &
+      "upper 2.0 0.05 0.2 0 0 0"//nl//"lower 1.2 0.03 0.4 0.2 {90 deg} 0"//nl// &
+      "plate 0.5 0.004 0.4 0.45 0.3 0"//nl//"hand 0.4 0.002 0.5 0.5 0.2 1"//nl// &
+      "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"far ground 1 1"//nl// &
+      "upper_0 upper -0.2 0"//nl//"upper_1 upper 0.2 0"//nl//"lower_0 lower -0.2 0"//nl//"lower_1 lower 0.2 0"//nl// &
+      "plate_0 plate -0.05 0.01"//nl//"plate_1 plate 0.06 0.02"//nl//"hand_0 hand -0.04 0"//nl//"hand_1 hand 0.1 0.02"//nl// &
+      "[joint.revolute]"//nl//"name i j"//nl//"wrist plate_1 hand_0"//nl//"shoulder base upper_0"//nl// &
+      "elbow lower_0 upper_1"//nl// &
+      "[joint.rigid]"//nl//"name i j"//nl//"weld plate_0 lower_1"//nl// &
+      "[driver.angle]"//nl//"name joint angle"//nl//"lift shoulder {0.4 rad*sin(3 rad/s*t)}"//nl// &
+      "bend elbow {-90 deg + 0.7 rad*(t/1s)^2}"//nl// &
+      "[force.spring]"//nl//"name i j stiffness[N/m] damping[N.s/m] free_length[m]"//nl//"band far hand_1 90 3 0.2"//nl// &
+      "rope far lower_1 40 1 0.3"//nl
+
+contains
+
+   subroutine run_test_known_bodies(suite)
+      type(suite_t), intent(inout) :: suite  !! where tests are registered
+
+      call suite%test("slider_crank", test_slider_crank)
+      call suite%test("contact_on_a_known_body", test_contact_on_a_known_body)
+      call suite%test("robot_arm", test_robot_arm)
+      call suite%test("loop_between_known_bodies", test_loop)
+      call suite%test("two_drivers_on_one_joint", test_two_drivers)
+      call suite%test("known_is_what_is_smooth", test_smooth)
+      call suite%test("all_driven", test_all_driven)
+      call suite%test("error_scales", test_error_scales)
+      call suite%test("works", test_works)
+   end subroutine run_test_known_bodies
+
+   !> A deck with its driven bodies among the unknowns, or not.
+   function with_word(deck, word) result(text)
+      character(*), intent(in) :: deck     !! the deck without that key, [analysis.dynamic] at its end
+      character(*), intent(in) :: word     !! known or unknown
+      character(:), allocatable :: text    !! with it
+
+      text = replace(deck, "driven_bodies = unknown"//nl, "")//nl//"driven_bodies = "//trim(word)
+   end function with_word
+
+   !> Both systems of a deck.
+   subroutine both_systems(deck, n_known, full, small, start, error)
+      character(*), intent(in) :: deck                        !! the deck
+      integer, intent(in) :: n_known                          !! bodies that must be known
+      type(planar_system_t), intent(out) :: full              !! with all bodies unknown
+      type(planar_system_t), intent(out) :: small             !! without the known ones
+      real(wp), allocatable, intent(out) :: start(:)          !! (small's n) state at t = 0 of the latter [any]
+      type(error_t), allocatable, intent(inout) :: error      !! first failure
+
+      call system_of_text(with_word(deck, words(1)), full, error)
+      if (allocated(error)) return
+      call start_text(with_word(deck, words(2)), small, start, error)
+      if (allocated(error)) return
+      call check_equal(error, full%known%n, 0, "known bodies, unknown")
+      call check_equal(error, small%known%n, n_known, "known bodies")
+   end subroutine both_systems
+
+   !> State of all bodies from that of the unknown ones and the time.
+   subroutine complete_state(small, t, y, full)
+      type(planar_system_t), intent(inout) :: small   !! the system without the known bodies
+      real(wp), intent(in) :: t                       !! time [s]
+      real(wp), intent(in) :: y(:)                    !! (small's n) its state [any]
+      real(wp), intent(out) :: full(:)                !! (full's n) state of all bodies, works as those of y [any]
+
+      integer :: k, n
+
+      n = small%n_body
+      call small%set_motion(t, y)
+      do k = 1, n
+         full(3*k - 2:3*k) = [small%motion%r(1:2, k), small%motion%angle(k)]
+         full(3*n + 3*k - 2:3*n + 3*k) = [small%motion%v(1:2, k), small%motion%omega(3, k)]
+      end do
+      full(6*n + 1:) = y(2*small%n_position + 1:)
+   end subroutine complete_state
+
+   !> All that both systems report at a time, the unknown bodies somewhat out of place, as if nothing held them exactly.
+   subroutine compare_at(full, small, t, y, error)
+      type(planar_system_t), intent(inout) :: full        !! with all bodies unknown
+      type(planar_system_t), intent(inout) :: small       !! without the known ones
+      real(wp), intent(in) :: t                           !! time [s]
+      real(wp), intent(in) :: y(:)                        !! (small's n) a state [any]
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+
+      type(catalogue_t) :: of_full, of_small
+      real(wp) :: rate_full(full%n), rate_small(small%n), y_full(full%n)
+      integer :: k, other, status
+
+      if (allocated(error)) return
+      call complete_state(small, t, y, y_full)
+      call build_catalogue(full, of_full)
+      call build_catalogue(small, of_small)
+      rate_full = 0.0_wp
+      rate_small = 0.0_wp
+      call report_state(small, t, y, rate_small, 0.0_wp, of_small, status)
+      call check_equal(error, status, 0, "status without the known bodies")
+      call report_state(full, t, y_full, rate_full, 0.0_wp, of_full, status)
+      call check_equal(error, status, 0, "status")
+      call check_equal(error, size(of_small%groups), size(of_full%groups), "groups")
+      if (allocated(error)) return
+      do k = 1, size(of_full%groups)
+         associate (room => of_full%groups(k)%room, name => of_full%groups(k)%channel%name)
+            other = of_small%find_group(room, name)
+            call check_true(error, other > 0, name//" is reported by both")
+            if (allocated(error)) return
+            call compare(of_small%groups(other)%data, of_full%groups(k)%data, of_full%rooms(room)%name//" "//name)
+         end associate
+      end do
+      k = 6*full%n_body
+      call check_close(error, rate_small(2*small%n_position + 1:), rate_full(k + 1:), 1.0e-10_wp*maxval(abs(rate_full(k + 1:))), &
+                       "powers at t = "//to_text(t))
+
+   contains
+
+      !> Compare a channel of all items.
+      subroutine compare(actual, expected, name)
+         real(wp), intent(in) :: actual(:, :)     !! (components, items) values [any]
+         real(wp), intent(in) :: expected(:, :)   !! (components, items) values [any]
+         character(*), intent(in) :: name         !! the channel
+
+         real(wp), allocatable :: a(:), e(:)
+
+         call check_true(error, all(ieee_is_nan(actual) .eqv. ieee_is_nan(expected)), "the same items have "//name)
+         a = pack(actual, .not. ieee_is_nan(actual))
+         e = pack(expected, .not. ieee_is_nan(expected))
+         call check_close(error, a, e, 1.0e-10_wp*max(1.0e-3_wp, maxval(abs(e))), name//" at t = "//to_text(t))
+      end subroutine compare
+
+   end subroutine compare_at
+
+   !> Random states about a start at random times.
+   subroutine compare_often(deck, n_known, t_end, error)
+      character(*), intent(in) :: deck                    !! the deck
+      integer, intent(in) :: n_known                      !! bodies that must be known
+      real(wp), intent(in) :: t_end                       !! greatest time [s]
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+
+      type(planar_system_t) :: full, small
+      type(random_t) :: random
+      real(wp), allocatable :: start(:), y(:)
+      integer :: k, n
+
+      call both_systems(deck, n_known, full, small, start, error)
+      if (allocated(error)) return
+      random%state = 81_i8
+      n = small%n_position
+      do k = 1, 10
+         y = start
+         y(1:n) = y(1:n) + random%vector(n, -0.01_wp, 0.01_wp)
+         y(n + 1:2*n) = y(n + 1:2*n) + random%vector(n, -3.0_wp, 3.0_wp)
+         call compare_at(full, small, random%between(0.0_wp, t_end), y, error)
+      end do
+   end subroutine compare_often
+
+   !> A crank at constant speed.
+   subroutine test_slider_crank(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call compare_often(slider_crank(nl//"stabilise = baumgarte alpha=20s^-1", "damped", "none", "ideal"), 1, 24.0e-3_wp, error)
+      call compare_often(slider_crank(nl//"stabilise = none", "damped", "none", "clearance"), 1, 24.0e-3_wp, error)
+      call compare_often(slider_crank(nl//"ledger = off", "damped", "none", "ideal"), 1, 24.0e-3_wp, error)
+   end subroutine test_slider_crank
+
+   !> The loose pin between a driven crank and the rod, touching: its force is carried by the driver.
+   subroutine test_contact_on_a_known_body(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(planar_system_t) :: full, small
+      real(wp), allocatable :: start(:), y(:)
+      character(:), allocatable :: deck
+      integer :: k
+
+      deck = replace(slider_crank("", "damped", "rubbing", "clearance"), "big_end throw big"//nl, "tail small pin"//nl)
+      deck = replace(deck, "gudgeon pin small", "gudgeon throw big")
+      call both_systems(deck, 1, full, small, start, error)
+      if (allocated(error)) return
+      call full%clearances(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      call small%clearances(1)%set%begin_contact(1, 0.0_wp, 2.0_wp, 0.0_wp)
+      do k = 1, 8
+         y = start
+         ! the rod aside by more than the clearance
+         y(1:2) = y(1:2) + 0.51e-3_wp*[cos(0.9_wp*k), sin(0.9_wp*k)]
+         y(7:8) = y(7:8) + [0.3_wp, -0.2_wp]*k
+         call compare_at(full, small, 0.0_wp, y, error)
+         if (allocated(error)) return
+         call check_true(error, maxval(abs(small%losses)) > 0.0_wp, "the contact loses energy")
+         call check_true(error, abs(small%lambda(small%known%row(3, 1))) > 0.1_wp, "the driver carries it")
+      end do
+   end subroutine test_contact_on_a_known_body
+
+   !> Drivers in series and of either sense, a weld, loads on known bodies.
+   subroutine test_robot_arm(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call compare_often(arm//"[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte", 3, 1.5_wp, error)
+   end subroutine test_robot_arm
+
+   !> Two bars between two driven cranks: known bodies at both ends of a loop, which a distance closes.
+   subroutine test_loop(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call compare_often("[scene]"//nl//"gravity = 0 -9.81 m/s^2"//nl// &
+                         "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl// &
+                         "left 1 0.01 0.1 0"//nl//"right 1.5 0.01 1.1 0"//nl//"bar 2 0.1 0.7 0"//nl// &
+                         "[points]"//nl//"name body xi[m] eta[m]"//nl//"base_1 ground 0 0"//nl//"base_2 ground 1 0"//nl// &
+                         "left_0 left -0.1 0"//nl//"left_1 left 0.1 0"//nl//"right_0 right -0.1 0"//nl// &
+                         "right_1 right 0.1 0"//nl//"bar_0 bar -0.5 0"//nl//"bar_1 bar 0.5 0.2"//nl// &
+                         "[joint.revolute]"//nl//"name i j"//nl//"one base_1 left_0"//nl//"two right_0 base_2"//nl// &
+                         "low left_1 bar_0"//nl// &
+                         "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"first one 7"//nl//"second two -7"//nl// &
+                         "[joint.distance]"//nl//"name i j length[m]"//nl//"link bar_1 right_1 0.2"//nl// &
+                         "[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte", 2, 1.0_wp, error)
+   end subroutine test_loop
+
+   !> A driven crank and a body that is free, or hangs on the crank. What ties the crank to the ground a second time, here a
+   !> second driver, leaves all bodies unknown: the drivers share the moment, and the accelerations are those with one driver.
+   subroutine test_two_drivers(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      integer :: k
+
+      do k = 1, n_solver_kinds
+         call check_twins(k, "")
+         call check_twins(k, "elbow arm_1 hand_0"//nl)
+      end do
+
+   contains
+
+      !> One driver, and two that want the same by different formulas.
+      subroutine check_twins(number, joint)
+         integer, intent(in) :: number         !! of the solver
+         character(*), intent(in) :: joint     !! row of the joint between both bodies, or nothing
+
+         class(augmented_t), allocatable :: solver
+         type(planar_system_t) :: one, two
+         real(wp), allocatable :: a(:), start(:), y(:), ydot_one(:), ydot_two(:)
+         character(:), allocatable :: deck
+         integer :: status
+
+         if (allocated(error)) return
+         call new_solver(number, solver)
+         deck = "[scene]"//nl//"gravity = 0 -9.81 m/s^2"//nl// &
+                "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"arm 1 0.1 0.5 0"//nl//"hand 2 0.2 1.5 0"//nl// &
+                "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"arm_0 arm -0.5 0"//nl// &
+                "arm_1 arm 0.5 0"//nl//"hand_0 hand -0.5 0"//nl// &
+                "[joint.revolute]"//nl//"name i j"//nl//"shoulder base arm_0"//nl//joint// &
+                "[driver.angle]"//nl//"name joint angle"//nl//"motor shoulder {1 rad*sin(20 rad/s*t)}"//nl// &
+                "spare shoulder {2 rad*sin(10 rad/s*t)*cos(10 rad/s*t)}"//nl// &
+                "[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte"//nl//"solver = "//solver%name()
+         call start_text(deck, two, y, error)
+         if (.not. allocated(error)) call start_text(with_word(without(deck, "spare"), "known"), one, start, error)
+         if (allocated(error)) return
+         call check_equal(error, two%known%n, 0, "known bodies with two drivers")
+         call check_equal(error, one%known%n, 1, "known bodies with one driver")
+         if (allocated(error)) return
+         allocate (ydot_one(one%n), ydot_two(two%n), a(6), source=0.0_wp)
+         call one%evaluate(0.3_wp, start, ydot_one, status)
+         call check_equal(error, status, 0, "status with one driver, "//solver%name())
+         call complete_state(one, 0.3_wp, start, y)
+         call two%evaluate(0.3_wp, y, ydot_two, status)
+         call check_equal(error, status, 0, "status with two drivers, "//solver%name())
+         a = [one%motion%a(1:2, 1), one%motion%alpha(3, 1), ydot_one(4:6)]
+         call check_close(error, ydot_two(7:12), a, 1.0e-9_wp, "accelerations with two drivers, "//solver%name(), relative=.true.)
+         call one%find_reactions(0.3_wp)
+         associate (moment => one%lambda(one%known%row(3, 1)), shares => two%lambda(size(two%lambda) - 1:))
+            call check_close(error, shares, 0.5_wp*[moment, moment], 1.0e-6_wp, "halves of the moment, "//solver%name(), &
+                             relative=.true.)
+            call check_true(error, abs(moment) > 1.0_wp, "there is a moment")
+         end associate
+      end subroutine check_twins
+
+   end subroutine test_two_drivers
+
+   !> A deck without the line that begins with a word.
+   function without(deck, word) result(text)
+      character(*), intent(in) :: deck     !! the deck
+      character(*), intent(in) :: word     !! first of the line
+      character(:), allocatable :: text    !! the rest
+
+      integer :: first
+
+      first = index(deck, nl//word//" ")
+      text = deck(:first - 1)//deck(first + index(deck(first + 1:), nl):)
+   end function without
+
+   !> A body whose driver jumps, in its value or a derivative, stays unknown; so do those that hang on it.
+   subroutine test_smooth(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call check_known("{0.1 rad*sin(2 rad/s*t)}", 2)
+      call check_known("{0.1 rad*exp(-t/1s)*cos(1 rad/s*t)^2}", 2)
+      call check_known("{0.1 rad*abs(t/1s - 0.2)}", 0)
+      call check_known("{0.1 rad*max(0, t/1s - 0.2)}", 0)
+      call check_known("{0.1 rad*min(0.3, t/1s)}", 0)
+      call check_known("{0.1 rad*step(t/1s - 0.3)}", 0)
+
+   contains
+
+      !> Two driven links in series, the first by the given function.
+      subroutine check_known(angle, expected)
+         character(*), intent(in) :: angle    !! of the first
+         integer, intent(in) :: expected      !! known bodies
+
+         type(planar_system_t) :: system
+
+         if (allocated(error)) return
+         call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl// &
+                             "first 1 0.1 0.5 0"//nl//"second 1 0.1 1.5 0"//nl//"third 1 0.1 2.5 0"//nl// &
+                             "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"a first -0.5 0"//nl// &
+                             "b first 0.5 0"//nl//"c second -0.5 0"//nl//"d second 0.5 0"//nl//"e third -0.5 0"//nl// &
+                             "[joint.revolute]"//nl//"name i j"//nl//"one base a"//nl//"two b c"//nl//"three d e"//nl// &
+                             "[driver.angle]"//nl//"name joint angle"//nl//"lift one "//angle//nl//"bend two {0.2 rad*t/1s}"//nl// &
+                             "[analysis.dynamic]"//nl//"end = 1 s", system, error)
+         if (.not. allocated(error)) call check_equal(error, system%known%n, expected, "known bodies with "//angle)
+      end subroutine check_known
+
+   end subroutine test_smooth
+
+   !> Without any unknown body nothing would control the step: all stay unknown.
+   subroutine test_all_driven(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(planar_system_t) :: system
+
+      call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"crank 1 0.1 0.5 0"//nl// &
+                          "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"heel crank -0.5 0"//nl// &
+                          "[joint.revolute]"//nl//"name i j"//nl//"main base heel"//nl// &
+                          "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor main 5"//nl// &
+                          "[analysis.dynamic]"//nl//"end = 1 s", system, error)
+      if (allocated(error)) return
+      call check_equal(error, system%known%n, 0, "known bodies")
+      call check_equal(error, system%rows%n_unknown, 1, "unknown bodies")
+      call check_equal(error, system%rows%n_solve, 3, "rows that are solved")
+   end subroutine test_all_driven
+
+   !> The scale of the rates counts the known bodies: 5000 rpm of the crank, at whatever rest of the others.
+   subroutine test_error_scales(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(planar_system_t) :: system
+      real(wp), allocatable :: scale(:), y(:), ydot(:)
+      integer :: status
+
+      call start_text(with_word(slider_crank("", "damped", "none", "clearance"), "known"), system, y, error)
+      if (allocated(error)) return
+      y(7:12) = 0.0_wp
+      ydot = y
+      scale = y
+      call system%evaluate(0.0_wp, y, ydot, status)
+      call system%weights(y, scale)
+      call check_close(error, scale(7:9), 5000.0_wp/60.0_wp*two_pi*[0.06_wp, 0.06_wp, 1.0_wp], 1.0e-9_wp, &
+                       "scales of the rod's rates")
+      call check_close(error, scale(1:3), [0.06_wp, 0.06_wp, 1.0_wp], 1.0e-15_wp, "scales of its coordinates")
+   end subroutine test_error_scales
+
+   !> Works and energies after a run agree, and the ledger closes in both.
+   subroutine test_works(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(energy_t) :: energy(2)
+      type(keeper_t) :: keeper(2)
+      type(loaded_t) :: loaded(2)
+      type(summary_t) :: summary(2)
+      integer :: k
+
+      do k = 1, 2
+         call load_text("deck = 1"//nl//with_word(arm//"[analysis.dynamic]"//nl//"end = 1 s"//nl//"tolerance = 1e-11", words(k)) &
+                        //nl, loaded(k), error)
+         if (allocated(error)) return
+         call run_to_end(loaded(k), keeper(k), summary(k), error)
+         if (allocated(error)) return
+         energy(k) = energy_of(loaded(k)%system, loaded(k)%method%step%y1)
+         call check_true(error, summary(k)%energy_residual_max < 1.0e-8_wp*summary(k)%energy_max, "the ledger closes, "//words(k))
+      end do
+      associate (a => energy(1), b => energy(2))
+         call check_close(error, [b%kinetic, b%potential, b%elastic, b%drive_work, b%load_work, b%dissipated_damper], &
+                          [a%kinetic, a%potential, a%elastic, a%drive_work, a%load_work, a%dissipated_damper], 1.0e-7_wp, &
+                          "energies and works", relative=.true.)
+         call check_true(error, abs(a%drive_work) > 1.0_wp, "the drivers work")
+         call check_true(error, abs(b%stabilisation_work) < 1.0e-9_wp*abs(b%drive_work), "nothing is left to the stabilisation")
+      end associate
+   end subroutine test_works
+
+end module test_known_bodies
