@@ -268,7 +268,7 @@ contains
       integer :: k
 
       do k = 1, 2
-         call load_text(four_bar//"end = 2 s"//nl//"stabilise = none"//nl//"method = rk4"//nl//"step = 2 ms"//nl, loaded(k), error)
+         call load_text(four_bar//"end = 2 s"//nl//"stabilise = none"//nl//"method = rk4"//nl//"step = 1 ms"//nl, loaded(k), error)
          if (allocated(error)) return
          if (k == 1) loaded(k)%plan%end = 0.5_wp
          call run_to_end(loaded(k), keeper(k), summary(k), error)
