@@ -3,8 +3,9 @@
 !> (M + Phi_q^T alpha Phi_q) a_k+1 = M a_k + Phi_q^T alpha b,   lambda_k+1 = lambda_k + alpha (Phi_q a_k+1 - b),   M a_0 = g
 !>
 !> with alpha = penalty / D for each row, D the diagonal of Phi_q M^-1 Phi_q^T: the penalty is a number without unit. An
-!> iteration takes the error down to 1 / (1 + penalty mu), mu the least eigenvalue of D^-1/2 S D^-1/2 that is not zero. The
-!> iterations solve for the change of a, so that round-off does not grow with the penalty. The matrix is factorised once
+!> iteration takes the error down to 1 / (1 + penalty mu), mu the least eigenvalue of D^-1/2 S D^-1/2 that is not zero. It
+!> solves for the change d of a; then lambda_k+1 = lambda_k + alpha (Phi_q (a_k + d) - b), and a_k+1 = M^-1 (g - Phi_q^T
+!> lambda_k+1) anew, so that round-off does not grow with the penalty. The matrix is factorised once
 !> as L D L^T, in the envelope of the bodies' coordinates. Rows may depend on one another; multipliers are then those of
 !> least norm.
 !> Source: Flores et al. (2008), eqs. (2.32)-(2.35), with Phi_q v + Phi_t where (2.34) prints Phi_q a.
@@ -19,8 +20,9 @@ module augmented_lagrangian
    private
    public :: augmented_lagrangian_t
 
-   real(wp), parameter :: converged = 1.0e-14_wp  !! change of the residual, of the greatest term, that ends the iteration [1]
-   real(wp), parameter :: solved = 1.0e-8_wp      !! residual, of the greatest term, of a solution [1]
+   real(wp), parameter :: converged = 1.0e-15_wp  !! change of an acceleration, of the greatest, that ends the iteration [1]
+   real(wp), parameter :: stagnant = 0.98_wp      !! ratio of successive changes that is round-off [1]
+   real(wp), parameter :: solved = 1.0e-12_wp     !! last change, of the greatest acceleration, of a solution [1]
    real(wp), parameter :: stronger = 1.0e3_wp     !! factor of the penalty where the iteration does not converge [1]
    integer, parameter :: n_iteration = 40         !! iterations, at most
 
@@ -31,7 +33,11 @@ module augmented_lagrangian
       integer, allocatable :: place(:)            !! (0:bodies) place before the coordinates of an unknown body
       integer :: n_pair = 0                       !! pairs of sides of the same row
       integer, allocatable :: pair(:, :)          !! (5, pairs) row, entries of both sides in the Jacobian, their coordinates
+      real(wp) :: change = 0.0_wp                 !! of the accelerations in the last iteration, of the greatest [1]
       real(wp), allocatable :: alpha(:)           !! (solved rows) penalties [any]
+      real(wp), allocatable :: d(:, :)            !! (3, 0:bodies) change of a [any]
+      real(wp), allocatable :: last(:, :)         !! (3, 0:bodies) a of the iteration before [any]
+      real(wp), allocatable :: rest(:)            !! (solved rows) residual after the change [any]
       real(wp), allocatable :: x(:)               !! (coordinates) right-hand side and change of a [any]
    contains
       procedure, nopass :: name => lagrangian_name
@@ -92,7 +98,8 @@ contains
          if (pass == 1) allocate (self%pair(5, self%n_pair), source=0)
       end do
       self%is_iterative = .true.
-      allocate (self%alpha(rows%n_solve), self%residual(rows%n_solve), self%x(3*n), source=0.0_wp)
+      allocate (self%alpha(rows%n_solve), self%residual(rows%n_solve), self%rest(rows%n_solve), self%x(3*n), source=0.0_wp)
+      allocate (self%d(3, 0:n_body), self%last(3, 0:n_body), source=0.0_wp)
    end subroutine lagrangian_prepare
 
    !> Sides of each row, and for each unknown body those that share a row with it.
@@ -137,7 +144,7 @@ contains
       integer, intent(out) :: bad_row                          !! row that has not converged, 0: none
 
       call iterate(self, self%penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
-      if (bad_row == 0 .and. .not. self%left_over <= solved) bad_row = maxloc(abs(self%residual), dim=1)
+      if (bad_row == 0 .and. .not. self%change <= solved) bad_row = maxloc(abs(self%residual), dim=1)
    end subroutine lagrangian_solve
 
    !> The same, with a stronger penalty where that does not converge. The penalty stands for the damping.
@@ -154,11 +161,12 @@ contains
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
       call iterate(self, self%penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
-      if (bad_row == 0 .and. self%left_over <= solved) return
+      if (bad_row == 0 .and. self%change <= solved) return
       call iterate(self, stronger*self%penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
    end subroutine lagrangian_solve_damped
 
-   !> Iterate with a penalty until the residual no longer falls.
+   !> Iterate with a penalty until the accelerations no longer change. Their change is the measure, not the residual: that of
+   !> rows that are nearly dependent is small before their multipliers are right.
    subroutine iterate(self, penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
       real(wp), intent(in) :: penalty                          !! of a violated row, of its inverse effective mass [1]
@@ -170,7 +178,7 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
-      real(wp) :: before, greatest, now
+      real(wp) :: before, change, greatest, largest
       integer :: k, n, n_body
 
       n = rows%n_solve
@@ -184,22 +192,29 @@ contains
          bad_row = 1
          return
       end if
-      lambda(:n) = 0.0_wp
-      call body_accelerations(n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
-                              inverse_mass, rows%jac, g, lambda, a)
       self%left_over = 0.0_wp
-      if (n == 0) return
-      greatest = max(tiny(1.0_wp), maxval(abs(b(:n))))
+      self%change = 0.0_wp
+      lambda(:n) = 0.0_wp
+      greatest = tiny(1.0_wp)
+      largest = tiny(1.0_wp)/epsilon(1.0_wp)
       before = huge(1.0_wp)
       do k = 0, n_iteration
+         self%last = a
+         call body_accelerations(n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
+                                 inverse_mass, rows%jac, g, lambda, a)
+         if (n == 0) return
          call row_residuals(n_body, rows%n, n, rows%n_side, rows%side, rows%jac, a, b, self%residual)
-         now = maxval(abs(self%residual))
-         if (k == 0) greatest = max(greatest, now)
-         if (k > 0) lambda(:n) = lambda(:n) + self%alpha*self%residual
-         self%left_over = now/greatest
-         if (before - now <= converged*greatest) exit
-         before = now
-         call change_accelerations(self, rows, a)
+         if (k == 0) greatest = max(greatest, maxval(abs(self%residual)), maxval(abs(b(:n))))
+         self%left_over = maxval(abs(self%residual))/greatest
+         call compare(rows, self%last, a, change, largest)
+         if (k > 0) then
+            self%change = change/largest
+            if (self%change <= converged .or. self%change >= stagnant*before) exit
+            before = self%change
+         end if
+         call change_accelerations(self, rows)
+         call row_residuals(n_body, rows%n, n, rows%n_side, rows%side, rows%jac, self%d, -self%residual, self%rest)
+         lambda(:n) = lambda(:n) + self%alpha*self%rest
       end do
    end subroutine iterate
 
@@ -242,11 +257,29 @@ contains
       end do
    end subroutine assemble
 
-   !> (M + Phi_q^T alpha Phi_q) (a_k+1 - a_k) = -Phi_q^T alpha r.
-   subroutine change_accelerations(self, rows, a)
+   !> Greatest change of an acceleration of unknown bodies, and the greatest acceleration so far.
+   pure subroutine compare(rows, last, a, change, largest)
+      type(rows_t), intent(in) :: rows             !! rows
+      real(wp), intent(in) :: last(:, 0:)          !! (3, 0:bodies) accelerations before [any]
+      real(wp), intent(in) :: a(:, 0:)             !! (3, 0:bodies) accelerations now [any]
+      real(wp), intent(out) :: change              !! greatest change [any]
+      real(wp), intent(inout) :: largest           !! greatest acceleration so far, raised [any]
+
+      integer :: k
+
+      change = 0.0_wp
+      do k = 1, rows%n_unknown
+         associate (body => rows%unknown(k))
+            change = max(change, maxval(abs(a(:, body) - last(:, body))))
+            largest = max(largest, maxval(abs(a(:, body))))
+         end associate
+      end do
+   end subroutine compare
+
+   !> (M + Phi_q^T alpha Phi_q) d = -Phi_q^T alpha r.
+   subroutine change_accelerations(self, rows)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver, factorised, residuals set
       type(rows_t), intent(in) :: rows                         !! rows
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
 
       integer :: i, k, place, row
 
@@ -260,7 +293,7 @@ contains
       call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%k%inverse, self%x)
       do k = 1, rows%n_unknown
          i = self%place(rows%unknown(k))
-         a(:, rows%unknown(k)) = a(:, rows%unknown(k)) + self%x(i + 1:i + 3)
+         self%d(:, rows%unknown(k)) = self%x(i + 1:i + 3)
       end do
    end subroutine change_accelerations
 

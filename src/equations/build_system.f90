@@ -85,6 +85,7 @@ contains
       system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
       call choose_hold(scene, system)
       call choose_solver(scene, system)
+      call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_loose), source=0.0_wp)
       system%n_position = 3*system%rows%n_unknown
       system%n_quadrature = merge(n_ledger + 2*system%n_loose, 0, system%with_ledger)
@@ -454,7 +455,6 @@ contains
       end associate
       system%holds = system%way%at_steps
       system%follows_step = system%way%follows_step
-      call system%set_step(huge(1.0_wp))  ! gains that do not wait for a step
    end subroutine choose_hold
 
    !> Whether no driver jumps.
