@@ -15,14 +15,15 @@ module option_check
 contains
 
    !> Report options that the word does not take, and values that are of no use.
-   subroutine check_options(value, known, diagnostics)
+   subroutine check_options(value, words, known, diagnostics)
       type(value_t), intent(in) :: value                  !! the word and its options
+      character(*), intent(in) :: words                   !! words of the key; options of another one are left alone
       character(*), intent(in) :: known                   !! options of any word; others have been reported
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
       integer :: k
 
-      if (.not. allocated(value%options)) return
+      if (.not. allocated(value%options) .or. index(" "//words//" ", " "//value%text//" ") == 0) return
       do k = 1, size(value%options)
          if (index(" "//known//" ", " "//value%options(k)%name//" ") == 0) cycle
          call check_one(value%options(k), value%text, hold_options(value%text), diagnostics)

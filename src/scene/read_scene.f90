@@ -93,7 +93,8 @@ contains
       end if
       call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
       associate (k => column_of(scene%dynamic_kind, "stabilise"))
-         call check_options(scene%dynamic%values(k), scene%dynamic_kind%columns(k)%options, diagnostics)
+         call check_options(scene%dynamic%values(k), scene%dynamic_kind%columns(k)%choices, &
+                            scene%dynamic_kind%columns(k)%options, diagnostics)
       end associate
       call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
       call read_settings(deck, scene%static_kind, scene%static, is_present, diagnostics)
