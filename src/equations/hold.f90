@@ -74,7 +74,8 @@ contains
       real(wp), intent(in) :: h                      !! length of the step [s]
    end subroutine hold_begin_step
 
-   !> Nothing to correct, unless the way says otherwise.
+   !> Nothing to correct, unless the way says otherwise. At the end of a step the motion of the system is set, and must be that
+   !> of the corrected state afterwards.
    subroutine hold_correct(self, system, t, y, status)
       class(hold_t), intent(inout) :: self           !! the way
       class(ode_system_t), intent(inout) :: system   !! the system

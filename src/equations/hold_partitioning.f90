@@ -18,8 +18,7 @@ module hold_partitioning
    use lapack, only: dgels, dgeqp3, dgeqrf
    use memory, only: get, put
    use ode_system, only: ode_system_t
-   use planar_energy, only: mechanical_energy
-   use planar_system, only: planar_system_t, work_stabilisation
+   use planar_system, only: planar_system_t
    implicit none (type, external)
    private
    public :: hold_partitioning_t
@@ -84,21 +83,11 @@ contains
       real(wp), intent(inout), contiguous :: y(:)        !! (n) state, corrected [any]
       integer, intent(out) :: status                     !! 0: done
 
-      real(wp) :: before
-      integer :: z
-
       status = 0
       select type (system)
       class is (planar_system_t)
-         call system%set_motion(t, y)
-         before = 0.0_wp
-         if (system%with_ledger) before = mechanical_energy(system)
          call partitioning_correct(self, system, t, y, status)
-         if (status /= 0) return
-         if (self%rank > 0) call check_quality(self, system)
-         if (.not. system%with_ledger) return
-         z = 2*system%n_position + work_stabilisation
-         y(z) = y(z) + (mechanical_energy(system) - before)
+         if (status == 0 .and. self%rank > 0) call check_quality(self, system)
       end select
    end subroutine partitioning_correct_step
 

@@ -12,8 +12,7 @@ module hold_projection
    use item, only: option_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use planar_energy, only: mechanical_energy
-   use planar_system, only: planar_system_t, work_stabilisation
+   use planar_system, only: planar_system_t
    implicit none (type, external)
    private
    public :: hold_projection_t
@@ -57,7 +56,7 @@ contains
       self%at_steps = .true.
    end subroutine projection_configure
 
-   !> Correct the end of a step; the ledger is told what that does to the energy.
+   !> Correct the end of a step.
    subroutine projection_correct_step(self, system, t, y, status)
       class(hold_projection_t), intent(inout) :: self  !! the way
       class(ode_system_t), intent(inout) :: system     !! the system
@@ -65,19 +64,10 @@ contains
       real(wp), intent(inout), contiguous :: y(:)      !! (n) state, corrected [any]
       integer, intent(out) :: status                   !! 0: done
 
-      real(wp) :: before
-      integer :: z
-
       status = 0
       select type (system)
       class is (planar_system_t)
-         call system%set_motion(t, y)
-         before = 0.0_wp
-         if (system%with_ledger) before = mechanical_energy(system)
          call project(system, t, y, status)
-         if (status /= 0 .or. .not. system%with_ledger) return
-         z = 2*system%n_position + work_stabilisation
-         y(z) = y(z) + (mechanical_energy(system) - before)
       end select
    end subroutine projection_correct_step
 

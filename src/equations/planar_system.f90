@@ -102,6 +102,15 @@ module planar_system
    end type planar_system_t
 
    interface
+      !> Correct a state at the end of a step; what that does to the energy is work of the stabilisation.
+      module subroutine planar_hold(self, t, y, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(inout) :: y(:)                !! (n) state [any]
+         integer, intent(out) :: status                 !! 0: done
+      end subroutine planar_hold
+
       !> Numbers that a checkpoint needs: the memory of all sets and the counters.
       module integer function planar_memory_size(self) result(n)
          implicit none (type, external)
@@ -193,20 +202,6 @@ contains
       call way%begin_step(self, h)
       call move_alloc(way, self%way)
    end subroutine planar_set_step
-
-   !> Correct a state at the end of a step.
-   subroutine planar_hold(self, t, y, status)
-      class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(inout) :: y(:)                !! (n) state [any]
-      integer, intent(out) :: status                 !! 0: done
-
-      class(hold_t), allocatable :: way
-
-      call move_alloc(self%way, way)
-      call way%correct_step(self, t, y, status)
-      call move_alloc(way, self%way)
-   end subroutine planar_hold
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
    subroutine evaluate_terms(self, t, status)
