@@ -145,7 +145,7 @@ contains
              "[contact.lankarani_nikravesh]"//nl//"name restitution"//nl//"damped 0.9"//nl// &
              "[contact.hertz]"//nl//"name"//nl//"hertz"//nl// &
              "[friction.ambrosio]"//nl//"name coefficient v0[m/s] v1[m/s]"//nl//"rubbing 0.1 1e-4 1e-3"//nl// &
-             "[analysis.dynamic]"//nl//"end = 24 ms"//nl//"driven_bodies = unknown"//nl//settings
+             "[analysis.dynamic]"//nl//"end = 24 ms"//nl//"coordinates = full"//nl//settings
    end function slider_crank
 
 end module scene_fixture

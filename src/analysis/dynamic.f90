@@ -320,7 +320,7 @@ contains
 
       where_singular = ""
       if (system%bad_row > 0) where_singular = ": they are singular at joint or driver '"//system%row_name(system%bad_row)//"'"
-      if (system%known%n > 0) call system%find_reactions(system%known%t)
+      if (system%rows%n > system%rows%n_solve) call system%find_reactions(system%known%t)
       if (system%bad_row == 0) where_singular = not_finite(system)
       select case (status)
       case (advance_too_many_steps)

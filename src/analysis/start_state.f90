@@ -3,7 +3,9 @@ module start_state
    use build_system, only: levels_as_written, levels_ideal, new_system
    use consistent_start, only: assemble, assembly_t, find_dependent
    use errors, only: error_t, exit_assembly, set_error
+   use guided_motion, only: guided_coordinates
    use kinds, only: wp
+   use motion, only: set_planar_motion
    use planar_system, only: planar_system_t
    use scene, only: scene_t
    use section_info, only: column_of
@@ -68,6 +70,13 @@ contains
             y(system%n_position + 3*k - 2:system%n_position + 3*k) = v(3*body - 2:3*body)
          end associate
       end do
+      if (system%guided%n > 0) then
+         call set_planar_motion(system%n_body, q, v, system%motion)
+         system%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
+         associate (n => 3*system%rows%n_unknown, nq => system%n_position)
+            call guided_coordinates(system%guided, system%motion, y(n + 1:nq), y(nq + n + 1:2*nq))
+         end associate
+      end if
       call refuse_overlap(system, y, error)
    end subroutine find_start
 

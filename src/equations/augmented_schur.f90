@@ -74,7 +74,7 @@ contains
       is_cheap = pairs < few*sparse_cost*real(rows%n_solve + 1)  ! else the pairs alone are too many to list
       if (.not. is_cheap) return
       call choose_order(rows, spread(.true., 1, rows%n_solve), order, first, cost)
-      is_cheap = cost + 3.0*pairs < sparse_cost*real(rows%n_solve + 3*rows%n_unknown)
+      is_cheap = cost + 3.0*pairs <= sparse_cost*real(rows%n_solve + 3*rows%n_unknown)
    end function schur_is_cheap
 
    !> The order of some of the rows with the narrower envelope.

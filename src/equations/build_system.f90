@@ -5,9 +5,10 @@
 !> joints; laws without effect are dropped; loose joints are sorted into sets that share their laws.
 module build_system
    use augmented_schur, only: schur_is_cheap
+   use build_known, only: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_slot_t
-   use find_known, only: find_known_bodies, has_smooth_cells, joint_points, link_t
+   use find_known, only: has_smooth_cells, joint_points
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_slot_t
    use friction_law, only: friction_law_t
@@ -32,11 +33,6 @@ module build_system
 
    integer, parameter :: revolute_kind = 1   !! number of the revolute joint in the registry
 
-   !> Which rows of a table of joints fix known bodies.
-   type :: choice_t
-      logical, allocatable :: is_fixing(:)  !! (rows of the table)
-   end type choice_t
-
 contains
 
    !> Build the system of a scene.
@@ -46,9 +42,8 @@ contains
       type(planar_system_t), intent(out) :: system  !! the system
       logical, intent(in), optional :: is_for_start !! with the rows that hold only at the start; absent: without
 
-      type(choice_t) :: choices(n_joint_kinds)
-      type(link_t), allocatable :: links(:)
-      logical :: is_taken(n_joint_kinds)
+      type(reduction_t) :: reduction
+      logical :: is_taken(n_joint_kinds), with_start_rows
       integer :: k, n
 
       n = scene%bodies%n
@@ -66,20 +61,23 @@ contains
       system%length_scale = size_of_bodies(scene)
       call new_motion(n, system%motion)
       call new_loads(n, system%loads)
-      is_taken = .true.
+      with_start_rows = .false.
+      if (present(is_for_start)) with_start_rows = is_for_start
       do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%is_start_only) is_taken(k) = .false.
+         is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
-      if (present(is_for_start)) is_taken = is_taken .or. is_for_start
-      call choose_known(scene, links, choices)
-      call count_sets(scene, choices, is_taken, system)
-      call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
-      call add_joints(scene, choices, is_taken, .true., system)
-      call add_clearances(scene, levels, system)
-      system%rows%n_solve = system%rows%n
-      system%n_solved_set = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
-      call add_joints(scene, choices, is_taken, .false., system)
-      call set_known(scene, links, choices, system)
+      call choose_bodies(scene, levels == levels_ideal, with_start_rows, reduction)
+      associate (choices => reduction%choices)
+         call count_sets(scene, choices, is_taken, system)
+         call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
+         call add_joints(scene, choices, is_taken, .true., system)
+         call add_clearances(scene, levels, system)
+         system%rows%n_solve = system%rows%n
+         system%n_solved_set = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
+         call add_joints(scene, choices, is_taken, .false., system)
+         call set_known(scene, reduction%links, choices, system)
+         call set_guided(scene, reduction%guides, choices, system)
+      end associate
       call add_forces(scene, system)
       call declare_rows(system)
       system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
@@ -87,21 +85,12 @@ contains
       call choose_solver(scene, system)
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_loose), source=0.0_wp)
-      system%n_position = 3*system%rows%n_unknown
+      system%n_position = 3*system%rows%n_unknown + system%guided%n
       system%n_quadrature = merge(n_ledger + 2*system%n_loose, 0, system%with_ledger)
       system%n = 2*system%n_position + system%n_quadrature
       system%n_event = system%n_loose
       allocate (system%held(2*system%n_position), source=0.0_wp)
    end subroutine new_system
-
-   !> Angles of the bodies at the start, with that of the ground.
-   pure function start_angles(scene) result(angle)
-      type(scene_t), intent(in) :: scene         !! the scene
-      real(wp) :: angle(0:scene%bodies%n)        !! (0:bodies) angles [rad]
-
-      angle(0) = 0.0_wp
-      angle(1:) = scene%bodies%angle
-   end function start_angles
 
    !> Coordinates of the bodies where the deck puts them.
    pure function start_positions(scene) result(q)
@@ -112,34 +101,10 @@ contains
       q(3, :) = scene%bodies%angle
    end function start_positions
 
-   !> The bodies that are known functions of time, unless the deck wants them among the unknowns, and the rows that fix them.
-   !> Only an integration has unknowns: elsewhere all bodies stay together.
-   subroutine choose_known(scene, links, choices)
-      type(scene_t), intent(in) :: scene                       !! the scene
-      type(link_t), allocatable, intent(out) :: links(:)       !! (known bodies) how they are fixed
-      type(choice_t), intent(out) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix them
-
-      integer :: k
-
-      do k = 1, n_joint_kinds
-         allocate (choices(k)%is_fixing(size(scene%joints(k)%items)), source=.false.)
-      end do
-      allocate (links(0))
-      if (scene%analysis /= analysis_dynamic) return
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "driven_bodies"))%text == "unknown") return
-      call find_known_bodies(scene, links)
-      ! without any unknown nothing would control the step, and the works would be as good as chance
-      if (size(links) == scene%bodies%n) links = links(:0)
-      do k = 1, size(links)
-         choices(links(k)%kind)%is_fixing(links(k)%item) = .true.
-         if (links(k)%driver > 0) choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
-      end do
-   end subroutine choose_known
-
    !> Places for the sets of joints and drivers: up to two for each kind that has rows.
    subroutine count_sets(scene, choices, is_taken, system)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix known bodies
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
       logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
       type(planar_system_t), intent(inout) :: system          !! joints are allocated
 
@@ -157,7 +122,7 @@ contains
    !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows.
    subroutine add_joints(scene, choices, is_taken, is_solved, system)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix known bodies
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
       logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
       logical, intent(in) :: is_solved                        !! which of them
       type(planar_system_t), intent(inout) :: system          !! joints are set
@@ -192,84 +157,6 @@ contains
          call move_alloc(set, system%joints(n)%set)
       end do
    end subroutine add_joints
-
-   !> How the known bodies are moved, and which rows fix them.
-   subroutine set_known(scene, links, choices, system)
-      type(scene_t), intent(in) :: scene                      !! the scene
-      type(link_t), intent(in) :: links(:)                    !! (known bodies) how they are fixed
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix known bodies
-      type(planar_system_t), intent(inout) :: system          !! known bodies are set; joints are there
-
-      real(wp) :: angle(0:scene%bodies%n)
-      integer :: body(2), item, k, n, point(2), side, slot
-
-      n = size(links)
-      angle = start_angles(scene)
-      associate (known => system%known)
-         known%n = n
-         allocate (known%body(n), known%base(n), known%slot(n), known%item(n), known%row(3, n), known%side(3, n), source=0)
-         allocate (known%s_body(3, n), known%s_base(3, n), known%sign(n), known%offset(n), source=0.0_wp)
-         do k = 1, n
-            associate (link => links(k))
-               call joint_points(scene, link%kind, link%item, point(1), point(2))
-               body = scene%points%body(point)
-               side = merge(1, 2, body(1) == link%body)
-               known%body(k) = body(side)
-               known%base(k) = body(3 - side)
-               known%s_body(:, k) = scene%points%s(:, point(side))
-               known%s_base(:, k) = scene%points%s(:, point(3 - side))
-               known%side(:, k) = side
-               call find_fixing(scene, choices, system, link%kind, link%item, slot, item)
-               call take_rows(system%joints(slot)%set, item, known%row(:, k))
-               if (link%driver == 0) then
-                  known%offset(k) = angle(body(side)) - angle(body(3 - side))
-               else
-                  call find_fixing(scene, choices, system, link%driver, link%driving, known%slot(k), known%item(k))
-                  call take_rows(system%joints(known%slot(k))%set, known%item(k), known%row(3:3, k))
-                  known%sign(k) = merge(1.0_wp, -1.0_wp, side == 2)
-               end if
-            end associate
-         end do
-      end associate
-      allocate (system%is_known(system%n_body), source=.false.)
-      system%is_known(system%known%body) = .true.
-      do k = 1, system%n_body
-         if (.not. system%is_known(k)) system%inverse_mass(:, k) = 1.0_wp/system%mass(:, k)
-      end do
-
-   contains
-
-      !> Rows of an item, as many as there is room for.
-      subroutine take_rows(set, item, row)
-         class(joint_set_t), intent(in) :: set   !! the set
-         integer, intent(in) :: item             !! its item
-         integer, intent(out) :: row(:)          !! (any) its rows
-
-         integer :: i
-
-         row = [(set%first_row + (item - 1)*set%n_row_item + i, i=1, size(row))]
-      end subroutine take_rows
-
-   end subroutine set_known
-
-   !> Set and item of a row of a joint table that fixes a known body.
-   subroutine find_fixing(scene, choices, system, kind, row, slot, item)
-      type(scene_t), intent(in) :: scene                      !! the scene
-      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table fix known bodies
-      type(planar_system_t), intent(in) :: system             !! its joints
-      integer, intent(in) :: kind                             !! number of the kind
-      integer, intent(in) :: row                              !! row of its table
-      integer, intent(out) :: slot                            !! the set
-      integer, intent(out) :: item                            !! its item
-
-      item = count(choices(kind)%is_fixing(:row))
-      do slot = 1, size(system%joints)
-         associate (set => system%joints(slot)%set)
-            if (set%is_solved) cycle
-            if (set%names(min(item, set%n))%s == scene%joints(kind)%items(row)%name) return
-         end associate
-      end do
-   end subroutine find_fixing
 
    !> Force elements: one set per kind that has rows.
    subroutine add_forces(scene, system)
@@ -407,6 +294,7 @@ contains
    subroutine declare_rows(system)
       type(planar_system_t), intent(inout) :: system  !! rows are set
 
+      logical :: is_reduced(system%n_body)
       integer :: k, n, n_solve
 
       n_solve = system%rows%n_solve
@@ -419,7 +307,10 @@ contains
       do k = 1, size(system%ideal)
          call system%ideal(k)%set%declare_rows(system%rows)
       end do
-      call list_sides(system%is_known, system%rows)
+      is_reduced = system%is_known
+      is_reduced(system%guided%body) = .true.
+      call list_sides(is_reduced, system%rows)
+      call list_carried(system)
       system%n_row = system%rows%n_solve
       allocate (system%phi_dot(n), system%b(n), system%lambda(n), source=0.0_wp)
    end subroutine declare_rows

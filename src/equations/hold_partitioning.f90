@@ -106,7 +106,7 @@ contains
       select type (system)
       class is (planar_system_t)
          if (system%rows%n_solve == 0) return
-         if (.not. allocated(self%jac)) call make_room(self, system%rows%n_solve, system%n_position)
+         if (.not. allocated(self%jac)) call make_room(self, system%rows%n_solve, 3*system%rows%n_unknown)
          if (self%rank < 0) then
             call system%set_motion(t, y)
             call system%evaluate_rows(t)
@@ -194,7 +194,7 @@ contains
       integer :: info, k, m, n
 
       m = system%rows%n_solve
-      n = system%n_position
+      n = 3*system%rows%n_unknown
       if (.not. allocated(self%order)) self%order = [(k, k=1, n)]
       call scaled_jacobian(self, system)
       allocate (pivots(n), source=0)

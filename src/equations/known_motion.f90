@@ -132,8 +132,9 @@ contains
       motion%a(1:2, b) = motion%a(1:2, b) + motion%a(1:2, a) + motion%alpha(3, a)*[-s(2), s(1)] - w*w*s
    end subroutine add_base
 
-   !> Power that the drivers of known bodies give to the mechanism. The rows that fix these bodies are fulfilled, so that it is
-   !> lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and what the solved rows take from them, times their speed.
+   !> Power that the drivers of known bodies give to the mechanism, with the bodies that they guide counted among them. The rows
+   !> that fix these bodies are fulfilled, so that it is lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and what
+   !> the solved rows take from them, times their speed.
    pure real(wp) function power_of_known(n, body, n_known, known, n_body, n_row, mass, g, jac, lambda, v, omega, a, alpha) &
       result(power)
       integer, intent(in) :: n                      !! number of known bodies
@@ -166,10 +167,11 @@ contains
       end do
    end function power_of_known
 
-   !> Multipliers of the rows that fix the known bodies. Those of the solved rows are there; all rows are evaluated.
-   pure subroutine find_multipliers(known, rows, mass, g, a, rest, lambda)
+   !> Multipliers of the rows that fix the known bodies. Those of all other rows are there; all rows are evaluated.
+   pure subroutine find_multipliers(known, rows, carried, mass, g, a, rest, lambda)
       type(known_t), intent(in) :: known          !! the bodies
       type(rows_t), intent(in) :: rows            !! all rows
+      integer, intent(in) :: carried(:, :)        !! (3, sides) sides of other rows that are known bodies: row, place, body
       real(wp), intent(in) :: mass(:, :)          !! (3, bodies) masses [kg, kg, kg.m^2]
       real(wp), intent(in) :: g(:, 0:)            !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: a(:, 0:)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
@@ -183,10 +185,10 @@ contains
          b = known%body(k)
          rest(:, b) = g(:, b) - mass(:, b)*a(:, b)
       end do
-      do k = 1, rows%n_known
-         row = rows%known(1, k)
-         place = rows%known(2, k) - 6*(row - 1)
-         b = rows%known(3, k)
+      do k = 1, size(carried, 2)
+         row = carried(1, k)
+         place = carried(2, k) - 6*(row - 1)
+         b = carried(3, k)
          rest(:, b) = rest(:, b) - rows%jac(place + 1:place + 3, row)*lambda(row)
       end do
       do k = known%n, 1, -1

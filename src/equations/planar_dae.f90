@@ -2,7 +2,6 @@
 !>
 !> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
 submodule(planar_system) planar_dae
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
 
 contains

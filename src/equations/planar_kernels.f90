@@ -40,14 +40,15 @@ contains
    end subroutine planar_loads
 
    !> Derivative of coordinates and rates. Status 1 if an acceleration is not a finite number.
-   pure subroutine state_rates(n, unknown, n_body, v, omega, a, ydot, status)
+   pure subroutine state_rates(n, unknown, n_body, v, omega, a, rates, accelerations, status)
       integer, intent(in) :: n                      !! number of unknown bodies
       integer, intent(in) :: unknown(n)             !! (n) their numbers
       integer, intent(in) :: n_body                 !! number of bodies
       real(wp), intent(in) :: v(3, 0:n_body)        !! (3, 0:bodies) velocities [m/s]
       real(wp), intent(in) :: omega(3, 0:n_body)    !! (3, 0:bodies) angular velocities [rad/s]
       real(wp), intent(in) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout) :: ydot(3, 2*n)       !! (3, 2 n) derivatives [any]
+      real(wp), intent(inout) :: rates(3, n)        !! (3, n) derivatives of the coordinates [m/s, m/s, rad/s]
+      real(wp), intent(inout) :: accelerations(3, n)   !! (3, n) derivatives of the rates [m/s^2, m/s^2, rad/s^2]
       integer, intent(out) :: status                !! 0: all finite
 
       real(wp) :: sum
@@ -56,12 +57,12 @@ contains
       sum = 0.0_wp
       do k = 1, n
          body = unknown(k)
-         ydot(1, k) = v(1, body)
-         ydot(2, k) = v(2, body)
-         ydot(3, k) = omega(3, body)
-         ydot(1, n + k) = a(1, body)
-         ydot(2, n + k) = a(2, body)
-         ydot(3, n + k) = a(3, body)
+         rates(1, k) = v(1, body)
+         rates(2, k) = v(2, body)
+         rates(3, k) = omega(3, body)
+         accelerations(1, k) = a(1, body)
+         accelerations(2, k) = a(2, body)
+         accelerations(3, k) = a(3, body)
          sum = sum + abs(a(1, body)) + abs(a(2, body)) + abs(a(3, body))
       end do
       status = merge(0, 1, ieee_is_finite(sum))

@@ -162,8 +162,8 @@ contains
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
-      if (system%known%n > 0) call system%find_reactions(t)
       call system%set_state(t, y, ydot)
+      if (system%rows%n > system%rows%n_solve) call system%find_reactions(t)
       call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state
 

@@ -1,7 +1,7 @@
 !> A planar scene as a system of ordinary differential equations with events.
 !>
-!> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, their rates, and the
-!> quadratures of the energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
+!> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, then one of each guided body; their rates;
+!> and the quadratures of the energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
 !> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less Phi_q a of the bodies whose motion is known.
 !>
 !> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per loose joint: lost in contact, lost by
@@ -11,15 +11,17 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module planar_system
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use augmented, only: augmented_t
    use bodies, only: bodies_t
    use clearance_set, only: clearance_slot_t
    use dae_system, only: dae_system_t
    use force_set, only: force_slot_t
+   use guided_motion, only: guided_rates, guided_t, move_guided, set_guided_acceleration
    use hold, only: hold_t
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
-   use known_motion, only: find_multipliers, known_t, move_known, power_of_known
+   use known_motion, only: known_t, move_known
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
    use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates, take_known
    implicit none (type, external)
@@ -44,6 +46,10 @@ module planar_system
       type(bodies_t) :: bodies                           !! the bodies
       logical, allocatable :: is_known(:)                !! (bodies) whether the motion of a body is a known function of time
       type(known_t) :: known                             !! those of them whose motion is a known function of time
+      type(guided_t) :: guided                           !! bodies with one coordinate only
+      integer, allocatable :: carried(:, :)              !! (3, sides) sides that are known bodies, of rows whose multipliers
+                                                         !! are found without them: row, place in the Jacobian, body
+      integer, allocatable :: driven(:)                  !! (bodies) known bodies, and those guided by them
       real(wp), allocatable :: mass(:, :)                !! (3, bodies) masses [kg, kg, kg.m^2]
       real(wp), allocatable :: inverse_mass(:, :)        !! (3, 0:bodies) the same inverted, 0 if known [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), allocatable :: weight(:, :)              !! (3, 0:bodies) force of gravity [N]
@@ -147,6 +153,19 @@ module planar_system
          real(wp), intent(out) :: r_mu(:)               !! (rows) violations [m or rad]
          integer, intent(out) :: status                 !! outcome
       end subroutine planar_dae_residual
+      !> Multipliers of the rows that are not solved for, at the state evaluated last. Reports want them.
+      module subroutine planar_find_reactions(self, t)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+      end subroutine planar_find_reactions
+
+      !> Powers of the ledger.
+      pure module subroutine ledger_rates(self, power)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self  !! the system
+         real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
+      end subroutine ledger_rates
    end interface
 
 contains
@@ -169,9 +188,20 @@ contains
       end if
       call evaluate_terms(self, t, status)
       if (status /= 0) return
-      call find_accelerations(self, self%g, .true., status)
-      if (status /= 0) return
-      call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, ydot, status)
+      associate (n => 3*self%rows%n_unknown, nq => self%n_position, guided => self%guided)
+         if (n > 0) then
+            call find_accelerations(self, self%g, .true., status)
+            if (status /= 0) return
+            call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, &
+                             ydot, ydot(nq + 1:), status)
+            if (status /= 0) return
+         end if
+         if (guided%n > 0) then
+            call guided_rates(guided%n, guided%n_turning, guided%body, guided%mass, guided%ease, guided%along, guided%a_0, &
+                              self%n_body, self%g, y(nq + n + 1:), ydot(n + 1:), ydot(nq + n + 1:), status)
+            if (self%with_ledger) call set_guided_acceleration(guided, ydot(nq + n + 1:), self%motion)
+         end if
+      end associate
       if (.not. self%with_ledger) return
       call self%ledger_rates(ydot(2*self%n_position + 1:))
    end subroutine planar_evaluate
@@ -222,7 +252,7 @@ contains
       do k = 1, size(self%clearances)
          call self%clearances(k)%set%evaluate(self%motion, self%loads, self%losses)
       end do
-      call planar_evaluate_rows(self, t)
+      if (self%rows%n_solve > 0) call planar_evaluate_rows(self, t)
       call planar_loads(self%n_body, self%loads%force, self%loads%moment, self%g)
    end subroutine evaluate_terms
 
@@ -284,52 +314,6 @@ contains
       if (self%bad_row > 0) status = 1
    end subroutine find_accelerations
 
-   !> Multipliers of the rows that fix the known bodies, at the state evaluated last. Reports want them.
-   subroutine planar_find_reactions(self, t)
-      class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: t                      !! time [s]
-
-      integer :: body, k
-
-      do k = self%n_solved_set + 1, size(self%joints)
-         call self%joints(k)%set%evaluate(t, self%motion, self%rows)
-      end do
-      do k = 1, self%known%n
-         body = self%known%body(k)
-         self%a(:, body) = [self%motion%a(1, body), self%motion%a(2, body), self%motion%alpha(3, body)]
-      end do
-      call find_multipliers(self%known, self%rows, self%mass, self%g, self%a, self%rest, self%lambda)
-   end subroutine planar_find_reactions
-
-   !> Powers of the ledger.
-   pure subroutine ledger_rates(self, power)
-      class(planar_system_t), intent(in) :: self  !! the system
-      real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
-
-      integer :: k
-
-      power(work_drive) = 0.0_wp
-      power(work_stabilisation) = 0.0_wp
-      if (self%known%n > 0) then
-         power(work_drive) = power_of_known(self%known%n, self%known%body, self%rows%n_known, self%rows%known, self%n_body, &
-                                            self%rows%n, self%mass, self%g, self%rows%jac, self%lambda, self%motion%v, &
-                                            self%motion%omega, self%motion%a, self%motion%alpha)
-      end if
-      do k = 1, self%rows%n_solve
-         power(work_drive) = power(work_drive) + self%lambda(k)*self%rows%phi_t(k)
-         power(work_stabilisation) = power(work_stabilisation) - self%lambda(k)*self%phi_dot(k)
-      end do
-      power(work_load) = self%load_power
-      power(lost_damper) = 0.0_wp
-      do k = 1, size(self%forces)
-         power(lost_damper) = power(lost_damper) + self%forces(k)%set%lost_power(self%motion)
-      end do
-      do k = 1, self%n_loose
-         power(n_ledger + 2*k - 1) = self%losses(1, k)
-         power(n_ledger + 2*k) = self%losses(2, k)
-      end do
-   end subroutine ledger_rates
-
    !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
    !> greatest present rate of the mechanism, at least one per second. Angles are not scaled by
    !> their value, so that the error does not grow as a crank counts turns.
@@ -339,18 +323,24 @@ contains
       real(wp), intent(out) :: scale(:)           !! (n) scales [any]
 
       real(wp) :: rate
-      integer :: body, k, nq
+      integer :: body, k, n, nq
 
       nq = self%n_position
+      n = 3*self%rows%n_unknown
       rate = 1.0_wp
-      do k = nq + 1, 2*nq, 3
+      do k = nq + 1, nq + n, 3
          rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
       end do
       do k = 1, self%known%n
          body = self%known%body(k)
          rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
       end do
-      do k = 1, nq, 3
+      do k = 1, self%guided%n
+         scale(n + k) = merge(1.0_wp, self%length_scale, k <= self%guided%n_turning)
+         rate = max(rate, abs(y(nq + n + k))/scale(n + k))
+      end do
+      scale(nq + n + 1:2*nq) = scale(n + 1:nq)*rate
+      do k = 1, n, 3
          scale(k) = self%length_scale
          scale(k + 1) = self%length_scale
          scale(k + 2) = 1.0_wp
@@ -403,7 +393,10 @@ contains
       real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
 
       if (self%known%n > 0) call move_known(self%known, self%joints, t, self%motion)
-      call set_some_motion(self%rows%n_unknown, self%rows%unknown, y, y(self%n_position + 1:2*self%n_position), self%motion)
+      associate (n => 3*self%rows%n_unknown, nq => self%n_position)
+         if (n > 0) call set_some_motion(self%rows%n_unknown, self%rows%unknown, y, y(nq + 1:nq + n), self%motion)
+         if (self%guided%n > 0) call move_guided(self%guided, y(n + 1:nq), y(nq + n + 1:2*nq), self%motion)
+      end associate
    end subroutine planar_set_motion
 
    !> Motion of all bodies, with accelerations, from a state and its derivative.
@@ -422,7 +415,10 @@ contains
       class(planar_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in), contiguous :: ydot(:)    !! (n) derivative of the state [any]
 
-      call set_some_acceleration(self%rows%n_unknown, self%rows%unknown, ydot(self%n_position + 1:2*self%n_position), self%motion)
+      associate (n => 3*self%rows%n_unknown, nq => self%n_position)
+         call set_some_acceleration(self%rows%n_unknown, self%rows%unknown, ydot(nq + 1:nq + n), self%motion)
+         if (self%guided%n > 0) call set_guided_acceleration(self%guided, ydot(nq + n + 1:2*nq), self%motion)
+      end associate
    end subroutine planar_set_acceleration
 
    !> Set and item of a loose joint by its number.

@@ -56,8 +56,8 @@ contains
                     //"projection; or auto", default="auto", choices="auto none baumgarte baumgarte_step " &
                     //"baumgarte_adaptive partitioning augmented_lagrangian projection", &
                     options="alpha beta target penalty omega mu")
-      call add_word(info, "driven_bodies", "bodies that drivers and rigid joints leave no freedom: known functions of time, or " &
-                    //"unknown as the others", default="known", choices="known unknown")
+      call add_word(info, "coordinates", "fewest: driven bodies are known functions of time, a body that one joint holds has one " &
+                    //"coordinate; full: three for every body", default="fewest", choices="fewest full")
       call add_flag(info, "ledger", "whether the energy ledger is kept", default="on")
       call add_number(info, "energy_limit", dim_none, "greatest ledger residual allowed, of the largest energy; 0: none", &
                       default="0", lower=0.0_wp)

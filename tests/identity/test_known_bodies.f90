@@ -22,7 +22,7 @@ module test_known_bodies
    private
    public :: run_test_known_bodies
 
-   character(*), parameter :: words(2) = ["unknown", "known  "]  !! words of `driven_bodies`
+   character(*), parameter :: words(2) = ["full  ", "fewest"]  !! words of `coordinates`
 
    !> Two driven links in series, the second joint with its body i as the moving one; a plate welded to the second link,
    !> a free hand on the plate, a spring, gravity.
@@ -49,6 +49,7 @@ contains
       call suite%test("slider_crank", test_slider_crank)
       call suite%test("contact_on_a_known_body", test_contact_on_a_known_body)
       call suite%test("robot_arm", test_robot_arm)
+      call suite%test("guided_bodies", test_guided)
       call suite%test("loop_between_known_bodies", test_loop)
       call suite%test("two_drivers_on_one_joint", test_two_drivers)
       call suite%test("known_is_what_is_smooth", test_smooth)
@@ -60,10 +61,10 @@ contains
    !> A deck with its driven bodies among the unknowns, or not.
    function with_word(deck, word) result(text)
       character(*), intent(in) :: deck     !! the deck without that key, [analysis.dynamic] at its end
-      character(*), intent(in) :: word     !! known or unknown
+      character(*), intent(in) :: word     !! full or fewest
       character(:), allocatable :: text    !! with it
 
-      text = replace(deck, "driven_bodies = unknown"//nl, "")//nl//"driven_bodies = "//trim(word)
+      text = replace(deck, "coordinates = full"//nl, "")//nl//"coordinates = "//trim(word)
    end function with_word
 
    !> Both systems of a deck.
@@ -222,6 +223,42 @@ contains
       call compare_often(arm//"[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte", 3, 1.5_wp, error)
    end subroutine test_robot_arm
 
+   !> A driven plate that carries two pendulums and two sliders, each with its joint the one way round and the other, and as many
+   !> on the ground: one coordinate each, and all that is reported as with three.
+   subroutine test_guided(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      character(*), parameter :: deck = "[scene]"//nl//"gravity = 0.5 -9.81 m/s^2"//nl// &
+         "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m] angle[rad] omega[rad/s]"//nl//"plate 3 0.2 0.1 0 0.2 0"//nl// &
+         "bob_1 0.5 0.004 0.3 -0.2 0.4 2"//nl//"bob_2 0.6 0.005 -0.2 0.3 -0.7 1"//nl//"cart_1 0.8 0.01 0.4 0.1 0.9 0"//nl// &
+         "cart_2 0.7 0.02 -0.3 0.1 -0.3 0"//nl//"bob_3 0.4 0.003 1.3 0 0.1 3"//nl//"cart_3 0.9 0.01 0 -1 0.6 0"//nl// &
+         "cart_4 0.3 0.02 0 1 -0.4 0"//nl// &
+         "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"far ground 1 0.1"//nl//"low ground 0.1 -1"//nl// &
+         "high ground 0.1 1"//nl//"hub plate -0.1 0.01"//nl//"p_1 plate 0.2 0"//nl//"p_2 plate -0.2 0.1"//nl// &
+         "p_3 plate 0.1 0.1"//nl//"p_4 plate -0.1 -0.1"//nl//"b_1 bob_1 -0.1 0.02"//nl//"b_2 bob_2 0.1 0.03"//nl// &
+         "c_1 cart_1 0.03 0.02"//nl//"c_2 cart_2 -0.02 0.05"//nl//"b_3 bob_3 -0.2 0"//nl//"c_3 cart_3 0.01 0.02"//nl// &
+         "c_4 cart_4 -0.02 0.03"//nl// &
+         "[joint.revolute]"//nl//"name i j"//nl//"axle base hub"//nl//"hinge_1 p_1 b_1"//nl//"hinge_2 b_2 p_2"//nl// &
+         "hinge_3 far b_3"//nl// &
+         "[joint.translational]"//nl//"name i j axis axis_angle"//nl//"guide_1 p_3 c_1 x 0.3rad"//nl// &
+         "guide_2 c_2 p_4 y -0.2rad"//nl//"guide_3 low c_3 x 0.1rad"//nl//"guide_4 c_4 high y 0.2rad"//nl// &
+         "[driver.angle]"//nl//"name joint angle"//nl//"motor axle {0.4 rad*sin(3 rad/s*t)}"//nl// &
+         "[force.spring]"//nl//"name i j stiffness[N/m] damping[N.s/m] free_length[m]"//nl//"s_1 b_1 c_1 90 3 0.2"//nl// &
+         "s_2 c_2 far 40 1 0.3"//nl//"s_3 b_3 c_3 50 2 0.3"//nl//"s_4 b_2 c_4 60 1 0.2"//nl// &
+         "[force.torque]"//nl//"name body moment"//nl//"twist bob_1 0.3N.m"//nl//"push cart_1 0.2N.m"//nl// &
+         "[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte"
+      type(planar_system_t) :: full, small
+      real(wp), allocatable :: start(:)
+
+      call both_systems(deck, 1, full, small, start, error)
+      if (allocated(error)) return
+      call check_equal(error, small%guided%n, 7, "guided bodies")
+      call check_equal(error, small%guided%n_turning, 3, "those that turn")
+      call check_equal(error, small%n_position, 7, "coordinates")
+      call check_equal(error, small%rows%n_solve, 0, "rows that are solved")
+      call compare_often(deck, 1, 1.0_wp, error)
+   end subroutine test_guided
+
    !> Two bars between two driven cranks: known bodies at both ends of a loop, which a distance closes.
    subroutine test_loop(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -275,7 +312,7 @@ contains
                 "spare shoulder {2 rad*sin(10 rad/s*t)*cos(10 rad/s*t)}"//nl// &
                 "[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte"//nl//"solver = "//solver%name()
          call start_text(deck, two, y, error)
-         if (.not. allocated(error)) call start_text(with_word(without(deck, "spare"), "known"), one, start, error)
+         if (.not. allocated(error)) call start_text(with_word(without(deck, "spare"), "fewest"), one, start, error)
          if (allocated(error)) return
          call check_equal(error, two%known%n, 0, "known bodies with two drivers")
          call check_equal(error, one%known%n, 1, "known bodies with one driver")
@@ -286,7 +323,8 @@ contains
          call complete_state(one, 0.3_wp, start, y)
          call two%evaluate(0.3_wp, y, ydot_two, status)
          call check_equal(error, status, 0, "status with two drivers, "//solver%name())
-         a = [one%motion%a(1:2, 1), one%motion%alpha(3, 1), ydot_one(4:6)]
+         call one%set_state(0.3_wp, start, ydot_one)
+         a = [one%motion%a(1:2, 1), one%motion%alpha(3, 1), one%motion%a(1:2, 2), one%motion%alpha(3, 2)]
          call check_close(error, ydot_two(7:12), a, 1.0e-9_wp, "accelerations with two drivers, "//solver%name(), relative=.true.)
          call one%find_reactions(0.3_wp)
          associate (moment => one%lambda(one%known%row(3, 1)), shares => two%lambda(size(two%lambda) - 1:))
@@ -368,16 +406,16 @@ contains
       real(wp), allocatable :: scale(:), y(:), ydot(:)
       integer :: status
 
-      call start_text(with_word(slider_crank("", "damped", "none", "clearance"), "known"), system, y, error)
+      call start_text(with_word(slider_crank("", "damped", "none", "clearance"), "fewest"), system, y, error)
       if (allocated(error)) return
-      y(7:12) = 0.0_wp
+      y(3:4) = 0.0_wp
       ydot = y
       scale = y
       call system%evaluate(0.0_wp, y, ydot, status)
       call system%weights(y, scale)
-      call check_close(error, scale(7:9), 5000.0_wp/60.0_wp*two_pi*[0.06_wp, 0.06_wp, 1.0_wp], 1.0e-9_wp, &
-                       "scales of the rod's rates")
-      call check_close(error, scale(1:3), [0.06_wp, 0.06_wp, 1.0_wp], 1.0e-15_wp, "scales of its coordinates")
+      call check_close(error, scale(3:4), 5000.0_wp/60.0_wp*two_pi*[1.0_wp, 0.06_wp], 1.0e-9_wp, &
+                       "scales of the rates of rod and slider")
+      call check_close(error, scale(1:2), [1.0_wp, 0.06_wp], 1.0e-15_wp, "scales of the rod's angle and the slider's way")
    end subroutine test_error_scales
 
    !> Works and energies after a run agree, and the ledger closes in both.

@@ -20,8 +20,8 @@ module test_dynamic
       "[points]"//nl//"name body xi[m] eta[m]"//nl//"axle ground 0 0"//nl//"hub rotor 0 0"//nl// &
       "[joint.revolute]"//nl//"name i j"//nl//"bearing axle hub"//nl// &
       "[force.torque]"//nl//"name body moment"//nl//"motor rotor {0.2 N.m*cos(2 rad/s*t)}"//nl
-   character(*), parameter :: settings = "[analysis.dynamic]"//nl//"start = given"//nl//"tolerance = 1e-10"//nl// &
-      "stabilise = baumgarte"//nl
+   character(*), parameter :: settings = "[analysis.dynamic]"//nl//"coordinates = full"//nl// &
+      "start = given"//nl//"tolerance = 1e-10"//nl//"stabilise = baumgarte"//nl
 
    !> A pin of 0.3 kg, free in a ring of the ground, thrown along x at 2 m/s from the middle. Elastic.
    character(*), parameter :: pin = "deck = 1"//nl// &

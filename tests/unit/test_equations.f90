@@ -39,7 +39,7 @@ contains
       deck = "[scene]"//nl//"gravity = 0 -9.81 m/s^2"//nl// &
              "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m] angle[rad]"//nl//"bob 2 0.05 0.5 0.2 0"//nl// &
              "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0.1 0.2"//nl//"eye bob -0.4 0"//nl// &
-             tables//nl//"[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s"//nl//"stabilise = none"
+             tables//nl//"[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s"//nl//"stabilise = none"
    end function one_body
 
    !> State of the pendulum at an angle.
@@ -263,7 +263,7 @@ contains
                           "[points]"//nl//"name body xi[m] eta[m]"//nl//"seat ground 0 0"//nl//"hub rotor 0 0"//nl// &
                           "[joint.revolute]"//nl//"name i j"//nl//"axle seat hub"//nl// &
                           "[force.torque]"//nl//"name body moment"//nl//"twist rotor {0.3 N.m*cos(5 rad/s*t)}"//nl// &
-                          "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, error)
+                          "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s", system, error)
       if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)
       y(6) = -2.0_wp

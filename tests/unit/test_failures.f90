@@ -201,6 +201,7 @@ contains
                     .true., angle, summary, message, error)
       call check_says(error, message, "worst constraint there: 'motor', violated by 0.3 rad"//nl)
       call run_text(pendulum//"[force.torque]"//nl//"name body moment"//nl//"twist bob 1e3N.m"//nl//second//"step = 5 ms"//nl// &
+                    "coordinates = full"//nl// &
                     "maximum_steps = 20"//nl, .true., length, summary, message, error)
       call check_says(error, message, "worst constraint there: 'pin', violated by ")
       call check_says(error, message, " m"//nl)

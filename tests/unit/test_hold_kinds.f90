@@ -26,7 +26,8 @@ module test_hold_kinds
    !> A rotor on its centre of mass: two rows, Phi = -r, linear in the coordinates.
    character(*), parameter :: rotor = "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"rotor 2 0.05 0 0"//nl// &
       "[points]"//nl//"name body xi[m] eta[m]"//nl//"seat ground 0 0"//nl//"hub rotor 0 0"//nl// &
-      "[joint.revolute]"//nl//"name i j"//nl//"axle seat hub"//nl//"[analysis.dynamic]"//nl//"end = 1 s"//nl
+      "[joint.revolute]"//nl//"name i j"//nl//"axle seat hub"//nl//"[analysis.dynamic]"//nl//"coordinates = full"//nl// &
+      "end = 1 s"//nl
 
    !> A four-bar without loads; the settings follow.
    character(*), parameter :: four_bar = "deck = 1"//nl// &

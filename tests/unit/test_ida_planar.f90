@@ -168,7 +168,7 @@ contains
                 "name mass[kg] inertia[kg.m^2] x[m] y[m] angle[deg]"//nl//trim(place)//nl// &
                 "[points]"//nl//"name body xi[m] eta[m]"//nl//"pivot ground 0 0"//nl//"top bob -0.4 0"//nl// &
                 "[joint.revolute]"//nl//"name i j"//nl//"hinge pivot top"//nl// &
-                "[analysis.dynamic]"//nl//"start = given"//nl//"end = 3 s"//nl
+                "[analysis.dynamic]"//nl//"method = ida"//nl//"start = given"//nl//"end = 3 s"//nl
       end function pendulum_deck
 
    end subroutine test_pendulum
@@ -216,7 +216,7 @@ contains
 
       call start_text("[scene]"//nl//"gravity = 0 -9.81 m/s^2"//nl//"[bodies]"//nl// &
                       "name mass[kg] inertia[kg.m^2] x[m] y[m] angle[deg]"//nl//"stone 2 0.1 1 3 0"//nl// &
-                      "[analysis.dynamic]"//nl//"start = given"//nl//"end = 1 s"//nl, system, y, error)
+                      "[analysis.dynamic]"//nl//"method = ida"//nl//"start = given"//nl//"end = 1 s"//nl, system, y, error)
       if (allocated(error)) return
       call find_integrator("ida", method)
       method%controls%tolerance = 1.0e-8_wp

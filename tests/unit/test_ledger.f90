@@ -181,7 +181,7 @@ contains
                           "[driver.angle]"//nl//"name joint angle"//nl//"muscle bend {0.3 rad*sin(7 rad/s*t)}"//nl// &
                           "[force.point]"//nl//"name point fx fy"//nl//"push hand {4 N + 2 N/s*t} {-3 N*cos(2 rad/s*t)}"//nl// &
                           "[force.torque]"//nl//"name body moment"//nl//"twist upper {0.6 N.m*sin(3 rad/s*t)}"//nl// &
-                          "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, error)
+                          "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s", system, error)
       if (allocated(error)) return
       allocate (y(system%n), ydot(system%n), source=0.0_wp)
       random%state = 23_i8

@@ -16,7 +16,7 @@ module test_mobility
       "puck 1 0.1 3 0"//nl//"[points]"//nl//"name body xi[m] eta[m]"//nl// &
       "g1 ground -0.4 0"//nl//"g2 ground 0.1 0"//nl//"g3 ground 0.5 0"//nl//"g4 ground 3 0"//nl// &
       "b1 bar -0.4 0"//nl//"b2 bar 0.1 0"//nl//"b3 bar 0.5 0"//nl//"p bar 0 0"//nl//"mid puck 0 0"//nl// &
-      "[analysis.dynamic]"//nl//"end = 1 s"//nl//"driven_bodies = unknown"//nl
+      "[analysis.dynamic]"//nl//"end = 1 s"//nl//"coordinates = full"//nl
 
 contains
 

@@ -45,7 +45,7 @@ contains
          call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"rotor 2 0.05 0 0"//nl// &
                              "[points]"//nl//"name body xi[m] eta[m]"//nl//"seat ground 0 0"//nl//"hub rotor 0 0"//nl// &
                              "[joint.revolute]"//nl//"name i j"//nl//"axle seat hub"//nl// &
-                             "[analysis.dynamic]"//nl//"end = 1 s"//nl//setting, system, error)
+                             "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s"//nl//setting, system, error)
          if (allocated(error)) return
          allocate (y(system%n), ydot(system%n), source=0.0_wp)
          y(1:2) = [0.01_wp, -0.02_wp]

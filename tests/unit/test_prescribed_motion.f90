@@ -21,7 +21,7 @@ module test_prescribed_motion
       "big rod -60 0"//nl//"small rod 60 0"//nl//"pin slider 0 0"//nl// &
       "[joint.revolute]"//nl//"name i j"//nl//"main main heel"//nl//"big_end throw big"//nl//"gudgeon small pin"//nl// &
       "[joint.translational]"//nl//"name i j axis"//nl//"guide main pin x"//nl// &
-      "[analysis.dynamic]"//nl//"end = 1 s"//nl//"driven_bodies = unknown"//nl  !! the book's slider-crank with ideal joints
+      "[analysis.dynamic]"//nl//"end = 1 s"//nl//"coordinates = full"//nl  !! the book's slider-crank with ideal joints
 
 contains
 

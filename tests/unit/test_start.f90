@@ -119,7 +119,7 @@ contains
                       "bob 2 0.05 0.4 0 3 1.2 7"//nl// &
                       "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"eye bob -0.4 0"//nl// &
                       "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
-                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error)
+                      "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s", system, y, error)
       if (allocated(error)) return
       ! vx = 0; vy = 0.4 omega with (vy - 1.2)/0.4 + omega - 7 = 0
       call check_close(error, y(4:6), [0.0_wp, 2.0_wp, 5.0_wp], 1.0e-14_wp, "velocities", relative=.true.)
@@ -139,7 +139,7 @@ contains
                       "[points]"//nl//"name body xi[m] eta[m]"//nl//"hub left 0 0"//nl//"nave right 0 0"//nl// &
                       "end left 0.5 0"//nl// &
                       "[joint.revolute]"//nl//"name i j"//nl//"axle hub nave"//nl// &
-                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error, report)
+                      "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s", system, y, error, report)
       if (allocated(error)) return
       call check_close(error, y(1:6), [3.5_wp, 0.0_wp, 0.0_wp, 3.5_wp, 0.0_wp, 0.5_wp], 1.0e-14_wp, "positions")
       call check_close(error, report%moved, 0.5_wp, 1.0e-14_wp, "greatest move")
@@ -197,7 +197,7 @@ contains
                       "[joint.revolute]"//nl//"name i j"//nl//"shoulder hook eye"//nl// &
                       "[joint.rigid]"//nl//"name i j"//nl//"weld wrist palm"//nl// &
                       "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor shoulder 8"//nl// &
-                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error)
+                      "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s", system, y, error)
       if (allocated(error)) return
       ydot = y
       call system%evaluate(0.0_wp, y, ydot, status)
@@ -220,7 +220,7 @@ contains
                       "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"eye bob -0.4 0"//nl// &
                       "[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl// &
                       "[driver.angle]"//nl//"name joint angle"//nl//"motor pin {0.3 rad + 0.5 rad*sin(6 rad/s*t)}"//nl// &
-                      "[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s", system, y, error)
+                      "[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s", system, y, error)
       if (allocated(error)) return
       call check_close(error, y(1:3), [0.4_wp*cos(0.3_wp), 0.4_wp*sin(0.3_wp), 0.3_wp], 1.0e-15_wp, "position")
       call check_close(error, y(4:6), 3.0_wp*[-0.4_wp*sin(0.3_wp), 0.4_wp*cos(0.3_wp), 1.0_wp], 1.0e-13_wp, "velocity")
@@ -294,7 +294,7 @@ contains
       deck = "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"bob 2 0.05 0.4 0"//nl// &
              "[points]"//nl//"name body xi[m] eta[m]"//nl//"hook ground 0 0"//nl//"eye bob -0.4 0"//nl// &
              "nail ground 0.8 0"//nl//"toe bob 0.4 0"//nl// &
-             tables//nl//"[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s"
+             tables//nl//"[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s"
    end function pendulum
 
    !> Two speeds for one joint: in the middle each is off by half.

@@ -46,7 +46,7 @@ contains
       if (n == 2) deck = deck//"loop lower -0.4 0"//nl
       deck = deck//"[joint.revolute]"//nl//"name i j"//nl//"pin hook eye"//nl
       if (n == 2) deck = deck//"elbow end loop"//nl
-      deck = deck//"[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s"//nl
+      deck = deck//"[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s"//nl
    end function rods
 
    !> Velocity of a point at the end of an arm that turns.
@@ -166,7 +166,7 @@ contains
          "[points]"//nl//"name body xi[m] eta[m]"//nl//"hole ground 0 0"//nl//"centre pin 0 0"//nl// &
          "[material]"//nl//"name young[GPa] poisson"//nl//"steel 207 0.3"//nl//"[contact.hertz]"//nl//"name"//nl//"hertz"//nl// &
          "[clearance.revolute]"//nl//"name bearing journal bearing_radius[mm] clearance[mm] material law"//nl// &
-         "ring hole centre 10 0.5 steel hertz"//nl//"[analysis.dynamic]"//nl//"driven_bodies = unknown"//nl//"end = 1 s"//nl
+         "ring hole centre 10 0.5 steel hertz"//nl//"[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s"//nl
       type(assembly_t) :: report
       type(planar_system_t) :: system
       real(wp), allocatable :: y(:)

@@ -1,0 +1,236 @@
+!> Which bodies of a scene are left out of the unknowns, wholly or but for one coordinate, and how they move.
+!>
+!> Bodies whose motion is a known function of time leave the unknowns, with the rows that fix them; a body that one joint leaves a
+!> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations.
+module build_known
+   use find_guided, only: find_guided_bodies, guide_t, kind_sliding
+   use find_known, only: find_known_bodies, joint_points, link_t
+   use joint_registry, only: n_joint_kinds
+   use joint_set, only: joint_set_t
+   use joint_translational, only: joint_translational_t
+   use kinds, only: wp
+   use planar_system, only: planar_system_t
+   use scene, only: analysis_dynamic, scene_t
+   use section_info, only: column_of
+   implicit none (type, external)
+   private
+   public :: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
+
+   !> Which rows of a table of joints leave the equations.
+   type :: choice_t
+      logical, allocatable :: is_fixing(:)  !! (rows of the table)
+   end type choice_t
+
+   !> What leaves the unknowns and the equations.
+   type :: reduction_t
+      type(link_t), allocatable :: links(:)        !! (known bodies) how they are fixed
+      type(guide_t), allocatable :: guides(:)      !! (guided bodies) how they are held
+      type(choice_t) :: choices(n_joint_kinds)     !! (kinds) which rows of each table leave the equations
+   end type reduction_t
+
+contains
+
+   !> Angles of the bodies at the start, with that of the ground.
+   pure function start_angles(scene) result(angle)
+      type(scene_t), intent(in) :: scene         !! the scene
+      real(wp) :: angle(0:scene%bodies%n)        !! (0:bodies) angles [rad]
+
+      angle(0) = 0.0_wp
+      angle(1:) = scene%bodies%angle
+   end function start_angles
+
+   !> The bodies that leave the unknowns, unless the deck wants all coordinates, and the rows that leave the equations.
+   !> Only an integration has unknowns: elsewhere all bodies stay together; so do bodies that rows hold at the start only, and
+   !> those of a method that holds the constraints by itself keep all their coordinates.
+   subroutine choose_bodies(scene, all_ideal, with_start_rows, reduction)
+      type(scene_t), intent(in) :: scene             !! the scene
+      logical, intent(in) :: all_ideal               !! whether all joints with clearance are taken as ideal
+      logical, intent(in) :: with_start_rows         !! whether rows that hold only at the start take part
+      type(reduction_t), intent(out) :: reduction    !! what leaves
+
+      logical :: is_known(0:scene%bodies%n)
+      integer :: k
+
+      do k = 1, n_joint_kinds
+         allocate (reduction%choices(k)%is_fixing(size(scene%joints(k)%items)), source=.false.)
+      end do
+      allocate (reduction%links(0), reduction%guides(0))
+      if (scene%analysis /= analysis_dynamic) return
+      if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") return
+      call find_known_bodies(scene, reduction%links)
+      ! without any unknown nothing would control the step, and the works would be as good as chance
+      if (size(reduction%links) == scene%bodies%n) reduction%links = reduction%links(:0)
+      associate (links => reduction%links)
+         do k = 1, size(links)
+            reduction%choices(links(k)%kind)%is_fixing(links(k)%item) = .true.
+            if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
+         end do
+         if (with_start_rows .or. scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text == "ida") return
+         is_known = .false.
+         is_known([0, links%body]) = .true.
+      end associate
+      call find_guided_bodies(scene, is_known, all_ideal, reduction%guides)
+      associate (guides => reduction%guides)
+         do k = 1, size(guides)
+            reduction%choices(guides(k)%kind)%is_fixing(guides(k)%item) = .true.
+         end do
+      end associate
+   end subroutine choose_bodies
+
+   !> How the known bodies are moved, and which rows fix them.
+   subroutine set_known(scene, links, choices, system)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      type(link_t), intent(in) :: links(:)                    !! (known bodies) how they are fixed
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      type(planar_system_t), intent(inout) :: system          !! known bodies are set; joints are there
+
+      real(wp) :: angle(0:scene%bodies%n)
+      integer :: body(2), item, k, n, point(2), side, slot
+
+      n = size(links)
+      angle = start_angles(scene)
+      associate (known => system%known)
+         known%n = n
+         allocate (known%body(n), known%base(n), known%slot(n), known%item(n), known%row(3, n), known%side(3, n), source=0)
+         allocate (known%s_body(3, n), known%s_base(3, n), known%sign(n), known%offset(n), source=0.0_wp)
+         do k = 1, n
+            associate (link => links(k))
+               call joint_points(scene, link%kind, link%item, point(1), point(2))
+               body = scene%points%body(point)
+               side = merge(1, 2, body(1) == link%body)
+               known%body(k) = body(side)
+               known%base(k) = body(3 - side)
+               known%s_body(:, k) = scene%points%s(:, point(side))
+               known%s_base(:, k) = scene%points%s(:, point(3 - side))
+               known%side(:, k) = side
+               call find_fixing(scene, choices, system, link%kind, link%item, slot, item)
+               call take_rows(system%joints(slot)%set, item, known%row(:, k))
+               if (link%driver == 0) then
+                  known%offset(k) = angle(body(side)) - angle(body(3 - side))
+               else
+                  call find_fixing(scene, choices, system, link%driver, link%driving, known%slot(k), known%item(k))
+                  call take_rows(system%joints(known%slot(k))%set, known%item(k), known%row(3:3, k))
+                  known%sign(k) = merge(1.0_wp, -1.0_wp, side == 2)
+               end if
+            end associate
+         end do
+      end associate
+      allocate (system%is_known(system%n_body), source=.false.)
+      system%is_known(system%known%body) = .true.
+      do k = 1, system%n_body
+         if (.not. system%is_known(k)) system%inverse_mass(:, k) = 1.0_wp/system%mass(:, k)
+      end do
+
+   end subroutine set_known
+
+   !> How the guided bodies move, and which rows hold them.
+   subroutine set_guided(scene, guides, choices, system)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      type(guide_t), intent(in) :: guides(:)                  !! (guided bodies) how they are held
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      type(planar_system_t), intent(inout) :: system          !! guided bodies are set; joints and known bodies are there
+
+      real(wp) :: angle(0:scene%bodies%n)
+      integer :: body(2), item, k, n, point(2), slot
+
+      n = size(guides)
+      angle = start_angles(scene)
+      associate (guided => system%guided)
+         guided%n = n
+         guided%n_turning = count([(scene%joints(guides(k)%kind)%info%name /= kind_sliding, k=1, n)])
+         allocate (guided%body(n), guided%base(n), guided%row(2, n), guided%side(n), source=0)
+         allocate (guided%arm(2, n), guided%s_base(2, n), guided%turned(2, n), guided%along(2, n), guided%a_0(2, n), &
+                   guided%offset(n), guided%mass(n), guided%ease(n), source=0.0_wp)
+         do k = 1, n
+            call joint_points(scene, guides(k)%kind, guides(k)%item, point(1), point(2))
+            body = scene%points%body(point)
+            guided%side(k) = merge(1, 2, body(1) == guides(k)%body)
+            if (guided%side(k) == 1) point = point([2, 1])
+            guided%body(k) = guides(k)%body
+            guided%base(k) = scene%points%body(point(1))
+            guided%mass(k) = scene%bodies%mass(guided%body(k))
+            guided%s_base(:, k) = scene%points%s(1:2, point(1))
+            call find_fixing(scene, choices, system, guides(k)%kind, guides(k)%item, slot, item)
+            associate (set => system%joints(slot)%set, s_body => scene%points%s(1:2, point(2)))
+               call take_rows(set, item, guided%row(:, k))
+               select type (set)
+               class is (joint_translational_t)
+                  guided%offset(k) = angle(guided%body(k)) - angle(guided%base(k))
+                  guided%turned(:, k) = [cos(guided%offset(k)), sin(guided%offset(k))]
+                  guided%arm(:, k) = set%axis(:, item)
+                  if (guided%side(k) == 1) guided%arm(:, k) = turn(guided%turned(:, k), guided%arm(:, k))
+                  guided%s_base(:, k) = guided%s_base(:, k) - turn(guided%turned(:, k), s_body)
+                  guided%ease(k) = 1.0_wp/guided%mass(k)
+               class default
+                  guided%arm(:, k) = -s_body
+                  guided%ease(k) = 1.0_wp/(scene%bodies%inertia(guided%body(k)) &
+                                             + guided%mass(k)*dot_product(s_body, s_body))
+               end select
+            end associate
+         end do
+      end associate
+   end subroutine set_guided
+
+   !> What acts on known bodies besides the rows that fix them, and the bodies that move with them.
+   subroutine list_carried(system)
+      type(planar_system_t), intent(inout) :: system   !! the system, sides of rows listed
+
+      integer :: i, k, n, place, row
+
+      associate (guided => system%guided, rows => system%rows)
+         system%driven = [system%known%body, pack(guided%body, guided%base > 0)]
+         allocate (system%carried(3, rows%n_known + 2*count(guided%base > 0)), source=0)
+         system%carried(:, :rows%n_known) = rows%known
+         n = rows%n_known
+         do k = 1, guided%n
+            if (guided%base(k) == 0) cycle
+            do i = 1, 2
+               row = guided%row(i, k)
+               place = 6*(row - 1) + 3*(2 - guided%side(k))
+               n = n + 1
+               system%carried(:, n) = [row, place, guided%base(k)]
+            end do
+         end do
+      end associate
+   end subroutine list_carried
+
+   !> A plane vector turned by an angle.
+   pure function turn(cosine_sine, s) result(turned)
+      real(wp), intent(in) :: cosine_sine(2)  !! (2) cosine and sine of the angle [1]
+      real(wp), intent(in) :: s(2)            !! (2) the vector [any]
+      real(wp) :: turned(2)                   !! (2) the same turned [any]
+
+      turned = [cosine_sine(1)*s(1) - cosine_sine(2)*s(2), cosine_sine(2)*s(1) + cosine_sine(1)*s(2)]
+   end function turn
+
+   !> Rows of an item, as many as there is room for.
+   subroutine take_rows(set, item, row)
+      class(joint_set_t), intent(in) :: set   !! the set
+      integer, intent(in) :: item             !! its item
+      integer, intent(out) :: row(:)          !! (any) its rows
+
+      integer :: i
+
+      row = [(set%first_row + (item - 1)*set%n_row_item + i, i=1, size(row))]
+   end subroutine take_rows
+
+   !> Set and item of a row of a joint table that leaves the equations.
+   subroutine find_fixing(scene, choices, system, kind, row, slot, item)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      type(planar_system_t), intent(in) :: system             !! its joints
+      integer, intent(in) :: kind                             !! number of the kind
+      integer, intent(in) :: row                              !! row of its table
+      integer, intent(out) :: slot                            !! the set
+      integer, intent(out) :: item                            !! its item
+
+      item = count(choices(kind)%is_fixing(:row))
+      do slot = 1, size(system%joints)
+         associate (set => system%joints(slot)%set)
+            if (set%is_solved) cycle
+            if (set%names(min(item, set%n))%s == scene%joints(kind)%items(row)%name) return
+         end associate
+      end do
+   end subroutine find_fixing
+
+end module build_known

@@ -1,0 +1,90 @@
+!> Which bodies of a scene one joint leaves a single freedom against the ground or a body of known motion.
+!>
+!> A body is guided when one revolute or translational joint ties it to such a body, and no other row of a joint or driver
+!> holds it: then the coordinate of the joint describes it. Springs, loads and contacts may act on it.
+module find_guided
+   use clearance_registry, only: n_clearance_kinds
+   use find_known, only: joint_points
+   use joint_registry, only: n_joint_kinds
+   use scene, only: scene_t
+   use section_info, only: column_of
+   implicit none (type, external)
+   private
+   public :: find_guided_bodies, guide_t, kind_turning, kind_sliding
+
+   character(*), parameter :: kind_turning = "joint.revolute"       !! joint that leaves an angle
+   character(*), parameter :: kind_sliding = "joint.translational"  !! joint that leaves a way
+
+   !> How a guided body is held.
+   type :: guide_t
+      integer :: body = 0   !! the body
+      integer :: kind = 0   !! kind of the joint
+      integer :: item = 0   !! its row in the table of the kind
+   end type guide_t
+
+contains
+
+   !> The guided bodies, those that turn first.
+   subroutine find_guided_bodies(scene, is_known, all_ideal, guides)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      logical, intent(in) :: is_known(0:)                   !! (0:bodies) bodies of known motion, the ground among them
+      logical, intent(in) :: all_ideal                      !! whether all joints with clearance are taken as ideal
+      type(guide_t), allocatable, intent(out) :: guides(:)  !! (guided bodies) how they are held
+
+      integer :: body(2), i, k, n_joint(0:scene%bodies%n), pass, point(2)
+
+      call count_joints(scene, all_ideal, n_joint)
+      allocate (guides(0))
+      do pass = 1, 2
+         do k = 1, n_joint_kinds
+            if (scene%joints(k)%info%name /= merge(kind_turning//"     ", kind_sliding, pass == 1)) cycle
+            do i = 1, size(scene%joints(k)%items)
+               call joint_points(scene, k, i, point(1), point(2))
+               body = scene%points%body(point)
+               if (is_known(body(1)) .eqv. is_known(body(2))) cycle
+               if (is_known(body(1))) body(1) = body(2)
+               if (n_joint(body(1)) == 1) guides = [guides, guide_t(body(1), k, i)]
+            end do
+         end do
+      end do
+   end subroutine find_guided_bodies
+
+   !> Joints and drivers at each body.
+   subroutine count_joints(scene, all_ideal, n_joint)
+      type(scene_t), intent(in) :: scene                     !! the scene
+      logical, intent(in) :: all_ideal                       !! whether all joints with clearance are taken as ideal
+      integer, intent(out) :: n_joint(0:scene%bodies%n)      !! (0:bodies) their number
+
+      integer :: i, k, point(2)
+
+      n_joint = 0
+      do k = 1, n_joint_kinds
+         if (scene%joints(k)%info%is_start_only) cycle
+         do i = 1, size(scene%joints(k)%items)
+            call joint_points(scene, k, i, point(1), point(2))
+            call count_pair
+         end do
+      end do
+      do k = 1, n_clearance_kinds
+         associate (items => scene%clearances(k)%items, level => column_of(scene%clearances(k)%info, "level"))
+            do i = 1, size(items)
+               if (.not. (all_ideal .or. items(i)%values(level)%text == "ideal")) cycle
+               point = [items(i)%values(1)%index, items(i)%values(2)%index]
+               call count_pair
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> One joint more at both bodies.
+      subroutine count_pair
+         associate (body => scene%points%body(point))
+            n_joint(body(1)) = n_joint(body(1)) + 1
+            n_joint(body(2)) = n_joint(body(2)) + 1
+         end associate
+      end subroutine count_pair
+
+   end subroutine count_joints
+
+end module find_guided
