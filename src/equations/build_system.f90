@@ -381,7 +381,7 @@ contains
       call move_alloc(grown, list)
    end subroutine append_item
 
-   !> One set of loose joints with its laws and stiffnesses.
+   !> One set of loose joints with its laws, fitted to the surfaces.
    subroutine add_loose_set(scene, kind, items, slot, n_loose)
       type(scene_t), intent(in) :: scene             !! the scene
       integer, intent(in) :: kind                    !! number of the geometry
@@ -400,7 +400,8 @@ contains
                         [(items(i)%values(2)%index, i=1, size(items))], scene%points, scene%laws(normal_law)%law, friction)
       slot%set%first = n_loose
       n_loose = n_loose + size(items)
-      call slot%set%prepare(items, scene%materials)
+      call slot%set%prepare(items)
+      call slot%set%fit_law(items, scene%materials, scene%bodies%mass)
    end subroutine add_loose_set
 
    !> Room for all constraint rows, and their bodies.

@@ -68,7 +68,7 @@ contains
                if (.not. set%contact(i)%is_touching) cycle
                ! event functions of touching contacts are the negatives of penetrations
                call set%law%force(1, -delta(set%first + i:set%first + i), -rate(set%first + i:set%first + i), &
-                                  set%contact(i:i)%impact_speed, set%stiffness(i:i), f, unused, unused_too, elastic)
+                                  set%contact(i:i)%impact_speed, set%parameters(:, i:i), f, unused, unused_too, elastic)
                gained = gained - elastic(1)*rate(set%first + i)
                scale = scale + abs(elastic(1)*rate(set%first + i))
             end do
