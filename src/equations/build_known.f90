@@ -42,9 +42,9 @@ contains
    !> The bodies that leave the unknowns, unless the deck wants all coordinates, and the rows that leave the equations.
    !> Only an integration has unknowns: elsewhere all bodies stay together; so do bodies that rows hold at the start only, and
    !> those of a method that holds the constraints by itself keep all their coordinates.
-   subroutine choose_bodies(scene, all_ideal, with_start_rows, reduction)
+   subroutine choose_bodies(scene, levels, with_start_rows, reduction)
       type(scene_t), intent(in) :: scene             !! the scene
-      logical, intent(in) :: all_ideal               !! whether all joints with clearance are taken as ideal
+      integer, intent(in) :: levels                  !! how joints with clearance are taken
       logical, intent(in) :: with_start_rows         !! whether rows that hold only at the start take part
       type(reduction_t), intent(out) :: reduction    !! what leaves
 
@@ -69,7 +69,7 @@ contains
          is_known = .false.
          is_known([0, links%body]) = .true.
       end associate
-      call find_guided_bodies(scene, is_known, all_ideal, reduction%guides)
+      call find_guided_bodies(scene, is_known, levels, reduction%guides)
       associate (guides => reduction%guides)
          do k = 1, size(guides)
             reduction%choices(guides(k)%kind)%is_fixing(guides(k)%item) = .true.

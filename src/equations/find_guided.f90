@@ -3,11 +3,11 @@
 !> A body is guided when one revolute or translational joint ties it to such a body, and no other row of a joint or driver
 !> holds it: then the coordinate of the joint describes it. Springs, loads and contacts may act on it.
 module find_guided
+   use build_clearances, only: is_ideal
    use clearance_registry, only: n_clearance_kinds
    use find_known, only: joint_points
    use joint_registry, only: n_joint_kinds
    use scene, only: scene_t
-   use section_info, only: column_of
    implicit none (type, external)
    private
    public :: find_guided_bodies, guide_t, kind_turning, kind_sliding
@@ -25,15 +25,15 @@ module find_guided
 contains
 
    !> The guided bodies, those that turn first.
-   subroutine find_guided_bodies(scene, is_known, all_ideal, guides)
+   subroutine find_guided_bodies(scene, is_known, levels, guides)
       type(scene_t), intent(in) :: scene                    !! the scene
       logical, intent(in) :: is_known(0:)                   !! (0:bodies) bodies of known motion, the ground among them
-      logical, intent(in) :: all_ideal                      !! whether all joints with clearance are taken as ideal
+      integer, intent(in) :: levels                         !! how joints with clearance are taken
       type(guide_t), allocatable, intent(out) :: guides(:)  !! (guided bodies) how they are held
 
       integer :: body(2), i, k, n_joint(0:scene%bodies%n), pass, point(2)
 
-      call count_joints(scene, all_ideal, n_joint)
+      call count_joints(scene, levels, n_joint)
       allocate (guides(0))
       do pass = 1, 2
          do k = 1, n_joint_kinds
@@ -50,9 +50,9 @@ contains
    end subroutine find_guided_bodies
 
    !> Joints and drivers at each body.
-   subroutine count_joints(scene, all_ideal, n_joint)
+   subroutine count_joints(scene, levels, n_joint)
       type(scene_t), intent(in) :: scene                     !! the scene
-      logical, intent(in) :: all_ideal                       !! whether all joints with clearance are taken as ideal
+      integer, intent(in) :: levels                          !! how joints with clearance are taken
       integer, intent(out) :: n_joint(0:scene%bodies%n)      !! (0:bodies) their number
 
       integer :: i, k, point(2)
@@ -66,9 +66,9 @@ contains
          end do
       end do
       do k = 1, n_clearance_kinds
-         associate (items => scene%clearances(k)%items, level => column_of(scene%clearances(k)%info, "level"))
+         associate (items => scene%clearances(k)%items)
             do i = 1, size(items)
-               if (.not. (all_ideal .or. items(i)%values(level)%text == "ideal")) cycle
+               if (.not. is_ideal(scene, k, items(i), levels)) cycle
                point = [items(i)%values(1)%index, items(i)%values(2)%index]
                call count_pair
             end do

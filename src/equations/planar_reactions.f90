@@ -53,7 +53,7 @@ contains
       do k = 1, size(self%forces)
          power(lost_damper) = power(lost_damper) + self%forces(k)%set%lost_power(self%motion)
       end do
-      do k = 1, self%n_loose
+      do k = 1, self%n_contact
          power(n_ledger + 2*k - 1) = self%losses(1, k)
          power(n_ledger + 2*k) = self%losses(2, k)
       end do
