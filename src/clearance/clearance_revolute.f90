@@ -62,6 +62,7 @@ module clearance_revolute
       real(wp), allocatable :: f_t(:)                  !! (n) friction force on the journal along t, zero without friction law [N]
    contains
       procedure, nopass :: info => revolute_info
+      procedure, nopass :: ideal_kind => revolute_ideal_kind
       procedure :: prepare => revolute_prepare
       procedure, nopass :: mistake => revolute_mistake
       procedure :: evaluate => revolute_evaluate
@@ -102,6 +103,13 @@ contains
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
    end function revolute_info
 
+   !> Without clearance a revolute joint.
+   function revolute_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! name of the kind of joint
+
+      kind = "joint.revolute"
+   end function revolute_ideal_kind
+
    !> Radii, clearance, stiffness and form of each item.
    subroutine revolute_prepare(self, items, materials)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
@@ -110,6 +118,7 @@ contains
 
       integer :: journal_material, k
 
+      self%is_round = .true.
       allocate (self%radius_i(self%n), self%radius_j(self%n), self%is_book(self%n))
       allocate (self%kinematics(self%n))
       allocate (self%delta(self%n), self%rate(self%n), self%impact_speed(self%n), self%speed(self%n), self%f_n(self%n), &
@@ -243,14 +252,14 @@ contains
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(loads_t), intent(inout) :: loads               !! loads on the bodies
-      real(wp), intent(inout) :: losses(:, :)             !! (2, all items) power lost [W]
+      real(wp), intent(inout) :: losses(:, :)             !! (2, all contacts) power lost [W]
 
       real(wp) :: f(2)
       integer :: i, j, k
 
       do k = 1, self%n
-         losses(loss_contact, self%first + k) = 0.0_wp
-         losses(loss_friction, self%first + k) = 0.0_wp
+         losses(loss_contact, self%first_contact + k) = 0.0_wp
+         losses(loss_friction, self%first_contact + k) = 0.0_wp
       end do
       if (self%n_touching == 0) return
       do k = 1, self%n
@@ -271,7 +280,7 @@ contains
          associate (contact => self%kinematics(k))
             f(1) = -self%f_n(k)*contact%normal(1) - self%f_t(k)*contact%normal(2)
             f(2) = -self%f_n(k)*contact%normal(2) + self%f_t(k)*contact%normal(1)
-            losses(loss_contact, self%first + k) = (self%f_n(k) - self%f_elastic(k))*contact%rate
+            losses(loss_contact, self%first_contact + k) = (self%f_n(k) - self%f_elastic(k))*contact%rate
             i = self%body(1, k)
             j = self%body(2, k)
             loads%force(1:2, i) = loads%force(1:2, i) - f
@@ -286,7 +295,7 @@ contains
    subroutine evaluate_friction(self, motion, losses)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      real(wp), intent(inout) :: losses(:, :)             !! (2, all items) power lost [W]
+      real(wp), intent(inout) :: losses(:, :)             !! (2, all contacts) power lost [W]
 
       integer :: k
 
@@ -300,7 +309,7 @@ contains
       do k = 1, self%n
          if (.not. self%contact(k)%is_touching) cycle
          self%f_t(k) = -sign(self%f_t(k), self%kinematics(k)%v_t)
-         losses(loss_friction, self%first + k) = -self%f_t(k)*self%kinematics(k)%v_t_work
+         losses(loss_friction, self%first_contact + k) = -self%f_t(k)*self%kinematics(k)%v_t_work
       end do
    end subroutine evaluate_friction
 
@@ -308,16 +317,16 @@ contains
    subroutine revolute_gaps(self, motion, delta, rate)
       class(clearance_revolute_t), intent(in) :: self  !! the set
       type(motion_t), intent(in) :: motion             !! positions and velocities
-      real(wp), intent(inout) :: delta(:)              !! (all items) penetration [m]
-      real(wp), intent(inout) :: rate(:)               !! (all items) its rate [m/s]
+      real(wp), intent(inout) :: delta(:)              !! (all contacts) penetration [m]
+      real(wp), intent(inout) :: rate(:)               !! (all contacts) its rate [m/s]
 
       type(contact_t) :: contact
       integer :: k
 
       do k = 1, self%n
          call measure(self, k, motion, contact)
-         delta(self%first + k) = contact%delta
-         rate(self%first + k) = contact%rate
+         delta(self%first_contact + k) = contact%delta
+         rate(self%first_contact + k) = contact%rate
       end do
    end subroutine revolute_gaps
 
@@ -357,14 +366,15 @@ contains
       class(clearance_revolute_t), intent(in) :: self  !! the set
       character(*), intent(in) :: channel              !! name of the channel
       type(motion_t), intent(in) :: motion             !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)          !! (components, all items) values [any]
+      real(wp), intent(inout) :: values(:, :)          !! (components, all items or contacts) values [any]
 
       type(contact_t) :: contact
       real(wp) :: df_ddelta, df_drate, f_n, f_t
-      integer :: column, k
+      integer :: column, contact_column, k
 
       do k = 1, self%n
          column = self%first + k
+         contact_column = self%first_contact + k
          call evaluate_item(self, k, motion, contact, f_n, df_ddelta, df_drate, f_t)
          select case (channel)
          case ("eccentricity")
@@ -372,15 +382,15 @@ contains
          case ("force")
             values(:, column) = -f_n*contact%normal + f_t*[-contact%normal(2), contact%normal(1)]
          case ("penetration")
-            values(1, column) = max(contact%delta, 0.0_wp)
+            values(1, contact_column) = max(contact%delta, 0.0_wp)
          case ("penetration_rate")
-            values(1, column) = merge(contact%rate, 0.0_wp, self%contact(k)%is_touching)
+            values(1, contact_column) = merge(contact%rate, 0.0_wp, self%contact(k)%is_touching)
          case ("normal_force")
-            values(1, column) = f_n
+            values(1, contact_column) = f_n
          case ("friction_force")
-            values(1, column) = f_t
+            values(1, contact_column) = f_t
          case ("state")
-            values(1, column) = real(merge(state_contact, state_free, self%contact(k)%is_touching), wp)
+            values(1, contact_column) = real(merge(state_contact, state_free, self%contact(k)%is_touching), wp)
          end select
       end do
    end subroutine revolute_report

@@ -1,9 +1,10 @@
 !> The contract of joints with clearance: all items that share a geometry, a normal law and a friction law.
 !>
-!> Body i carries the bearing, body j the journal. A contact is free or touching; it changes only
-!> at located events: the impact speed is stored at the onset and the force acts between onset and
-!> end. Forces act on both bodies with action equal to reaction; the power that damping and
-!> friction take is given to the energy ledger.
+!> Body i carries the bearing, guide or plane, body j the journal, slider or ball. An item has one contact or several, as
+!> many as its geometry has labels: contact m is number (m - 1) mod n_contact_item + 1 of its item. A contact is free or
+!> touching; it changes only at located events: the impact speed is stored at the onset and the force acts between onset
+!> and end. Forces act on both bodies with action equal to reaction; the power that damping and friction take is given to
+!> the energy ledger, contact by contact.
 module clearance_set
    use bodies, only: material_t, points_t
    use catalogue, only: state_contact, state_free, state_name
@@ -30,25 +31,32 @@ module clearance_set
       real(wp) :: impact_speed = 0.0_wp         !! normal approach speed at the onset [m/s]
       real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
       real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
-      real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the joint by then [J]
+      real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
    end type contact_memory_t
 
-   !> All items that share a geometry and its laws. One contact per item.
+   !> All items that share a geometry and its laws.
    type, abstract :: clearance_set_t
       integer :: n = 0                                      !! number of items
-      integer :: n_touching = 0                             !! number of items in contact
+      integer :: n_contact_item = 1                         !! contacts of an item
+      integer :: n_contact = 0                              !! contacts of all items
+      integer :: n_touching = 0                             !! number of contacts that touch
       integer :: first = 0                                  !! items of earlier sets
+      integer :: first_contact = 0                          !! contacts of earlier sets
+      logical :: is_round = .false.                         !! the clearance is a radial one
       type(text_t), allocatable :: names(:)                 !! (n) names
+      type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item
       integer, allocatable :: body(:, :)                    !! (2, n) bodies of bearing and journal, 0: ground
       real(wp), allocatable :: s_i(:, :)                    !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)                    !! (3, n) centre of the journal, frame of its body [m]
-      real(wp), allocatable :: clearance(:)                 !! (n) radial clearance [m]
-      real(wp), allocatable :: stiffness(:)                 !! (n) contact stiffness [N/m^1.5]
+      real(wp), allocatable :: clearance(:)                 !! (n) clearance [m]
+      real(wp), allocatable :: stiffness(:)                 !! (n_contact) contact stiffness [N/m^1.5]
       class(normal_law_t), allocatable :: law               !! normal law of all items
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
-      type(contact_memory_t), allocatable :: contact(:)     !! (n) state of the contacts
+      type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
    contains
       procedure(info_interface), nopass, deferred :: info
+      procedure, nopass :: contact_labels => clearance_contact_labels
+      procedure(ideal_interface), nopass, deferred :: ideal_kind
       procedure(prepare_interface), deferred :: prepare
       procedure(mistake_interface), nopass, deferred :: mistake
       procedure(evaluate_interface), deferred :: evaluate
@@ -57,6 +65,7 @@ module clearance_set
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
+      procedure :: item_of => clearance_item_of
       procedure :: begin_contact => clearance_begin_contact
       procedure :: end_contact => clearance_end_contact
       procedure :: contact_time => clearance_contact_time
@@ -78,6 +87,12 @@ module clearance_set
          type(kind_info_t) :: info  !! name, columns and channels (those of the contacts too)
       end function info_interface
 
+      !> The joint that the geometry is without clearance: its first columns are those of the geometry.
+      function ideal_interface() result(kind)
+         implicit none (type, external)
+         character(:), allocatable :: kind  !! name of the kind of joint; blank: there is none, and no column `level`
+      end function ideal_interface
+
       !> Take the geometry's own parameters, clearance and stiffness among them (a stiffness that the law
       !> gives comes first). Names, bodies, points and laws are set already.
       subroutine prepare_interface(self, items, materials)
@@ -98,32 +113,32 @@ module clearance_set
          character(:), allocatable, intent(out) :: help         !! what would be right
       end subroutine mistake_interface
 
-      !> Add the contact forces of the touching items, and the power they lose. No allocation.
+      !> Add the contact forces of the touching contacts, and the power they lose. No allocation.
       subroutine evaluate_interface(self, motion, loads, losses)
          import :: clearance_set_t, loads_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(inout) :: self   !! the set
          type(motion_t), intent(in) :: motion            !! positions and velocities
          type(loads_t), intent(inout) :: loads           !! loads on the bodies, added to
-         real(wp), intent(inout) :: losses(:, :)         !! (2, all items) power lost by damping and friction, set here [W]
+         real(wp), intent(inout) :: losses(:, :)         !! (2, all contacts) power lost by damping and friction, set here [W]
       end subroutine evaluate_interface
 
-      !> Penetration and its rate for all items, touching or not. No allocation.
+      !> Penetration and its rate for all contacts, touching or not. No allocation.
       subroutine gaps_interface(self, motion, delta, rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         real(wp), intent(inout) :: delta(:)         !! (all items) penetration, negative: apart [m]
-         real(wp), intent(inout) :: rate(:)          !! (all items) its rate [m/s]
+         real(wp), intent(inout) :: delta(:)         !! (all contacts) penetration, negative: apart [m]
+         real(wp), intent(inout) :: rate(:)          !! (all contacts) its rate [m/s]
       end subroutine gaps_interface
 
-      !> Normal force of a touching item and its rate, for the location of its maximum.
+      !> Normal force of a touching contact and its rate, for the location of its maximum.
       subroutine watch_interface(self, k, motion, delta, rate, force, force_rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
-         integer, intent(in) :: k                    !! item of the set
+         integer, intent(in) :: k                    !! contact of the set
          type(motion_t), intent(in) :: motion        !! positions, velocities and accelerations
          real(wp), intent(out) :: delta              !! penetration [m]
          real(wp), intent(out) :: rate               !! its rate [m/s]
@@ -131,17 +146,17 @@ module clearance_set
          real(wp), intent(out) :: force_rate         !! its rate [N/s]
       end subroutine watch_interface
 
-      !> Values of a channel for all items.
+      !> Values of a channel for all items, or for all contacts if it is one of theirs.
       subroutine report_interface(self, channel, motion, values)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          character(*), intent(in) :: channel         !! name of the channel
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         real(wp), intent(inout) :: values(:, :)     !! (components, all items) values; left alone if not of this geometry [any]
+         real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values; others are left alone [any]
       end subroutine report_interface
 
-      !> Elastic energy that the touching items store.
+      !> Elastic energy that the touching contacts store.
       function energy_interface(self, motion) result(energy)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
@@ -166,9 +181,12 @@ contains
       integer :: k
 
       self%n = size(items)
+      self%labels = self%contact_labels()
+      self%n_contact_item = size(self%labels)
+      self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n))
-      allocate (self%clearance(self%n), self%stiffness(self%n), source=0.0_wp)
-      allocate (self%contact(self%n))
+      allocate (self%clearance(self%n), self%stiffness(self%n_contact), source=0.0_wp)
+      allocate (self%contact(self%n_contact))
       allocate (self%law, source=law)
       if (allocated(friction)) then
          if (friction%is_active()) allocate (self%friction, source=friction)
@@ -182,13 +200,29 @@ contains
       end do
    end subroutine clearance_new
 
+   !> One contact per item, without a name of its own; a geometry with several overrides this.
+   function clearance_contact_labels() result(labels)
+      type(text_t), allocatable :: labels(:)  !! (contacts of an item) names
+
+      allocate (labels(1))
+      labels(1)%s = ""
+   end function clearance_contact_labels
+
+   !> The item that a contact belongs to.
+   pure integer function clearance_item_of(self, contact) result(item)
+      class(clearance_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact              !! contact of the set
+
+      item = (contact - 1)/self%n_contact_item + 1
+   end function clearance_item_of
+
    !> A contact begins: store its impact speed.
    subroutine clearance_begin_contact(self, k, t, impact_speed, loss)
       class(clearance_set_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: k                       !! item of the set
+      integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: t                      !! time of the onset [s]
       real(wp), intent(in) :: impact_speed           !! penetration rate at the onset [m/s]
-      real(wp), intent(in) :: loss                   !! what the ledger has lost in the joint by now [J]
+      real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now [J]
 
       self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
       self%n_touching = self%n_touching + 1
@@ -197,18 +231,18 @@ contains
    !> A contact ends, or the run ends within it: tell its story in one row.
    subroutine clearance_end_contact(self, k, t, release_speed, loss, is_over, event)
       class(clearance_set_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: k                       !! item of the set
+      integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: t                      !! time of the end [s]
       real(wp), intent(in) :: release_speed          !! separation speed [m/s]
-      real(wp), intent(in) :: loss                   !! what the ledger has lost in the joint by now; NaN: no ledger [J]
+      real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now; NaN: no ledger [J]
       logical, intent(in) :: is_over                 !! .false.: the run ended within the contact
       type(event_t), intent(out) :: event            !! the row
 
       associate (contact => self%contact(k))
          event%time = contact%onset
          event%kind = "contact"
-         event%item = self%names(k)%s
-         event%contact = ""
+         event%item = self%names(self%item_of(k))%s
+         event%contact = self%labels(modulo(k - 1, self%n_contact_item) + 1)%s
          event%impact_speed = contact%impact_speed
          event%peak_force = contact%peak_force
          event%peak_penetration = contact%peak_penetration
@@ -232,14 +266,16 @@ contains
    !> m is the reduced mass of the two bodies' masses. Source: classical Hertz impact.
    pure real(wp) function clearance_contact_time(self, k, speed, inverse_mass) result(time)
       class(clearance_set_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                    !! item of the set
+      integer, intent(in) :: k                    !! contact of the set
       real(wp), intent(in) :: speed               !! impact speed, positive [m/s]
       real(wp), intent(in) :: inverse_mass(0:)    !! (0:bodies) one over the mass, 0 for the ground [1/kg]
 
       real(wp), parameter :: factor = 3.218_wp  ! of an impact with exponent 3/2 [1]
       real(wp) :: reduced
+      integer :: item
 
-      reduced = 1.0_wp/max(inverse_mass(self%body(1, k)) + inverse_mass(self%body(2, k)), tiny(1.0_wp))
+      item = self%item_of(k)
+      reduced = 1.0_wp/max(inverse_mass(self%body(1, item)) + inverse_mass(self%body(2, item)), tiny(1.0_wp))
       time = factor*(reduced**2/(self%stiffness(k)**2*speed))**0.2_wp
    end function clearance_contact_time
 
@@ -247,7 +283,7 @@ contains
    integer function clearance_memory_size(self) result(n)
       class(clearance_set_t), intent(in) :: self  !! the set
 
-      n = 6*self%n
+      n = 6*self%n_contact
    end function clearance_memory_size
 
    !> Write what the set remembers.
@@ -258,7 +294,7 @@ contains
 
       integer :: k
 
-      do k = 1, self%n
+      do k = 1, self%n_contact
          associate (contact => self%contact(k))
             call put(row, place, contact%is_touching)
             call put(row, place, [contact%onset, contact%impact_speed, contact%peak_force, &
@@ -275,7 +311,7 @@ contains
 
       integer :: k
 
-      do k = 1, self%n
+      do k = 1, self%n_contact
          associate (contact => self%contact(k))
             call get(row, place, contact%is_touching)
             call get(row, place, contact%onset)

@@ -8,7 +8,7 @@ contains
    module procedure planar_is_onset
       integer :: item, slot
 
-      call self%find_loose(k, slot, item)
+      call self%find_contact(k, slot, item)
       is_onset = .not. self%clearances(slot)%set%contact(item)%is_touching
    end procedure planar_is_onset
 

@@ -11,14 +11,14 @@ module integrator
    use interpolation, only: inner_places, interpolate, step_t
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_none, dim_time, kind_info_t
-   use kinds, only: i8, wp
+   use kinds, only: eps, i8, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
    public :: add_control_columns, controls_t, integrator_t, read_controls
    public :: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps
-   public :: advance_too_small
+   public :: advance_too_small, near
    public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    public :: steps_any, steps_fixed, steps_variable
@@ -62,6 +62,8 @@ module integrator
       real(wp) :: onset_limit = default_limit  !! greatest penetration at an onset with `onset_reject` [m]
    end type controls_t
 
+   real(wp), parameter :: near = 1.0e-9_wp  !! of a step: events closer than this count as one [1]
+
    !> An integrator with its state.
    type, abstract :: integrator_t
       type(controls_t) :: controls              !! what the user set
@@ -101,6 +103,7 @@ module integrator
       procedure :: begin_step
       procedure :: look_at_events
       procedure :: hide_events
+      procedure :: note_events
       procedure :: set_scales
       procedure :: base_memory_size
       procedure :: save_base
@@ -228,6 +231,27 @@ contains
       allocate (self%is_hidden(m), self%is_waiting(m), source=.false.)
       allocate (self%happened(m), source=0)
    end subroutine make_room
+
+   !> Events of the last step: the one that it was ended for, and all that come with it. They are one
+   !> event, because whatever is left of a function that is about to become positive would have to be located anew, with a
+   !> step of round-off.
+   pure subroutine note_events(self, event, h)
+      class(integrator_t), intent(inout) :: self  !! the integrator; `g` and `rate` are those at the event
+      integer, intent(in) :: event                !! number of the event function
+      real(wp), intent(in) :: h                   !! length of the step, with what lies behind the event [s]
+
+      real(wp) :: time
+      integer :: k
+
+      time = max(near*h, 4.0_wp*eps*abs(self%step%t0 + h))
+      self%n_happened = 1
+      self%happened(1) = event
+      do k = 1, size(self%g)
+         if (k == event .or. self%rate(k) <= 0.0_wp .or. abs(self%g(k)) > time*self%rate(k)) cycle
+         self%n_happened = self%n_happened + 1
+         self%happened(self%n_happened) = k
+      end do
+   end subroutine note_events
 
    !> The present state becomes the start of the next step.
    subroutine begin_step(self)

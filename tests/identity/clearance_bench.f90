@@ -143,6 +143,7 @@ contains
       end do
       call bench%set%new(items, [(2*k - 1, k=1, n_item)], [(2*k, k=1, n_item)], points, law, friction)
       bench%set%first = n_before
+      bench%set%first_contact = n_before
       materials%young = 1.0e11_wp
       materials%poisson = 0.3_wp
       call bench%set%prepare(items, materials)

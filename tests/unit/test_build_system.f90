@@ -68,9 +68,9 @@ contains
       call check_equal(error, system%n_event, 5, "event functions")
       if (allocated(error)) return
       do k = 1, 5
-         call system%find_loose(k, slot, item)
+         call system%find_contact(k, slot, item)
          call check_equal(error, system%clearances(slot)%set%names(item)%s, expected(k), "loose joint "//to_text(k))
-         call check_equal(error, system%clearances(slot)%set%first + item, k, "its number")
+         call check_equal(error, system%clearances(slot)%set%first_contact + item, k, "its number")
       end do
       call check_equal(error, system%clearances(1)%set%n, 2, "items that share laws")
       call check_true(error, .not. allocated(system%clearances(1)%set%friction), "no friction in the first set")
