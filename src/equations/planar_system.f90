@@ -95,6 +95,8 @@ module planar_system
       procedure :: last_events => planar_last_events
       procedure :: set_step => planar_set_step
       procedure :: hold => planar_hold
+      procedure :: mend => planar_mend
+      procedure :: is_onset => planar_is_onset
       procedure :: solve_rows => planar_solve_rows
       procedure :: evaluate_rows => planar_evaluate_rows
       procedure :: set_motion => planar_set_motion
@@ -117,6 +119,22 @@ module planar_system
          real(wp), intent(inout) :: y(:)                !! (n) state [any]
          integer, intent(out) :: status                 !! 0: done
       end subroutine planar_hold
+
+      !> Bring a state that was made by interpolation onto the constraints, by projection.
+      module subroutine planar_mend(self, t, y, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(inout) :: y(:)                !! (n) state [any]
+         integer, intent(out) :: status                 !! 0: done
+      end subroutine planar_mend
+
+      !> Whether event k, as things stand, is the onset of a contact.
+      module logical function planar_is_onset(self, k) result(is_onset)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         integer, intent(in) :: k                       !! number of the event function
+      end function planar_is_onset
 
       !> Numbers that a checkpoint needs: the memory of all sets and the counters.
       module integer function planar_memory_size(self) result(n)
