@@ -8,6 +8,8 @@ contains
    module procedure planar_is_onset
       integer :: item, slot
 
+      is_onset = .false.
+      if (k > self%n_contact) return
       call self%find_contact(k, slot, item)
       is_onset = .not. self%clearances(slot)%set%contact(item)%is_touching
    end procedure planar_is_onset
