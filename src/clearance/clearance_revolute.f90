@@ -22,7 +22,7 @@ module clearance_revolute
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use stiffness, only: internal_stiffness
+   use surfaces, only: set_materials, shape_internal, surfaces_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -33,6 +33,7 @@ module clearance_revolute
    integer, parameter :: column_material = 5          !! column of material
    integer, parameter :: column_journal_material = 6  !! column of journal_material
    integer, parameter :: column_form = 10             !! column of form
+   integer, parameter :: column_length = 11           !! column of length
 
    !> Kinematics of one contact.
    type :: contact_t
@@ -67,6 +68,7 @@ module clearance_revolute
       procedure, nopass :: ideal_kind => revolute_ideal_kind
       procedure :: prepare => revolute_prepare
       procedure, nopass :: mistake => revolute_mistake
+      procedure, nopass :: describe => revolute_describe
       procedure :: evaluate => revolute_evaluate
       procedure :: gaps => revolute_gaps
       procedure :: watch => revolute_watch
@@ -97,6 +99,8 @@ contains
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_word(info, "form", "formulas: corrected, or as the book prints them", default="corrected", &
                     choices="corrected book")
+      call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: not known", &
+                      default="0 m", lower=0.0_wp)
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing")
       call add_channel(info, "force", "N", "world", 2, "force on the journal")
       call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
@@ -113,13 +117,12 @@ contains
       kind = "joint.revolute"
    end function revolute_ideal_kind
 
-   !> Radii, clearance, stiffness and form of each item.
-   subroutine revolute_prepare(self, items, materials)
+   !> Radii, clearance and form of each item.
+   subroutine revolute_prepare(self, items)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                !! (n) rows of the table
-      type(material_t), intent(in) :: materials(:)        !! (materials) all materials
 
-      integer :: journal_material, k
+      integer :: k
 
       self%is_round = .true.
       allocate (self%radius_i(self%n), self%radius_j(self%n), self%is_book(self%n))
@@ -132,15 +135,27 @@ contains
             self%clearance(k) = values(column_clearance)%number
             self%radius_j(k) = self%radius_i(k) - self%clearance(k)
             self%is_book(k) = values(column_form)%text == "book"
-            journal_material = values(column_journal_material)%index
-            if (journal_material == 0) journal_material = values(column_material)%index
-            self%stiffness(k) = self%law%stiffness
-            if (self%stiffness(k) > 0.0_wp) cycle
-            self%stiffness(k) = internal_stiffness(self%radius_i(k), self%clearance(k), &
-                                                   materials(values(column_material)%index), materials(journal_material))
          end associate
       end do
    end subroutine revolute_prepare
+
+   !> A pin in a hole.
+   pure subroutine revolute_describe(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      integer :: journal_material
+
+      pair%shape = shape_internal
+      pair%radius_i = item%values(column_radius)%number
+      pair%clearance = item%values(column_clearance)%number
+      pair%radius_j = pair%radius_i - pair%clearance
+      pair%length = item%values(column_length)%number
+      journal_material = item%values(column_journal_material)%index
+      if (journal_material == 0) journal_material = item%values(column_material)%index
+      call set_materials(pair, materials(item%values(column_material)%index), materials(journal_material))
+   end subroutine revolute_describe
 
    !> The journal must have a radius.
    subroutine revolute_mistake(item, column, message, help)
@@ -239,7 +254,7 @@ contains
       df_ddelta = 0.0_wp
       df_drate = 0.0_wp
       if (.not. self%contact(k)%is_touching) return
-      call self%law%force(1, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], [self%stiffness(k)], &
+      call self%law%force(1, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], self%parameters(:, k), &
                           f, slope_delta, slope_rate, elastic)
       f_n = f(1)
       df_ddelta = slope_delta(1)
@@ -279,7 +294,7 @@ contains
          self%rate(k) = self%kinematics(k)%rate
          self%impact_speed(k) = self%contact(k)%impact_speed
       end do
-      call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%stiffness, &
+      call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%parameters, &
                           self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)
       if (allocated(self%friction)) call evaluate_friction(self, motion, losses)
       do k = 1, self%n
@@ -450,7 +465,7 @@ contains
       do k = 1, self%n
          if (.not. self%contact(k)%is_touching) cycle
          call measure(self, k, motion, contact)
-         energy = energy + self%law%potential(contact%delta, self%stiffness(k))
+         energy = energy + self%law%potential(contact%delta, self%parameters(:, k))
       end do
    end function revolute_elastic_energy
 

@@ -15,8 +15,9 @@ module clearance_set
    use kinds, only: not_a_number, wp
    use memory, only: get, put
    use motion, only: loads_t, motion_t
-   use normal_law, only: normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t
    use recorder, only: event_t
+   use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -50,7 +51,8 @@ module clearance_set
       real(wp), allocatable :: s_i(:, :)                    !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)                    !! (3, n) centre of the journal, frame of its body [m]
       real(wp), allocatable :: clearance(:)                 !! (n) clearance [m]
-      real(wp), allocatable :: stiffness(:)                 !! (n_contact) contact stiffness [N/m^1.5]
+      type(surfaces_t), allocatable :: pairs(:)             !! (n) the surfaces
+      real(wp), allocatable :: parameters(:, :)             !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
       class(normal_law_t), allocatable :: law               !! normal law of all items
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
       type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
@@ -61,6 +63,7 @@ module clearance_set
       procedure(ideal_interface), nopass, deferred :: ideal_kind
       procedure(prepare_interface), deferred :: prepare
       procedure(mistake_interface), nopass, deferred :: mistake
+      procedure(describe_interface), nopass, deferred :: describe
       procedure(evaluate_interface), deferred :: evaluate
       procedure(gaps_interface), deferred :: gaps
       procedure(watch_interface), deferred :: watch
@@ -70,6 +73,7 @@ module clearance_set
       procedure :: new => clearance_new
       procedure :: item_of => clearance_item_of
       procedure :: rub => clearance_rub
+      procedure :: fit_law => clearance_fit_law
       procedure :: begin_contact => clearance_begin_contact
       procedure :: end_contact => clearance_end_contact
       procedure :: contact_time => clearance_contact_time
@@ -97,15 +101,22 @@ module clearance_set
          character(:), allocatable :: kind  !! name of the kind of joint; blank: there is none, and no column `level`
       end function ideal_interface
 
-      !> Take the geometry's own parameters, clearance and stiffness among them (a stiffness that the law
-      !> gives comes first). Names, bodies, points and laws are set already.
-      subroutine prepare_interface(self, items, materials)
-         import :: clearance_set_t, item_t, material_t
+      !> Take the geometry's own parameters, the clearance among them. Names, bodies, points and laws are set already.
+      subroutine prepare_interface(self, items)
+         import :: clearance_set_t, item_t
          implicit none (type, external)
          class(clearance_set_t), intent(inout) :: self  !! the set
          type(item_t), intent(in) :: items(:)           !! (n) rows of the table, references resolved
-         type(material_t), intent(in) :: materials(:)   !! (materials) all materials
       end subroutine prepare_interface
+
+      !> The surfaces of a row, but for the masses of the bodies.
+      pure subroutine describe_interface(item, materials, pair)
+         import :: item_t, material_t, surfaces_t
+         implicit none (type, external)
+         type(item_t), intent(in) :: item              !! the row, references resolved
+         type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+         type(surfaces_t), intent(out) :: pair         !! its surfaces
+      end subroutine describe_interface
 
       !> What is wrong with a row as a whole.
       subroutine mistake_interface(item, column, message, help)
@@ -200,7 +211,8 @@ contains
       self%n_contact_item = size(self%labels)
       self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n))
-      allocate (self%clearance(self%n), self%stiffness(self%n_contact), source=0.0_wp)
+      allocate (self%clearance(self%n), self%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
+      allocate (self%pairs(self%n))
       allocate (self%contact(self%n_contact))
       allocate (self%law, source=law)
       if (allocated(friction)) then
@@ -253,6 +265,28 @@ contains
       end do
    end subroutine clearance_rub
 
+   !> Fit the normal law to the surfaces. A law that does not fit was a mistake of the deck, unless the joint is an ideal
+   !> one that is taken as loose for its channels only: no contact is evaluated then.
+   subroutine clearance_fit_law(self, items, materials, mass)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)           !! (n) rows of the table
+      type(material_t), intent(in) :: materials(:)   !! (materials) all materials
+      real(wp), intent(in) :: mass(:)                !! (bodies) masses of the bodies [kg]
+
+      character(:), allocatable :: help, message
+      real(wp) :: parameters(n_law_parameter)
+      integer :: c, k
+
+      do k = 1, self%n
+         call self%describe(items(k), materials, self%pairs(k))
+         self%pairs(k)%inverse_mass = sum(1.0_wp/mass(pack(self%body(:, k), self%body(:, k) > 0)))
+         call self%law%fit(self%pairs(k), parameters, message, help)
+         do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
+            self%parameters(:, c) = parameters
+         end do
+      end do
+   end subroutine clearance_fit_law
+
    !> A contact begins: store its impact speed.
    subroutine clearance_begin_contact(self, k, t, impact_speed, loss)
       class(clearance_set_t), intent(inout) :: self  !! the set
@@ -301,21 +335,18 @@ contains
       end associate
    end subroutine clearance_end_contact
 
-   !> Duration of an elastic impact of two free bodies: 3.218 (m^2 / (K^2 v))^(1/5).
-   !> m is the reduced mass of the two bodies' masses. Source: classical Hertz impact.
+   !> Duration of an elastic impact of the two bodies, if they were free.
    pure real(wp) function clearance_contact_time(self, k, speed, inverse_mass) result(time)
       class(clearance_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                    !! contact of the set
-      real(wp), intent(in) :: speed               !! impact speed, positive [m/s]
+      real(wp), intent(in) :: speed               !! impact speed [m/s]
       real(wp), intent(in) :: inverse_mass(0:)    !! (0:bodies) one over the mass, 0 for the ground [1/kg]
 
-      real(wp), parameter :: factor = 3.218_wp  ! of an impact with exponent 3/2 [1]
-      real(wp) :: reduced
       integer :: item
 
       item = self%item_of(k)
-      reduced = 1.0_wp/max(inverse_mass(self%body(1, item)) + inverse_mass(self%body(2, item)), tiny(1.0_wp))
-      time = factor*(reduced**2/(self%stiffness(k)**2*speed))**0.2_wp
+      time = self%law%contact_time(self%parameters(:, k), speed, &
+                                   inverse_mass(self%body(1, item)) + inverse_mass(self%body(2, item)))
    end function clearance_contact_time
 
    !> Numbers that the set must keep in a checkpoint.

@@ -243,8 +243,8 @@ contains
             do i = 1, set%n
                c = (i - 1)*set%n_contact_item + 1
                call say(set%names(i)%s//": "//trim(merge("radial clearance ", "clearance        ", set%is_round))//" "// &
-                        to_text(1.0e3_wp*set%clearance(i))//" mm, law "//law//", stiffness "// &
-                        real_text(set%stiffness(c), 6)//" N/m^1.5", 2)
+                        to_text(1.0e3_wp*set%clearance(i))//" mm, law "//law//", "// &
+                        set%law%story(set%parameters(:, c)), 2)
                last = set%first_contact + i*set%n_contact_item
                if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
@@ -255,7 +255,7 @@ contains
                            real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &
                            " output intervals"//steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
                end do
-               call explain_validity(loaded%scene, set%names(i)%s)
+               call explain_validity(set%pairs(i)%speed_limit)
             end do
          end associate
       end do
@@ -281,24 +281,12 @@ contains
       contact_time = set%contact_time(contact, speed, system%inverse_mass(1, :))
    end function contact_time
 
-   !> Impact speed up to which contact is quasi-static: 1e-5 sqrt(E/rho), Flores et al. (2008), section 3.2.
-   subroutine explain_validity(scene, name)
-      type(scene_t), intent(in) :: scene     !! the scene
-      character(*), intent(in) :: name       !! of the loose joint
+   !> Impact speed up to which contact is quasi-static.
+   subroutine explain_validity(speed_limit)
+      real(wp), intent(in) :: speed_limit  !! huge: not known [m/s]
 
-      integer :: i, k
-
-      do k = 1, size(scene%clearances)
-         do i = 1, size(scene%clearances(k)%items)
-            if (scene%clearances(k)%items(i)%name /= name) cycle
-            associate (material => scene%materials(scene%clearances(k)%items(i)%values( &
-                                                   column_of(scene%clearances(k)%info, "material"))%index))
-               if (material%density <= 0.0_wp) cycle
-               call say("the law is quasi-static: strictly for impacts below "// &
-                        real_text(1.0e-5_wp*sqrt(material%young/material%density), 3)//" m/s (1e-5 sqrt(E/rho))", 4)
-            end associate
-         end do
-      end do
+      if (speed_limit >= huge(speed_limit)) return
+      call say("the law is quasi-static: strictly for impacts below "//real_text(speed_limit, 3)//" m/s (1e-5 sqrt(E/rho))", 4)
    end subroutine explain_validity
 
    !> What the deck gives but the motion does not need.

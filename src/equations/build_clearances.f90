@@ -145,7 +145,7 @@ contains
       call move_alloc(grown, list)
    end subroutine append_item
 
-   !> One set of loose joints with its laws and stiffnesses.
+   !> One set of loose joints with its laws, fitted to the surfaces.
    subroutine add_loose_set(scene, kind, items, slot, system)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: kind                     !! number of the geometry
@@ -166,7 +166,8 @@ contains
       slot%set%first_contact = system%n_contact
       system%n_loose = system%n_loose + slot%set%n
       system%n_contact = system%n_contact + slot%set%n_contact
-      call slot%set%prepare(items, scene%materials)
+      call slot%set%prepare(items)
+      call slot%set%fit_law(items, scene%materials, scene%bodies%mass)
    end subroutine add_loose_set
 
 end module build_clearances

@@ -107,11 +107,12 @@ contains
 
       call system_of_text(six_bearings(), system, error)
       if (allocated(error)) return
-      call check_close(error, system%clearances(1)%set%stiffness, [steel_pin, steel_pin], 1.0e-8_wp, "steel", relative=.true.)
+      call check_close(error, system%clearances(1)%set%parameters(1, :), [steel_pin, steel_pin], 1.0e-8_wp, &
+                       "steel", relative=.true.)
       ! bronze here is half as stiff as steel: compliances 1 + 2 instead of 1 + 1
-      call check_close(error, system%clearances(2)%set%stiffness, [2.0_wp*steel_pin/3.0_wp], 1.0e-8_wp, "bronze pin", &
+      call check_close(error, system%clearances(2)%set%parameters(1, :), [2.0_wp*steel_pin/3.0_wp], 1.0e-8_wp, "bronze pin", &
                        relative=.true.)
-      call check_close(error, system%clearances(4)%set%stiffness, [3.0e9_wp], 0.0_wp, "given")
+      call check_close(error, system%clearances(4)%set%parameters(1, :), [3.0e9_wp], 0.0_wp, "given")
       call check_close(error, system%clearances(1)%set%clearance, [0.5e-3_wp, 0.5e-3_wp], 0.0_wp, "clearance")
    end subroutine test_stiffness
 

@@ -69,7 +69,7 @@ contains
                ! event functions of touching contacts are the negatives of penetrations
                m = set%first_contact + i
                call set%law%force(1, -delta(m:m), -rate(m:m), &
-                                  set%contact(i:i)%impact_speed, set%stiffness(i:i), f, unused, unused_too, elastic)
+                                  set%contact(i:i)%impact_speed, set%parameters(:, i:i), f, unused, unused_too, elastic)
                gained = gained - elastic(1)*rate(m)
                scale = scale + abs(elastic(1)*rate(m))
             end do
