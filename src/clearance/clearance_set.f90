@@ -21,7 +21,7 @@ module clearance_set
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: clearance_set_t, clearance_slot_t, contact_memory_t, loss_contact, loss_friction
+   public :: clearance_fit_law, clearance_set_t, clearance_slot_t, contact_memory_t, loss_contact, loss_friction
 
    integer, parameter :: loss_contact = 1   !! power taken by contact damping
    integer, parameter :: loss_friction = 2  !! power taken by friction
@@ -54,6 +54,7 @@ module clearance_set
       type(surfaces_t), allocatable :: pairs(:)             !! (n) the surfaces
       real(wp), allocatable :: parameters(:, :)             !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
       class(normal_law_t), allocatable :: law               !! normal law of all items
+      class(normal_law_t), allocatable :: face_law          !! normal law of faces, where the geometry has some; unallocated: none
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
       type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
       type(grip_t) :: grip                                  !! what the contacts remember of their friction
