@@ -77,7 +77,8 @@ contains
             call guided_coordinates(system%guided, system%motion, y(n + 1:nq), y(nq + n + 1:2*nq))
          end associate
       end if
-      call refuse_overlap(system, y, error)
+      call look_at_overlap(system, y, &
+                           scene%dynamic%values(column_of(scene%dynamic_kind, "overlap"))%text == "preload", error)
    end subroutine find_start
 
    !> The static equilibrium at t = 0, its contacts begun.
@@ -126,10 +127,12 @@ contains
               " are not unique: those of least norm are given"
    end function redundancy_text
 
-   !> No loose joint may begin with its surfaces overlapping.
-   subroutine refuse_overlap(system, y, error)
+   !> No loose joint may begin with its surfaces overlapping, unless the deck says that it is preloaded: then its contact
+   !> has begun, with the rate of the penetration as impact speed; a law's floor takes the place of one that is less.
+   subroutine look_at_overlap(system, y, is_preload, error)
       type(planar_system_t), intent(inout) :: system       !! the system
       real(wp), intent(in) :: y(:)                         !! (n) state [any]
+      logical, intent(in) :: is_preload                    !! overlap is wanted
       type(error_t), allocatable, intent(out) :: error     !! names the joint and the depth
 
       real(wp) :: delta(system%n_contact), rate(system%n_contact)
@@ -141,13 +144,18 @@ contains
          associate (set => system%clearances(k)%set)
             do i = 1, set%n_contact
                if (delta(set%first_contact + i) <= touching*set%clearance(set%item_of(i))) cycle
+               if (is_preload) then
+                  call set%begin_contact(i, 0.0_wp, max(rate(set%first_contact + i), 0.0_wp), 0.0_wp)
+                  cycle
+               end if
                call set_error(error, exit_assembly, "initial overlap: joint '"//set%names(set%item_of(i))%s// &
                               "' begins with its surfaces "//to_text(delta(set%first_contact + i))//" m into each other"// &
-                              new_line("a")//"  = move its bodies, enlarge the clearance, or begin with start = ideal")
+                              new_line("a")//"  = move its bodies, enlarge the clearance, begin with start = ideal, "// &
+                              "or say overlap = preload")
                return
             end do
          end associate
       end do
-   end subroutine refuse_overlap
+   end subroutine look_at_overlap
 
 end module start_state

@@ -1,12 +1,14 @@
 !> The geometries of joints with clearance: two lines each (`use`, `case`).
 module clearance_registry
+   use clearance_plane, only: clearance_plane_t
    use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: clearance_set_t
+   use clearance_translational, only: clearance_translational_t
    implicit none (type, external)
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 1  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 3  !! number of geometries
 
 contains
 
@@ -17,6 +19,8 @@ contains
 
       select case (k)
       case (1); allocate (clearance_revolute_t :: set)
+      case (2); allocate (clearance_plane_t :: set)
+      case (3); allocate (clearance_translational_t :: set)
       end select
    end subroutine new_clearance_set
 

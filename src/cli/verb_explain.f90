@@ -233,7 +233,7 @@ contains
 
       real(wp), parameter :: speeds(3) = [0.1_wp, 1.0_wp, 10.0_wp]  ! of impacts, as examples [m/s]
       real(wp), allocatable :: delta(:), rate(:)
-      character(:), allocatable :: law
+      character(:), allocatable :: law, words
       real(wp) :: step
       integer :: c, i, k, last, v
 
@@ -249,9 +249,9 @@ contains
             if (allocated(set%friction)) law = law//", friction "//set%friction%name
             do i = 1, set%n
                c = (i - 1)*set%n_contact_item + 1
-               call say(set%names(i)%s//": "//trim(merge("radial clearance ", "clearance        ", set%is_round))//" "// &
-                        to_text(1.0e3_wp*set%clearance(i))//" mm, law "//law//", "// &
-                        set%law%story(set%parameters(:, c)), 2)
+               words = ""
+               if (set%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%clearance(i))//" mm, "
+               call say(set%names(i)%s//": "//words//"law "//law//", "//set%law%story(set%parameters(:, c)), 2)
                last = set%first_contact + i*set%n_contact_item
                if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)

@@ -10,6 +10,7 @@ module build_clearances
    use item, only: item_t
    use joint_registry, only: new_joint_set
    use joint_set, only: joint_slot_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use scene, only: scene_t
@@ -35,15 +36,13 @@ contains
       type(joint_slot_t) :: twins(n_clearance_kinds)
       type(item_t), allocatable :: ideal(:), loose(:)
       logical, allocatable :: is_done(:)
-      integer :: first, friction, i, k, law, n, n_ideal
+      integer :: first, i, k, n, n_ideal
 
       allocate (slots(count_clearances(scene)))
       n = 0
       n_ideal = 0
       do k = 1, n_clearance_kinds
          associate (items => scene%clearances(k)%items, info => scene%clearances(k)%info)
-            law = column_of(info, "law")
-            friction = column_of(info, "friction")
             is_done = [(is_ideal(scene, k, items(i), levels), i=1, size(items))]
             allocate (ideal(0))
             do i = 1, size(items)
@@ -53,8 +52,7 @@ contains
                if (is_done(first)) cycle
                allocate (loose(0))
                do i = first, size(items)
-                  if (is_done(i) .or. items(i)%values(law)%index /= items(first)%values(law)%index .or. &
-                      items(i)%values(friction)%index /= items(first)%values(friction)%index) cycle
+                  if (is_done(i) .or. .not. share_laws(info, items(i), items(first))) cycle
                   call append_item(loose, items(i))
                   is_done(i) = .true.
                end do
@@ -77,6 +75,22 @@ contains
          call move_alloc(twins(k)%set, system%ideal(k)%set)
       end do
    end subroutine add_clearances
+
+   !> Whether two rows name the same laws.
+   logical function share_laws(info, item, other)
+      type(kind_info_t), intent(in) :: info       !! the geometry
+      type(item_t), intent(in) :: item, other     !! the rows
+
+      integer :: c
+
+      share_laws = .true.
+      do c = 1, size(info%columns)
+         select case (info%columns(c)%name)
+         case ("law", "face_law", "friction")
+            share_laws = share_laws .and. item%values(c)%index == other%values(c)%index
+         end select
+      end do
+   end function share_laws
 
    !> Whether a row becomes an ideal joint.
    logical function is_ideal(scene, kind, item, levels)
@@ -154,7 +168,7 @@ contains
       type(planar_system_t), intent(inout) :: system  !! joints and contacts are counted
 
       class(friction_law_t), allocatable :: friction
-      integer :: friction_law, i, normal_law
+      integer :: face_law, friction_law, i, normal_law
 
       call new_clearance_set(kind, slot%set)
       normal_law = items(1)%values(column_of(scene%clearances(kind)%info, "law"))%index
@@ -162,6 +176,11 @@ contains
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
       call slot%set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
                         [(items(i)%values(2)%index, i=1, size(items))], scene%points, scene%laws(normal_law)%law, friction)
+      face_law = column_of(scene%clearances(kind)%info, "face_law")
+      if (face_law <= size(items(1)%values)) then
+         face_law = items(1)%values(face_law)%index
+         if (face_law > 0) allocate (slot%set%face_law, source=scene%laws(face_law)%law)
+      end if
       slot%set%first = system%n_loose
       slot%set%first_contact = system%n_contact
       system%n_loose = system%n_loose + slot%set%n

@@ -22,7 +22,8 @@ module guided_motion
    use motion, only: motion_t
    implicit none (type, external)
    private
-   public :: find_guided_multipliers, guided_coordinates, guided_rates, guided_t, move_guided, set_guided_acceleration
+   public :: find_guided_multipliers, guided_coordinates, guided_rates, guided_response, guided_t, move_guided
+   public :: set_guided_acceleration
 
    !> The guided bodies: those that turn, then those that slide.
    type :: guided_t
@@ -192,6 +193,29 @@ contains
       end do
       status = merge(0, 1, ieee_is_finite(sum))
    end subroutine guided_rates
+
+   !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
+   !> add to them.
+   pure subroutine guided_response(guided, g, with_own, alpha, a)
+      type(guided_t), intent(in) :: guided             !! the bodies, moved
+      real(wp), intent(in) :: g(:, 0:)                 !! (3, 0:bodies) loads [N, N, N.m]
+      logical, intent(in) :: with_own                  !! with the accelerations by the motion
+      real(wp), intent(in) :: alpha(:, 0:)             !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
+      real(wp), intent(inout) :: a(:, 0:)              !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+
+      real(wp) :: a_0(2), x_ddot
+      integer :: b, k
+
+      do k = 1, guided%n
+         b = guided%body(k)
+         a_0 = merge(guided%a_0(:, k), 0.0_wp, with_own)
+         x_ddot = dot_product(guided%along(:, k), g(1:2, b) - guided%mass(k)*a_0)
+         if (k <= guided%n_turning) x_ddot = x_ddot + g(3, b)
+         x_ddot = guided%ease(k)*x_ddot
+         a(1:2, b) = a_0 + x_ddot*guided%along(:, k)
+         a(3, b) = merge(x_ddot, merge(alpha(3, guided%base(k)), 0.0_wp, with_own), k <= guided%n_turning)
+      end do
+   end subroutine guided_response
 
    !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
    pure subroutine set_guided_acceleration(guided, x_ddot, motion)

@@ -39,7 +39,7 @@ contains
       if (system%with_ledger) before = mechanical_energy(system)
       call way%correct_step(system, t, y, status)
       if (status /= 0 .or. .not. system%with_ledger) return
-      z = 2*system%n_position + work_stabilisation
+      z = system%n - system%n_quadrature + work_stabilisation
       y(z) = y(z) + (mechanical_energy(system) - before)
    end subroutine correct_by
 

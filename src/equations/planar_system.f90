@@ -7,7 +7,8 @@
 !> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per contact: lost by damping, lost by
 !> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|.
 !>
-!> Events: one function per contact of a loose joint, the penetration while free, its negative while touching.
+!> Events: one function per contact of a loose joint, the penetration while free, its negative while touching; with friction
+!> that sticks, another one per contact (`planar_friction`). Contacts with bristles have a state each, after the rates.
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module planar_system
@@ -17,12 +18,13 @@ module planar_system
    use clearance_set, only: clearance_slot_t
    use dae_system, only: dae_system_t
    use force_set, only: force_slot_t
-   use guided_motion, only: guided_rates, guided_t, move_guided, set_guided_acceleration
+   use guided_motion, only: guided_rates, guided_response, guided_t, move_guided, set_guided_acceleration
    use hold, only: hold_t
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
    use known_motion, only: known_t, move_known
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
+   use grip_forces, only: grip_forces_t
    use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates, take_known
    implicit none (type, external)
    private
@@ -84,11 +86,13 @@ module planar_system
       real(wp), allocatable :: rest(:, :)                !! (3, 0:bodies) scratch of `find_reactions` [N, N, N.m]
       real(wp), allocatable :: losses(:, :)              !! (2, contacts) power lost by contact and friction [W]
       real(wp) :: load_power = 0.0_wp                    !! power of applied loads [W]
+      type(grip_forces_t) :: grips                       !! contacts whose friction remembers
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
       procedure :: evaluate => planar_evaluate
       procedure :: dae_residual => planar_dae_residual
       procedure, private :: evaluate_terms
+      procedure, private :: find_accelerations
       procedure, private :: ledger_rates
       procedure :: weights => planar_weights
       procedure :: events => planar_events
@@ -105,6 +109,12 @@ module planar_system
       procedure :: set_state => planar_set_state
       procedure :: row_name => planar_row_name
       procedure :: find_contact => planar_find_contact
+      procedure :: stick => planar_stick
+      procedure :: take_bristles => planar_take_bristles
+      procedure :: bristle_rates => planar_bristle_rates
+      procedure :: bristle_weights => planar_bristle_weights
+      procedure :: friction_events => planar_friction_events
+      procedure :: decide_slip => planar_decide_slip
       procedure :: memory_size => planar_memory_size
       procedure :: save => planar_save
       procedure :: load => planar_load
@@ -135,6 +145,54 @@ module planar_system
          class(planar_system_t), intent(in) :: self     !! the system
          integer, intent(in) :: k                       !! number of the event function
       end function planar_is_onset
+
+      !> Forces of the contacts that stick, and the accelerations with them.
+      module subroutine planar_stick(self, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system, accelerations without these forces found
+         integer, intent(out) :: status                 !! 0: found
+      end subroutine planar_stick
+
+      !> Deflections of bristles from a state into the contacts.
+      module subroutine planar_take_bristles(self, y)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+      end subroutine planar_take_bristles
+
+      !> Rates of these deflections, as of the last evaluation.
+      module subroutine planar_bristle_rates(self, ydot)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         real(wp), intent(inout) :: ydot(:)             !! (n) derivative of the state [any]
+      end subroutine planar_bristle_rates
+
+      !> Their scales, for error norms.
+      module subroutine planar_bristle_weights(self, scale)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         real(wp), intent(inout) :: scale(:)            !! (n) scales [any]
+      end subroutine planar_bristle_weights
+
+      !> Event functions of friction: slip that ends, and sticking that gives way. Evaluates the system at the state.
+      module subroutine planar_friction_events(self, t, y, g, rate)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         real(wp), intent(inout) :: g(:)                !! (n_event) event functions, the last n_contact set here [m/s or N]
+         real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2 or N/s]
+      end subroutine planar_friction_events
+
+      !> Decide whether a contact slips, which way, or sticks, at a state.
+      module subroutine planar_decide_slip(self, t, y, slot, k)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         integer, intent(in) :: slot                    !! set of the contact
+         integer, intent(in) :: k                       !! contact of the set
+      end subroutine planar_decide_slip
 
       !> Numbers that a checkpoint needs: the memory of all sets and the counters.
       module integer function planar_memory_size(self) result(n)
@@ -185,6 +243,52 @@ module planar_system
          class(planar_system_t), intent(in) :: self  !! the system
          real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
       end subroutine ledger_rates
+      !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
+      !> greatest present rate of the mechanism, at least one per second. Angles are not scaled by
+      !> their value, so that the error does not grow as a crank counts turns.
+      module subroutine planar_weights(self, y, scale)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self  !! the system
+         real(wp), intent(in) :: y(:)                !! (n) state [any]
+         real(wp), intent(out) :: scale(:)           !! (n) scales [any]
+      end subroutine planar_weights
+
+      !> Event functions: penetrations of free contacts, their negatives of touching ones.
+      module subroutine planar_events(self, t, y, g, rate)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
+         real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
+      end subroutine planar_events
+
+      !> The same at the present motion.
+      module subroutine planar_last_events(self, t, y, g, rate)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time of the last evaluation [s]
+         real(wp), intent(in) :: y(:)                   !! (n) its state [any]
+         real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
+         real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
+      end subroutine planar_last_events
+
+      !> Set of a contact and its place there by its number.
+      module subroutine planar_find_contact(self, number, slot, contact)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self  !! the system
+         integer, intent(in) :: number               !! contact, in the order of the sets
+         integer, intent(out) :: slot                !! its set
+         integer, intent(out) :: contact             !! its number in the set
+      end subroutine planar_find_contact
+
+      !> Name of the joint or driver that a constraint row belongs to.
+      module function planar_row_name(self, row) result(name)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self   !! the system
+         integer, intent(in) :: row                   !! number of the row
+         character(:), allocatable :: name            !! the joint's name
+      end function planar_row_name
    end interface
 
 contains
@@ -198,6 +302,7 @@ contains
       integer, intent(out) :: status                 !! outcome
 
       self%n_evaluations = self%n_evaluations + 1
+      if (self%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          call correct_stage(self, t, y, status)
          if (status /= 0) return
@@ -207,10 +312,11 @@ contains
       end if
       call evaluate_terms(self, t, status)
       if (status /= 0) return
+      call self%find_accelerations(self%g, .true., status)
+      if (status == 0 .and. self%grips%n_slip > 0) call self%stick(status)
+      if (status /= 0) return
       associate (n => 3*self%rows%n_unknown, nq => self%n_position, guided => self%guided)
          if (n > 0) then
-            call find_accelerations(self, self%g, .true., status)
-            if (status /= 0) return
             call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, &
                              ydot, ydot(nq + 1:), status)
             if (status /= 0) return
@@ -221,8 +327,9 @@ contains
             if (self%with_ledger) call set_guided_acceleration(guided, ydot(nq + n + 1:), self%motion)
          end if
       end associate
+      if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
       if (.not. self%with_ledger) return
-      call self%ledger_rates(ydot(2*self%n_position + 1:))
+      call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
    end subroutine planar_evaluate
 
    !> Correct the coordinates and rates that an evaluation begins with, into `held`.
@@ -247,6 +354,7 @@ contains
 
       class(hold_t), allocatable :: way
 
+      if (h < huge(1.0_wp)) self%grips%h = h
       call move_alloc(self%way, way)
       call way%begin_step(self, h)
       call move_alloc(way, self%way)
@@ -302,7 +410,7 @@ contains
       integer, intent(out) :: status                 !! 0: found
 
       self%rest = 0.0_wp
-      call find_accelerations(self, self%rest, .false., status)
+      call self%find_accelerations(self%rest, .false., status)
    end subroutine planar_solve_rows
 
    !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: it stays finite, and
@@ -315,8 +423,12 @@ contains
 
       integer :: k
 
-      self%bad_row = 1
       status = 0
+      if (self%guided%n > 0 .and. self%grips%n_slip > 0) then
+         call guided_response(self%guided, g, must_agree, self%motion%alpha, self%a)
+      end if
+      if (self%rows%n_unknown == 0) return
+      self%bad_row = 1
       if (.not. self%is_redundant) then
          call self%solver%solve(self%inverse_mass, self%rows, g, self%b, self%a, self%lambda, self%bad_row)
       end if
@@ -332,78 +444,6 @@ contains
       end if
       if (self%bad_row > 0) status = 1
    end subroutine find_accelerations
-
-   !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
-   !> greatest present rate of the mechanism, at least one per second. Angles are not scaled by
-   !> their value, so that the error does not grow as a crank counts turns.
-   subroutine planar_weights(self, y, scale)
-      class(planar_system_t), intent(in) :: self  !! the system
-      real(wp), intent(in) :: y(:)                !! (n) state [any]
-      real(wp), intent(out) :: scale(:)           !! (n) scales [any]
-
-      real(wp) :: rate
-      integer :: body, k, n, nq
-
-      nq = self%n_position
-      n = 3*self%rows%n_unknown
-      rate = 1.0_wp
-      do k = nq + 1, nq + n, 3
-         rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
-      end do
-      do k = 1, self%known%n
-         body = self%known%body(k)
-         rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
-      end do
-      do k = 1, self%guided%n
-         scale(n + k) = merge(1.0_wp, self%length_scale, k <= self%guided%n_turning)
-         rate = max(rate, abs(y(nq + n + k))/scale(n + k))
-      end do
-      scale(nq + n + 1:2*nq) = scale(n + 1:nq)*rate
-      do k = 1, n, 3
-         scale(k) = self%length_scale
-         scale(k + 1) = self%length_scale
-         scale(k + 2) = 1.0_wp
-         scale(nq + k) = self%length_scale*rate
-         scale(nq + k + 1) = self%length_scale*rate
-         scale(nq + k + 2) = rate
-      end do
-   end subroutine planar_weights
-
-   !> Event functions: penetrations of free contacts, their negatives of touching ones.
-   subroutine planar_events(self, t, y, g, rate)
-      class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in) :: y(:)                   !! (n) state [any]
-      real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
-      real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
-
-      call self%set_motion(t, y)
-      call self%last_events(t, y, g, rate)
-   end subroutine planar_events
-
-   !> The same at the present motion.
-   subroutine planar_last_events(self, t, y, g, rate)
-      class(planar_system_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: t                      !! time of the last evaluation [s]
-      real(wp), intent(in) :: y(:)                   !! (n) its state [any]
-      real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
-      real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
-
-      integer :: first, i, k
-
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
-            call set%gaps(self%motion, g, rate)
-            if (set%n_touching == 0) cycle
-            first = set%first_contact
-            do i = 1, set%n_contact
-               if (.not. set%contact(i)%is_touching) cycle
-               g(first + i) = -g(first + i)
-               rate(first + i) = -rate(first + i)
-            end do
-         end associate
-      end do
-   end subroutine planar_last_events
 
    !> Motion of all bodies at a state.
    subroutine planar_set_motion(self, t, y)
@@ -439,51 +479,5 @@ contains
          if (self%guided%n > 0) call set_guided_acceleration(self%guided, ydot(nq + n + 1:2*nq), self%motion)
       end associate
    end subroutine planar_set_acceleration
-
-   !> Set of a contact and its place there by its number.
-   subroutine planar_find_contact(self, number, slot, contact)
-      class(planar_system_t), intent(in) :: self  !! the system
-      integer, intent(in) :: number               !! contact, in the order of the sets
-      integer, intent(out) :: slot                !! its set
-      integer, intent(out) :: contact             !! its number in the set
-
-      do slot = 1, size(self%clearances)
-         contact = number - self%clearances(slot)%set%first_contact
-         if (contact <= self%clearances(slot)%set%n_contact) return
-      end do
-   end subroutine planar_find_contact
-
-   !> Name of the joint or driver that a constraint row belongs to.
-   function planar_row_name(self, row) result(name)
-      class(planar_system_t), intent(in) :: self   !! the system
-      integer, intent(in) :: row                   !! number of the row
-      character(:), allocatable :: name            !! the joint's name
-
-      integer :: k
-
-      name = "?"
-      do k = 1, size(self%joints)
-         call look(self%joints(k))
-      end do
-      do k = 1, size(self%ideal)
-         call look(self%ideal(k))
-      end do
-
-   contains
-
-      !> Look in one set.
-      subroutine look(slot)
-         type(joint_slot_t), intent(in) :: slot  !! the set
-
-         integer :: item
-
-         associate (set => slot%set)
-            if (row <= set%first_row .or. row > set%first_row + set%n*set%n_row_item) return
-            item = (row - set%first_row - 1)/set%n_row_item + 1
-            name = set%names(item)%s
-         end associate
-      end subroutine look
-
-   end function planar_row_name
 
 end module planar_system

@@ -18,7 +18,7 @@ module integrator
    private
    public :: add_control_columns, controls_t, integrator_t, read_controls
    public :: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps
-   public :: advance_too_small, near
+   public :: advance_too_small
    public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    public :: steps_any, steps_fixed, steps_variable
@@ -62,7 +62,6 @@ module integrator
       real(wp) :: onset_limit = default_limit  !! greatest penetration at an onset with `onset_reject` [m]
    end type controls_t
 
-   real(wp), parameter :: near = 1.0e-9_wp      !! of a step: an event located closer than this is found [1]
    real(wp), parameter :: round_off = 100.0_wp  !! spacings of time: events closer than this are one [1]
 
    !> An integrator with its state.

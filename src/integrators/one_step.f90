@@ -11,7 +11,7 @@
 module one_step
    use event_location, only: find_first_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
-      advance_too_many_steps, advance_too_small, integrator_t, near, onset_located, onset_reject
+      advance_too_many_steps, advance_too_small, integrator_t, onset_located, onset_reject
    use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
@@ -23,6 +23,7 @@ module one_step
    real(wp), parameter :: safety = 0.9_wp         !! of the step that the estimate would allow [1]
    real(wp), parameter :: growth = 4.0_wp         !! greatest ratio of successive steps [1]
    real(wp), parameter :: shrinkage = 0.1_wp      !! least ratio of successive steps [1]
+   real(wp), parameter :: near = 1.0e-9_wp        !! of a step: events closer than this count as one [1]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
    integer, parameter :: n_newton = 12            !! re-steps towards an event
    integer, parameter :: n_halving = 60           !! halvings if these do not converge

@@ -22,7 +22,7 @@ module read_scene
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
       n_analysis, n_base, scene_t, table_bodies, table_materials, table_points
    use section_info, only: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
-   use surfaces, only: surfaces_t
+   use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -395,8 +395,10 @@ contains
       character(:), allocatable, intent(out) :: message   !! what is wrong
       character(:), allocatable, intent(out) :: help      !! what would be right
 
+      type(kind_info_t) :: law_info
       type(surfaces_t) :: pair
       real(wp) :: parameters(n_law_parameter)
+      integer :: face_law
 
       column = column_of(info, "level")
       if (column <= size(item%values)) then
@@ -407,6 +409,20 @@ contains
       call set%describe(item, scene%materials, pair)
       call scene%laws(item%values(column_of(info, "law"))%index)%law%fit(pair, parameters, message, help)
       if (message /= "") column = column_of(info, "law")
+      if (column > 0) return
+      face_law = column_of(info, "face_law")
+      if (face_law > size(item%values)) return
+      if (item%values(face_law)%index == 0) return
+      pair%shape = shape_face
+      associate (law => scene%laws(item%values(face_law)%index)%law)
+         law_info = law%info()
+         call law%fit(pair, parameters, message, help)
+         if (law_info%name /= "contact.plane_face") then
+            message = "'"//law%name//"' is no law of a plane face"
+            help = "name a row of contact.plane_face"
+         end if
+      end associate
+      if (message /= "") column = face_law
    end subroutine check_law
 
    !> Where the deck puts a point at the start.

@@ -46,6 +46,9 @@ contains
       call add_word(info, "start", "ideal: positions and velocities of the mechanism with ideal joints; given: as the deck " &
                     //"gives them, the ideal joints assembled; static: at rest in the static equilibrium at t = 0", &
                     default="ideal", choices="ideal given static")
+      call add_word(info, "overlap", "surfaces of loose joints that overlap at the start: error, or preload: their contacts have " &
+                    //"begun, with the rate of the penetration as impact speed, or its floor", default="error", &
+                    choices="error preload")
       call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
       call add_word(info, "method", "integrator", default="verner", choices=trim(adjustl(methods)))
       call add_word(info, "solver", "of the augmented equations: schur (complement, in its envelope), sparse (KLU), lapack (full " &

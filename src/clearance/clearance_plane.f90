@@ -1,0 +1,115 @@
+!> A disc or a ball of body j against a plane fixed in body i.
+!>
+!> With the outward normal N of the plane, C the centre of the ball and P a point of the plane:
+!> delta = R - N . (r_C - r_P),   n = -N,   rate, forces and friction: see `flat_contacts`.
+!>
+!> Signs: the reported force is that on the ball, world frame; the friction force is its component along t = R90 n, which
+!> is N turned by a right angle clockwise: +x of a floor below.
+!> Source: Flores et al. (2008), section 3.6 (figure 3.12), (3.5) for the stiffness of a ball on a plane; (3.18) with its sign
+!> put right. Limits: a plane without ends; the ball is a half space of its radius for the stiffness.
+module clearance_plane
+   use bodies, only: material_t
+   use flat_contacts, only: add_contact_channels, flat_contacts_t
+   use item, only: item_t
+   use joint_translational, only: add_axis_columns
+   use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
+   use kinds, only: wp
+   use surfaces, only: set_materials, shape_plane, surfaces_t
+   implicit none (type, external)
+   private
+   public :: clearance_plane_t
+
+   integer, parameter :: column_axis = 3            !! column of axis
+   integer, parameter :: column_angle = 4           !! column of axis_angle
+   integer, parameter :: column_radius = 5          !! column of radius
+   integer, parameter :: column_material = 6        !! column of material
+   integer, parameter :: column_ball_material = 7   !! column of ball_material
+
+   !> Balls on planes.
+   type, extends(flat_contacts_t) :: clearance_plane_t
+   contains
+      procedure, nopass :: info => plane_info
+      procedure, nopass :: ideal_kind => plane_ideal_kind
+      procedure :: prepare => plane_prepare
+      procedure, nopass :: mistake => plane_mistake
+      procedure, nopass :: describe => plane_describe
+   end type clearance_plane_t
+
+contains
+
+   !> What the geometry says of itself.
+   function plane_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "clearance.plane"
+      info%help = "a ball or disc on a plane; it has no ideal twin, so that --ideal keeps its contact"
+      info%source = "Flores et al. (2008), sections 3.1 and 3.6"
+      call add_reference(info, "plane", "points", "a point of the plane")
+      call add_reference(info, "ball", "points", "centre of the ball or disc")
+      call add_axis_columns(info, "normal of the plane, out of its body,")
+      call add_number(info, "radius", dim_length, "radius of the ball", lower=0.0_wp, open_lower=.true.)
+      call add_reference(info, "material", "material", "material of plane and ball")
+      call add_reference(info, "ball_material", "material", "material of the ball, if another", default="none")
+      call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
+      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
+      call add_channel(info, "force", "N", "world", 2, "force on the ball")
+      call add_contact_channels(info, "ball")
+   end function plane_info
+
+   !> A plane does not hold a ball.
+   function plane_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! blank: no ideal joint
+
+      kind = ""
+   end function plane_ideal_kind
+
+   !> Normal and radius of each item.
+   subroutine plane_prepare(self, items)
+      class(clearance_plane_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)             !! (n) rows of the table
+
+      real(wp) :: c, s
+      integer :: k
+
+      call self%make_room()
+      do k = 1, self%n
+         associate (values => items(k)%values)
+            c = cos(values(column_angle)%number)
+            s = sin(values(column_angle)%number)
+            self%normal_i(:, k) = -merge([c, s], [-s, c], values(column_axis)%text == "x")
+            self%radius(k) = values(column_radius)%number
+            self%height(k) = -self%radius(k)
+            self%point_j(:, k) = self%s_j(1:2, k)
+            self%clearance(k) = self%radius(k)
+         end associate
+      end do
+   end subroutine plane_prepare
+
+   !> Any row makes sense.
+   subroutine plane_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! 0: all is well
+      character(:), allocatable, intent(out) :: message      !! blank
+      character(:), allocatable, intent(out) :: help         !! blank
+
+      column = 0
+      message = repeat("", len(item%name))
+      help = ""
+   end subroutine plane_mistake
+
+   !> A ball on a plane.
+   pure subroutine plane_describe(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      integer :: ball_material
+
+      pair%shape = shape_plane
+      pair%radius_j = item%values(column_radius)%number
+      ball_material = item%values(column_ball_material)%index
+      if (ball_material == 0) ball_material = item%values(column_material)%index
+      call set_materials(pair, materials(item%values(column_material)%index), materials(ball_material))
+   end subroutine plane_describe
+
+end module clearance_plane

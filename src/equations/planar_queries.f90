@@ -1,0 +1,125 @@
+!> What is asked of a planar scene beside its evaluation: error scales, event functions, names.
+submodule(planar_system) planar_queries
+   implicit none (type, external)
+
+contains
+
+   !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
+   !> greatest present rate of the mechanism, at least one per second. Angles are not scaled by
+   !> their value, so that the error does not grow as a crank counts turns.
+   module procedure planar_weights
+      real(wp) :: rate
+      integer :: body, k, n, nq
+
+      nq = self%n_position
+      n = 3*self%rows%n_unknown
+      rate = 1.0_wp
+      do k = nq + 1, nq + n, 3
+         rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
+      end do
+      do k = 1, self%known%n
+         body = self%known%body(k)
+         rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
+      end do
+      do k = 1, self%guided%n
+         scale(n + k) = merge(1.0_wp, self%length_scale, k <= self%guided%n_turning)
+         rate = max(rate, abs(y(nq + n + k))/scale(n + k))
+      end do
+      scale(nq + n + 1:2*nq) = scale(n + 1:nq)*rate
+      do k = 1, n, 3
+         scale(k) = self%length_scale
+         scale(k + 1) = self%length_scale
+         scale(k + 2) = 1.0_wp
+         scale(nq + k) = self%length_scale*rate
+         scale(nq + k + 1) = self%length_scale*rate
+         scale(nq + k + 2) = rate
+      end do
+      if (self%grips%n_bristle > 0) call self%bristle_weights(scale)
+   end procedure planar_weights
+
+   !> Event functions: penetrations of free contacts, their negatives of touching ones.
+   module procedure planar_events
+      if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) then
+         call self%friction_events(t, y, g, rate)
+      else
+         call self%set_motion(t, y)
+      end if
+      call contact_events(self, g, rate)
+   end procedure planar_events
+
+   !> The same at the present motion.
+   module procedure planar_last_events
+      if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) call self%friction_events(t, y, g, rate)
+      call contact_events(self, g, rate)
+   end procedure planar_last_events
+
+   !> Event functions of the contacts at the present motion.
+   subroutine contact_events(self, g, rate)
+      class(planar_system_t), intent(in) :: self     !! the system
+      real(wp), intent(inout) :: g(:)                !! (n_event) event functions [m]
+      real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s]
+
+      integer :: first, i, k
+
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            call set%gaps(self%motion, g, rate)
+            if (set%n_touching == 0) cycle
+            first = set%first_contact
+            do i = 1, set%n_contact
+               if (.not. set%contact(i)%is_touching) cycle
+               g(first + i) = -g(first + i)
+               rate(first + i) = -rate(first + i)
+            end do
+         end associate
+      end do
+   end subroutine contact_events
+
+   !> Whether event k, as things stand, is the onset of a contact.
+   module procedure planar_is_onset
+      integer :: item, slot
+
+      is_onset = .false.
+      if (k > self%n_contact) return
+      call self%find_contact(k, slot, item)
+      is_onset = .not. self%clearances(slot)%set%contact(item)%is_touching
+   end procedure planar_is_onset
+
+   !> Set of a contact and its place there by its number.
+   module procedure planar_find_contact
+      do slot = 1, size(self%clearances)
+         contact = number - self%clearances(slot)%set%first_contact
+         if (contact <= self%clearances(slot)%set%n_contact) return
+      end do
+   end procedure planar_find_contact
+
+   !> Name of the joint or driver that a constraint row belongs to.
+   module procedure planar_row_name
+      integer :: k
+
+      name = "?"
+      do k = 1, size(self%joints)
+         call look(self%joints(k))
+      end do
+      do k = 1, size(self%ideal)
+         call look(self%ideal(k))
+      end do
+
+   contains
+
+      !> Look in one set.
+      subroutine look(slot)
+         type(joint_slot_t), intent(in) :: slot  !! the set
+
+         integer :: item
+
+         associate (set => slot%set)
+            if (row <= set%first_row .or. row > set%first_row + set%n*set%n_row_item) return
+            item = (row - set%first_row - 1)/set%n_row_item + 1
+            name = set%names(item)%s
+         end associate
+      end subroutine look
+
+   end procedure planar_row_name
+
+end submodule planar_queries
