@@ -5,6 +5,7 @@ module contact_watch
    use memory, only: get, put
    use planar_system, only: n_ledger, planar_system_t
    use recorder, only: event_t
+   use slip_watch, only: handle_slip
    implicit none (type, external)
    private
    public :: close_open, contact_watch_t, new_contact_watch
@@ -218,19 +219,28 @@ contains
       place = bracket%place_a + s*(bracket%place_b - bracket%place_a)
    end function maximum_in
 
-   !> A located event: a contact begins or ends.
+   !> A located event: a contact begins or ends, slips or sticks.
    subroutine handle_event(self, system, method, number, is_over, row, step_hint)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(planar_system_t), intent(inout) :: system    !! the system; the contact's state is changed
       class(integrator_t), intent(in) :: method         !! the integrator, at the event
-      integer, intent(in) :: number                     !! number of the contact
-      logical, intent(out) :: is_over                   !! a contact ended: `row` tells of it
-      type(event_t), intent(out) :: row                 !! the contact that ended
+      integer, intent(in) :: number                     !! number of the event function
+      logical, intent(out) :: is_over                   !! there is something to tell: a contact ended, or its friction changed
+      type(event_t), intent(out) :: row                 !! what there is to tell
       real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
 
       real(wp) :: rate
       integer :: i, k
 
+      if (number > system%n_contact) then
+         call system%find_contact(number - system%n_contact, k, i)
+         call handle_slip(system, method%t, method%step%y1, k, i, row)
+         is_over = .true.
+         associate (set => system%clearances(k)%set)
+            step_hint = first_step*set%contact_time(i, max(set%contact(i)%impact_speed, tiny(1.0_wp)), system%inverse_mass(1, :))
+         end associate
+         return
+      end if
       call system%find_contact(number, k, i)
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
       associate (set => system%clearances(k)%set)
@@ -320,7 +330,7 @@ contains
 
       loss = not_a_number()
       if (.not. system%with_ledger) return
-      z = 2*system%n_position + n_ledger + 2*number
+      z = system%n - system%n_quadrature + n_ledger + 2*number
       loss = y(z - 1) + y(z)
    end function loss_of
 

@@ -12,6 +12,7 @@ module dynamic
    use planar_report, only: build_catalogue, report_state
    use planar_system, only: planar_system_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
+   use slip_watch, only: decide_next
    use text, only: append_text, real_text, to_text
    use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
@@ -127,6 +128,9 @@ contains
       type(energy_t) :: energy
       integer :: n_since_progress, status
 
+      call system%set_motion(0.0_wp, y)
+      call decide_slips(system, 0.0_wp, y, recorder, run, error)
+      if (allocated(error)) return
       call method%start(system, 0.0_wp, y, plan%end, status)
       if (status /= 0) then
          call describe_failure(system, method, status, error)
@@ -250,9 +254,33 @@ contains
             run%summary%contacts = run%summary%contacts + 1
          end if
       end do
+      call decide_slips(system, method%t, method%step%y1, recorder, run, error)
+      if (allocated(error)) return
       call method%restart(system, step_hint, status)
       if (status /= 0) call describe_failure(system, method, status, error)
    end subroutine handle_events
+
+   !> Decide whether contacts that have just begun slip or stick.
+   subroutine decide_slips(system, t, y, recorder, run, error)
+      type(planar_system_t), intent(inout) :: system      !! the system, its motion that of the state
+      real(wp), intent(in) :: t                           !! time [s]
+      real(wp), intent(in) :: y(:)                        !! (n) state [any]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(run_t), intent(inout) :: run                   !! state of the run
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+
+      type(event_t) :: row
+      logical :: has_row, is_found
+
+      if (system%grips%n_slip == 0) return
+      do
+         call decide_next(system, t, y, is_found, has_row, row)
+         if (.not. is_found) exit
+         if (.not. has_row) cycle
+         call recorder%event(row, error)
+         if (allocated(error)) return
+      end do
+   end subroutine decide_slips
 
    !> Name of an integrator.
    function method_name(method) result(name)

@@ -16,6 +16,8 @@ module clearance_revolute
    use bodies, only: material_t
    use catalogue, only: state_contact, state_free
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
+   use contact_grip, only: tangent_t
+   use friction_law, only: memory_none
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
    use kinds, only: wp
@@ -70,6 +72,7 @@ module clearance_revolute
       procedure :: evaluate => revolute_evaluate
       procedure :: gaps => revolute_gaps
       procedure :: watch => revolute_watch
+      procedure :: lie => revolute_lie
       procedure :: report => revolute_report
       procedure :: elastic_energy => revolute_elastic_energy
    end type clearance_revolute_t
@@ -257,6 +260,10 @@ contains
       df_ddelta = slope_delta(1)
       df_drate = slope_rate(1)
       if (.not. allocated(self%friction)) return
+      if (self%grip%memory /= memory_none) then
+         f_t = self%grip%tangent(k)%f_t  ! of the last evaluation: it is no function of the motion alone
+         return
+      end if
       call measure_sliding(self, k, motion, contact)
       call self%friction%force(1, [f_n], [abs(contact%v_t)], f)
       f_t = -sign(f(1), contact%v_t)
@@ -314,6 +321,10 @@ contains
 
       integer :: k
 
+      if (self%grip%memory /= memory_none) then
+         call self%rub(motion, self%f_n, self%f_t, losses)
+         return
+      end if
       do k = 1, self%n
          self%speed(k) = 0.0_wp
          if (.not. self%contact(k)%is_touching) cycle
@@ -327,6 +338,37 @@ contains
          losses(loss_friction, self%first_contact + k) = -self%f_t(k)*self%kinematics(k)%v_t_work
       end do
    end subroutine evaluate_friction
+
+   !> How a contact lies. The normal turns with e' . t / |e|, and the point of contact goes along with it: of its velocity only
+   !> the part along the normal counts, that of the centre P_k and the rate at which it comes nearer to it.
+   subroutine revolute_lie(self, k, motion, tangent)
+      class(clearance_revolute_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                         !! item
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      type(tangent_t), intent(inout) :: tangent        !! how it lies
+
+      type(contact_t) :: contact
+      real(wp) :: longer, p_i(2), p_j(2), s_i(2), s_j(2), turn
+      integer :: i, j
+
+      i = self%body(1, k)
+      j = self%body(2, k)
+      call measure(self, k, motion, contact)
+      call measure_sliding(self, k, motion, contact)
+      tangent%t = [-contact%normal(2), contact%normal(1)]
+      tangent%arm_i = contact%arm_i
+      tangent%arm_j = contact%arm_j
+      tangent%v = contact%v_t_work
+      longer = merge(0.0_wp, 0.5_wp*contact%rate, self%is_book(k))  ! rate of the distance from the bearing's centre
+      s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
+      s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      p_i = motion%omega(3, i)*[-s_i(2), s_i(1)]  ! of the centres, from those of mass
+      p_j = motion%omega(3, j)*[-s_j(2), s_j(1)]
+      turn = dot_product(motion%v(1:2, j) + p_j - motion%v(1:2, i) - p_i, tangent%t)/max(contact%delta + self%clearance(k), &
+                                                                                          tiny(1.0_wp))
+      tangent%drift = -turn*contact%rate + motion%omega(3, j)*(dot_product(contact%normal, p_j) - longer) &
+                      - motion%omega(3, i)*(dot_product(contact%normal, p_i) + longer)
+   end subroutine revolute_lie
 
    !> Penetration and its rate for all items.
    subroutine revolute_gaps(self, motion, delta, rate)

@@ -8,7 +8,8 @@
 module clearance_set
    use bodies, only: material_t, points_t
    use catalogue, only: state_contact, state_free, state_name
-   use friction_law, only: friction_law_t
+   use contact_grip, only: grip_t, n_grip_memory, new_grip, slip_force, tangent_t
+   use friction_law, only: friction_law_t, memory_none
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
@@ -56,6 +57,7 @@ module clearance_set
       class(normal_law_t), allocatable :: face_law          !! normal law of faces, where the geometry has some; unallocated: none
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
       type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
+      type(grip_t) :: grip                                  !! what the contacts remember of their friction
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure, nopass :: contact_labels => clearance_contact_labels
@@ -66,10 +68,12 @@ module clearance_set
       procedure(evaluate_interface), deferred :: evaluate
       procedure(gaps_interface), deferred :: gaps
       procedure(watch_interface), deferred :: watch
+      procedure(lie_interface), deferred :: lie
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
       procedure :: item_of => clearance_item_of
+      procedure :: rub => clearance_rub
       procedure :: fit_law => clearance_fit_law
       procedure :: begin_contact => clearance_begin_contact
       procedure :: end_contact => clearance_end_contact
@@ -158,6 +162,17 @@ module clearance_set
          real(wp), intent(out) :: force_rate         !! its rate [N/s]
       end subroutine watch_interface
 
+      !> How a contact lies, whether it touches or not: tangent, arms, sliding velocity of the material points and the part of
+      !> its rate that does not depend on accelerations. Forces are left alone. No allocation.
+      subroutine lie_interface(self, k, motion, tangent)
+         import :: clearance_set_t, motion_t, tangent_t
+         implicit none (type, external)
+         class(clearance_set_t), intent(in) :: self  !! the set
+         integer, intent(in) :: k                    !! contact of the set
+         type(motion_t), intent(in) :: motion        !! positions and velocities
+         type(tangent_t), intent(inout) :: tangent   !! how it lies
+      end subroutine lie_interface
+
       !> Values of a channel for all items, or for all contacts if it is one of theirs.
       subroutine report_interface(self, channel, motion, values)
          import :: clearance_set_t, motion_t, wp
@@ -203,6 +218,7 @@ contains
       allocate (self%law, source=law)
       if (allocated(friction)) then
          if (friction%is_active()) allocate (self%friction, source=friction)
+         if (friction%is_active()) call new_grip(self%n_contact, friction, self%grip)
       end if
       do k = 1, self%n
          self%names(k)%s = items(k)%name
@@ -228,6 +244,27 @@ contains
 
       item = (contact - 1)/self%n_contact_item + 1
    end function clearance_item_of
+
+   !> Friction of the touching contacts by a law with a memory, and the power that it takes.
+   subroutine clearance_rub(self, motion, f_n, f_t, losses)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+      real(wp), intent(in) :: f_n(:)                 !! (n_contact) normal forces [N]
+      real(wp), intent(out) :: f_t(:)                !! (n_contact) friction force on body j along t = R90 n [N]
+      real(wp), intent(inout) :: losses(:, :)        !! (2, all contacts) power lost by damping and friction [W]
+
+      integer :: k
+
+      do k = 1, self%n_contact
+         f_t(k) = 0.0_wp
+         if (.not. self%contact(k)%is_touching) cycle
+         call self%lie(k, motion, self%grip%tangent(k))
+         self%grip%tangent(k)%f_n = f_n(k)
+         call slip_force(self%grip, self%friction, k)
+         f_t(k) = self%grip%tangent(k)%f_t
+         losses(loss_friction, self%first_contact + k) = -f_t(k)*self%grip%tangent(k)%v
+      end do
+   end subroutine clearance_rub
 
    !> Fit the normal law to the surfaces. A law that does not fit was a mistake of the deck, unless the joint is an ideal
    !> one that is taken as loose for its channels only: no contact is evaluated then.
@@ -261,6 +298,7 @@ contains
 
       self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
       self%n_touching = self%n_touching + 1
+      call self%grip%forget(k)
    end subroutine clearance_begin_contact
 
    !> A contact ends, or the run ends within it: tell its story in one row.
@@ -289,6 +327,7 @@ contains
             event%state_after = state_name(state_free)
             contact%is_touching = .false.
             self%n_touching = self%n_touching - 1
+            call self%grip%forget(k)
          else
             event%duration = not_a_number()
             event%release_speed = not_a_number()
@@ -316,6 +355,7 @@ contains
       class(clearance_set_t), intent(in) :: self  !! the set
 
       n = 6*self%n_contact
+      if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
    end function clearance_memory_size
 
    !> Write what the set remembers.
@@ -333,6 +373,7 @@ contains
                                   contact%peak_penetration, contact%loss_at_onset])
          end associate
       end do
+      call self%grip%save(row, place)
    end subroutine clearance_save
 
    !> Read what the set remembers.
@@ -354,6 +395,7 @@ contains
          end associate
       end do
       self%n_touching = count(self%contact%is_touching)
+      call self%grip%load(row, place)
    end subroutine clearance_load
 
 end module clearance_set

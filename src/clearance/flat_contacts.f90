@@ -13,6 +13,8 @@
 module flat_contacts
    use catalogue, only: state_contact, state_free
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
+   use contact_grip, only: tangent_t
+   use friction_law, only: memory_none
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -63,6 +65,7 @@ module flat_contacts
       procedure :: evaluate => flat_evaluate
       procedure :: gaps => flat_gaps
       procedure :: watch => flat_watch
+      procedure :: lie => flat_lie
       procedure :: report => flat_report
       procedure :: elastic_energy => flat_elastic_energy
    end type flat_contacts_t
@@ -179,6 +182,10 @@ contains
       end do
       call self%find_normal_forces(work)
       if (.not. allocated(self%friction)) return
+      if (self%grip%memory /= memory_none) then
+         work%f_t = self%grip%tangent%f_t  ! of the last evaluation: it is no function of the motion alone
+         return
+      end if
       call self%friction%force(self%n_contact, work%f_rub, work%speed, work%f_t)
       do m = 1, self%n_contact
          if (self%contact(m)%is_touching) work%f_t(m) = -sign(work%f_t(m), work%kinematics(m)%v_t)
@@ -214,6 +221,7 @@ contains
       if (self%n_touching == 0) return
       call move_alloc(self%work, work)
       call self%find_forces(motion, work)
+      if (self%grip%memory /= memory_none) call self%rub(motion, work%f_rub, work%f_t, losses)
       do m = 1, self%n_contact
          if (.not. self%contact(m)%is_touching .and. work%f_n(m) <= 0.0_wp) cycle
          item = self%item_of(m)
@@ -248,6 +256,33 @@ contains
          rate(self%first_contact + m) = contact%rate
       end do
    end subroutine flat_gaps
+
+   !> How a contact lies. The normal turns with body i; the point of contact moves with the point A, and in a circle towards it
+   !> by half the penetration.
+   subroutine flat_lie(self, k, motion, tangent)
+      class(flat_contacts_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                    !! contact
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(tangent_t), intent(inout) :: tangent   !! how it lies
+
+      type(flat_t) :: contact
+      real(wp) :: nearer, s_j(2), v(2)
+      integer :: i, item, j
+
+      item = self%item_of(k)
+      i = self%body(1, item)
+      j = self%body(2, item)
+      call self%measure(k, motion, contact)
+      s_j = motion%rot(1:2, 1, j)*self%point_j(1, k) + motion%rot(1:2, 2, j)*self%point_j(2, k)
+      v = motion%omega(3, j)*[-s_j(2), s_j(1)]  ! of the point A, from the centre of mass
+      nearer = merge(0.5_wp*contact%rate, 0.0_wp, self%radius(k) > 0.0_wp)
+      tangent%t = [-contact%normal(2), contact%normal(1)]
+      tangent%arm_i = contact%arm_i
+      tangent%arm_j = contact%arm_j
+      tangent%v = contact%v_t
+      tangent%drift = -motion%omega(3, i)*contact%rate + motion%omega(3, j)*(dot_product(contact%normal, v) - nearer) &
+                      - motion%omega(3, i)*(dot_product(contact%normal, motion%v(1:2, j) + v - motion%v(1:2, i)) - nearer)
+   end subroutine flat_lie
 
    !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''. The rate of a contact that
    !> shares a face is that of the five-point formula over a small part of its own time.

@@ -1,7 +1,9 @@
 !> The kinds of normal laws and of friction laws: two lines each (`use`, `case`).
 module contact_registry
    use friction_ambrosio, only: friction_ambrosio_t
+   use friction_coulomb, only: friction_coulomb_t
    use friction_law, only: friction_law_t
+   use friction_lugre, only: friction_lugre_t
    use law_hertz, only: law_hertz_t
    use law_lankarani_nikravesh, only: law_lankarani_nikravesh_t
    use normal_law, only: normal_law_t
@@ -10,7 +12,7 @@ module contact_registry
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
    integer, parameter :: n_law_kinds = 2       !! number of normal laws
-   integer, parameter :: n_friction_kinds = 1  !! number of friction laws
+   integer, parameter :: n_friction_kinds = 3  !! number of friction laws
 
 contains
 
@@ -32,6 +34,8 @@ contains
 
       select case (k)
       case (1); allocate (friction_ambrosio_t :: law)
+      case (2); allocate (friction_coulomb_t :: law)
+      case (3); allocate (friction_lugre_t :: law)
       end select
    end subroutine new_friction_law
 

@@ -2,7 +2,9 @@
 !>
 !> A law gives the magnitude of the force, not negative, from the normal force and the magnitude of
 !> the sliding speed; the caller applies it against the sliding velocity. Flores et al. (2008),
-!> section 3.5.
+!> section 3.5. A law with a memory (`memory`) needs more of the caller: with `memory_slip` a contact slides one way, slides
+!> the other way or sticks, as located events decide, and `stick_limit` says how much it holds; with `memory_bristle` it has a
+!> state, a deflection z whose rate comes from `bristles` with the force. For these `force` is that of steady sliding.
 module friction_law
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -10,15 +12,24 @@ module friction_law
    implicit none (type, external)
    private
    public :: friction_law_t
+   public :: memory_bristle, memory_none, memory_slip
+
+   integer, parameter :: memory_none = 0     !! the force is a function of the present motion
+   integer, parameter :: memory_slip = 1     !! whether and which way a contact slides is remembered
+   integer, parameter :: memory_bristle = 2  !! a contact has a deflection that is integrated
 
    !> One row of a table of friction laws.
    type, abstract :: friction_law_t
       character(:), allocatable :: name  !! name of the row
+      integer :: memory = memory_none    !! what a contact remembers, one of the above
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
       procedure(is_active_interface), deferred :: is_active
       procedure(force_interface), deferred :: force
+      procedure :: stick_limit => friction_stick_limit
+      procedure :: bristles => friction_bristles
+      procedure :: bristle_scale => friction_bristle_scale
       procedure :: mistake => friction_mistake
    end type friction_law_t
 
@@ -58,6 +69,34 @@ module friction_law
    end interface
 
 contains
+
+   !> Greatest tangential force of a contact that sticks: none, unless the law says otherwise.
+   pure real(wp) function friction_stick_limit(self, normal_force) result(f)
+      class(friction_law_t), intent(in) :: self  !! the law
+      real(wp), intent(in) :: normal_force       !! normal force, not negative [N]
+
+      f = merge(0.0_wp, 0.0_wp*normal_force, self%memory == memory_none)
+   end function friction_stick_limit
+
+   !> Force of the bristles of one contact and the rate of their deflection: none, unless the law says otherwise.
+   pure subroutine friction_bristles(self, normal_force, velocity, z, f, z_rate)
+      class(friction_law_t), intent(in) :: self  !! the law
+      real(wp), intent(in) :: normal_force       !! normal force, not negative [N]
+      real(wp), intent(in) :: velocity           !! sliding velocity [m/s]
+      real(wp), intent(in) :: z                  !! deflection [m]
+      real(wp), intent(out) :: f                 !! force along the sliding velocity that is to be opposed [N]
+      real(wp), intent(out) :: z_rate            !! rate of the deflection [m/s]
+
+      f = 0.0_wp
+      z_rate = 0.0_wp
+   end subroutine friction_bristles
+
+   !> Natural size of the deflection, for error norms.
+   pure real(wp) function friction_bristle_scale(self) result(z)
+      class(friction_law_t), intent(in) :: self  !! the law
+
+      z = merge(1.0_wp, 0.0_wp, self%memory >= memory_none)
+   end function friction_bristle_scale
 
    !> What is wrong with the parameters as a whole, empty if nothing is; a law with such rules overrides this.
    function friction_mistake(self) result(message)

@@ -8,6 +8,8 @@ module build_system
    use find_known, only: find_known_bodies, has_smooth_cells, joint_points, link_t
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_slot_t
+   use friction_law, only: memory_bristle, memory_slip
+   use grip_forces, only: new_grip_forces
    use hold_registry, only: n_hold_kinds, new_hold
    use item, only: option_t
    use joint_registry, only: n_joint_kinds, new_joint_set
@@ -82,8 +84,30 @@ contains
       system%n_quadrature = merge(n_ledger + 2*system%n_contact, 0, system%with_ledger)
       system%n = 2*system%n_position + system%n_quadrature
       system%n_event = system%n_contact
+      call count_grips(system)
       allocate (system%held(2*system%n_position), source=0.0_wp)
    end subroutine new_system
+
+   !> Room for friction that remembers: a state for each contact with bristles, a second event function for each contact if
+   !> any can stick.
+   subroutine count_grips(system)
+      type(planar_system_t), intent(inout) :: system  !! the system, all else counted
+
+      integer :: k, n_bristle, n_slip
+
+      n_bristle = 0
+      n_slip = 0
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            set%grip%first_bristle = n_bristle
+            if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%n_contact
+            if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
+         end associate
+      end do
+      system%n = system%n + n_bristle
+      if (n_slip > 0) system%n_event = 2*system%n_contact
+      call new_grip_forces(n_slip, n_bristle, system%n_body, system%rows%n, system%n, system%grips)
+   end subroutine count_grips
 
    !> Angles of the bodies at the start, with that of the ground.
    pure function start_angles(scene) result(angle)

@@ -88,7 +88,7 @@ contains
 
       call add_mechanical(system, energy)
       if (.not. system%with_ledger) return
-      z = 2*system%n_position
+      z = system%n - system%n_quadrature
       energy%drive_work = y(z + work_drive)
       energy%load_work = y(z + work_load)
       energy%stabilisation_work = y(z + work_stabilisation)

@@ -7,7 +7,8 @@
 !> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per contact: lost by damping, lost by
 !> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|.
 !>
-!> Events: one function per contact of a loose joint, the penetration while free, its negative while touching.
+!> Events: one function per contact of a loose joint, the penetration while free, its negative while touching; with friction
+!> that sticks, another one per contact (`planar_friction`). Contacts with bristles have a state each, after the rates.
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module planar_system
@@ -21,6 +22,7 @@ module planar_system
    use kinds, only: i8, wp
    use known_motion, only: find_multipliers, known_t, move_known, power_of_known
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
+   use grip_forces, only: grip_forces_t
    use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates, take_known
    implicit none (type, external)
    private
@@ -78,17 +80,21 @@ module planar_system
       real(wp), allocatable :: rest(:, :)                !! (3, 0:bodies) scratch of `find_reactions` [N, N, N.m]
       real(wp), allocatable :: losses(:, :)              !! (2, contacts) power lost by contact and friction [W]
       real(wp) :: load_power = 0.0_wp                    !! power of applied loads [W]
+      type(grip_forces_t) :: grips                       !! contacts whose friction remembers
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
       procedure :: evaluate => planar_evaluate
       procedure :: dae_residual => planar_dae_residual
       procedure, private :: evaluate_terms
+      procedure, private :: find_accelerations
       procedure, private :: ledger_rates
       procedure :: weights => planar_weights
       procedure :: events => planar_events
       procedure :: last_events => planar_last_events
       procedure :: set_step => planar_set_step
       procedure :: hold => planar_hold
+      procedure :: mend => planar_mend
+      procedure :: is_onset => planar_is_onset
       procedure :: solve_rows => planar_solve_rows
       procedure :: evaluate_rows => planar_evaluate_rows
       procedure :: set_motion => planar_set_motion
@@ -97,6 +103,12 @@ module planar_system
       procedure :: set_state => planar_set_state
       procedure :: row_name => planar_row_name
       procedure :: find_contact => planar_find_contact
+      procedure :: stick => planar_stick
+      procedure :: take_bristles => planar_take_bristles
+      procedure :: bristle_rates => planar_bristle_rates
+      procedure :: bristle_weights => planar_bristle_weights
+      procedure :: friction_events => planar_friction_events
+      procedure :: decide_slip => planar_decide_slip
       procedure :: memory_size => planar_memory_size
       procedure :: save => planar_save
       procedure :: load => planar_load
@@ -111,6 +123,70 @@ module planar_system
          real(wp), intent(inout) :: y(:)                !! (n) state [any]
          integer, intent(out) :: status                 !! 0: done
       end subroutine planar_hold
+
+      !> Bring a state that was made by interpolation onto the constraints, by projection.
+      module subroutine planar_mend(self, t, y, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(inout) :: y(:)                !! (n) state [any]
+         integer, intent(out) :: status                 !! 0: done
+      end subroutine planar_mend
+
+      !> Whether event k, as things stand, is the onset of a contact.
+      module logical function planar_is_onset(self, k) result(is_onset)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         integer, intent(in) :: k                       !! number of the event function
+      end function planar_is_onset
+
+      !> Forces of the contacts that stick, and the accelerations with them.
+      module subroutine planar_stick(self, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system, accelerations without these forces found
+         integer, intent(out) :: status                 !! 0: found
+      end subroutine planar_stick
+
+      !> Deflections of bristles from a state into the contacts.
+      module subroutine planar_take_bristles(self, y)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+      end subroutine planar_take_bristles
+
+      !> Rates of these deflections, as of the last evaluation.
+      module subroutine planar_bristle_rates(self, ydot)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         real(wp), intent(inout) :: ydot(:)             !! (n) derivative of the state [any]
+      end subroutine planar_bristle_rates
+
+      !> Their scales, for error norms.
+      module subroutine planar_bristle_weights(self, scale)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         real(wp), intent(inout) :: scale(:)            !! (n) scales [any]
+      end subroutine planar_bristle_weights
+
+      !> Event functions of friction: slip that ends, and sticking that gives way. Evaluates the system at the state.
+      module subroutine planar_friction_events(self, t, y, g, rate)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         real(wp), intent(inout) :: g(:)                !! (n_event) event functions, the last n_contact set here [m/s or N]
+         real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2 or N/s]
+      end subroutine planar_friction_events
+
+      !> Decide whether a contact slips, which way, or sticks, at a state.
+      module subroutine planar_decide_slip(self, t, y, slot, k)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         integer, intent(in) :: slot                    !! set of the contact
+         integer, intent(in) :: k                       !! contact of the set
+      end subroutine planar_decide_slip
 
       !> Numbers that a checkpoint needs: the memory of all sets and the counters.
       module integer function planar_memory_size(self) result(n)
@@ -161,6 +237,7 @@ contains
       integer, intent(out) :: status                 !! outcome
 
       self%n_evaluations = self%n_evaluations + 1
+      if (self%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          call correct_stage(self, t, y, status)
          if (status /= 0) return
@@ -170,11 +247,13 @@ contains
       end if
       call evaluate_terms(self, t, status)
       if (status /= 0) return
-      call find_accelerations(self, self%g, .true., status)
+      call self%find_accelerations(self%g, .true., status)
+      if (status == 0 .and. self%grips%n_slip > 0) call self%stick(status)
       if (status /= 0) return
       call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, ydot, status)
+      if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
       if (.not. self%with_ledger) return
-      call self%ledger_rates(ydot(2*self%n_position + 1:))
+      call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
    end subroutine planar_evaluate
 
    !> Correct the coordinates and rates that an evaluation begins with, into `held`.
@@ -199,6 +278,7 @@ contains
 
       class(hold_t), allocatable :: way
 
+      if (h < huge(1.0_wp)) self%grips%h = h
       call move_alloc(self%way, way)
       call way%begin_step(self, h)
       call move_alloc(way, self%way)
@@ -254,7 +334,7 @@ contains
       integer, intent(out) :: status                 !! 0: found
 
       self%rest = 0.0_wp
-      call find_accelerations(self, self%rest, .false., status)
+      call self%find_accelerations(self%rest, .false., status)
    end subroutine planar_solve_rows
 
    !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: it stays finite, and
@@ -359,6 +439,7 @@ contains
          scale(nq + k + 1) = self%length_scale*rate
          scale(nq + k + 2) = rate
       end do
+      if (self%grips%n_bristle > 0) call self%bristle_weights(scale)
    end subroutine planar_weights
 
    !> Event functions: penetrations of free contacts, their negatives of touching ones.
@@ -369,8 +450,12 @@ contains
       real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
       real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
 
-      call self%set_motion(t, y)
-      call self%last_events(t, y, g, rate)
+      if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) then
+         call self%friction_events(t, y, g, rate)
+      else
+         call self%set_motion(t, y)
+      end if
+      call contact_events(self, g, rate)
    end subroutine planar_events
 
    !> The same at the present motion.
@@ -380,6 +465,16 @@ contains
       real(wp), intent(in) :: y(:)                   !! (n) its state [any]
       real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
       real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
+
+      if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) call self%friction_events(t, y, g, rate)
+      call contact_events(self, g, rate)
+   end subroutine planar_last_events
+
+   !> Event functions of the contacts at the present motion.
+   subroutine contact_events(self, g, rate)
+      class(planar_system_t), intent(in) :: self     !! the system
+      real(wp), intent(inout) :: g(:)                !! (n_event) event functions [m]
+      real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s]
 
       integer :: first, i, k
 
@@ -395,7 +490,7 @@ contains
             end do
          end associate
       end do
-   end subroutine planar_last_events
+   end subroutine contact_events
 
    !> Motion of all bodies at a state.
    subroutine planar_set_motion(self, t, y)

@@ -110,7 +110,7 @@ contains
          real(wp), intent(in) :: s  !! place [1]
 
          call method%within(system, s, y)
-         call system%events(method%step%t0 + s*method%step%h, y, g, rate)
+         call method%look_at_events(system, method%step%t0 + s*method%step%h, y, g, rate)
       end subroutine values_at
 
       !> Follow function k to its maximum between two places; if that is above zero, it is the event

@@ -19,6 +19,7 @@ module integrator
    public :: add_control_columns, controls_t, integrator_t, read_controls
    public :: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps
    public :: advance_too_small
+   public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    public :: steps_any, steps_fixed, steps_variable
 
@@ -39,6 +40,13 @@ module integrator
    integer, parameter :: steps_fixed = 1      !! fixed steps only
    integer, parameter :: steps_variable = 2   !! variable steps only
 
+   integer, parameter :: onset_located = 0       !! onsets of contacts are located, as all events
+   integer, parameter :: onset_interpolate = 1   !! linear interpolation back to the onset
+   integer, parameter :: onset_reject = 2        !! steps that penetrate more than a limit are halved
+   integer, parameter :: onset_uncontrolled = 3  !! a contact begins where the step ends that finds it
+
+   real(wp), parameter :: default_limit = 1.0e-7_wp  !! penetration at an onset found by rejection [m]
+
    !> What a user may set.
    type :: controls_t
       real(wp) :: tolerance = 1.0e-8_wp        !! TOL: local error allowed in the norm [1]
@@ -50,6 +58,8 @@ module integrator
       integer(i8) :: maximum_evaluations = 0   !! MXFCN: evaluations allowed, 0: no limit
       integer :: norm = norm_scaled            !! INORM: error norm, one of the above
       real(wp) :: floor = 1.0_wp               !! FLOOR: of the relative norm [any]
+      integer :: onset = onset_located         !! how onsets of contacts are met, one of the above
+      real(wp) :: onset_limit = default_limit  !! greatest penetration at an onset with `onset_reject` [m]
    end type controls_t
 
    real(wp), parameter :: round_off = 100.0_wp  !! spacings of time: events closer than this are one [1]
@@ -65,6 +75,11 @@ module integrator
       real(wp), allocatable :: g0(:), rate0(:)  !! (n_event) event functions and rates at the start of the last step [any]
       real(wp), allocatable :: g1(:), rate1(:)  !! (n_event) at the present state [any]
       real(wp), allocatable :: g(:), rate(:)    !! (n_event) elsewhere [any]
+      logical, allocatable :: is_hidden(:)      !! (n_event) event functions that are not searched for now
+      real(wp), allocatable :: gap(:)           !! (n_event) with onsets not located: event functions, none hidden [any]
+      real(wp), allocatable :: end_gap(:)       !! (n_event) with onsets not located: at the end of the step in hand [any]
+      real(wp), allocatable :: end_rate(:)      !! (n_event) with onsets not located: their rates there [any]
+      logical, allocatable :: is_waiting(:)     !! (n_event) with onsets not located: began above zero, no event before below
       integer, allocatable :: happened(:)       !! (n_event) event functions that made the last step end
       integer :: n_happened = 0                 !! how many
       integer(i8) :: n_steps = 0                !! accepted steps
@@ -86,6 +101,8 @@ module integrator
       procedure :: load => integrator_load
       procedure :: make_room
       procedure :: begin_step
+      procedure :: look_at_events
+      procedure :: hide_events
       procedure :: note_events
       procedure :: set_scales
       procedure :: base_memory_size
@@ -210,6 +227,8 @@ contains
       allocate (self%step%y0(n), self%step%y1(n), self%step%f0(n), self%step%f1(n), self%step%inner(n, 2), source=0.0_wp)
       allocate (self%trial(n), self%scale(n), self%scratch(n), source=0.0_wp)
       allocate (self%g0(m), self%rate0(m), self%g1(m), self%rate1(m), self%g(m), self%rate(m), source=0.0_wp)
+      allocate (self%gap(m), self%end_gap(m), self%end_rate(m), source=0.0_wp)
+      allocate (self%is_hidden(m), self%is_waiting(m), source=.false.)
       allocate (self%happened(m), source=0)
    end subroutine make_room
 
@@ -246,6 +265,32 @@ contains
       self%rate0 = self%rate1
       self%step%has_inner = .false.
    end subroutine begin_step
+
+   !> Event functions and their rates at a state, for a search.
+   subroutine look_at_events(self, system, t, y, g, rate)
+      class(integrator_t), intent(in) :: self       !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in) :: y(:)                  !! (n) state [any]
+      real(wp), intent(out) :: g(:)                 !! (n_event) event functions [any]
+      real(wp), intent(out) :: rate(:)              !! (n_event) their rates [any]
+
+      call system%events(t, y, g, rate)
+      call self%hide_events(g, rate)
+   end subroutine look_at_events
+
+   !> Functions that are not searched for look as if they were far from their event, and stayed there.
+   pure subroutine hide_events(self, g, rate)
+      class(integrator_t), intent(in) :: self       !! the integrator
+      real(wp), intent(inout) :: g(:)               !! (n_event) event functions [any]
+      real(wp), intent(inout) :: rate(:)            !! (n_event) their rates [any]
+
+      if (self%controls%onset == onset_located) return
+      where (self%is_hidden)
+         g = -1.0_wp
+         rate = 0.0_wp
+      end where
+   end subroutine hide_events
 
    !> What the error of each entry is divided by in the norm, into `scale`; quadratures are left alone.
    subroutine set_scales(self, system, y)
@@ -297,7 +342,7 @@ contains
    integer function base_memory_size(self) result(n)
       class(integrator_t), intent(in) :: self  !! the integrator
 
-      n = 5 + 2*size(self%step%y1) + 2*size(self%g1)
+      n = 5 + 2*size(self%step%y1) + 5*size(self%g1)
    end function base_memory_size
 
    !> Write what every integrator keeps.
@@ -305,6 +350,8 @@ contains
       class(integrator_t), intent(in) :: self  !! the integrator
       real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
       integer, intent(inout) :: place          !! last place used
+
+      integer :: k
 
       call put(row, place, self%t)
       call put(row, place, self%n_steps)
@@ -315,6 +362,11 @@ contains
       call put(row, place, self%step%f1)
       call put(row, place, self%g1)
       call put(row, place, self%rate1)
+      call put(row, place, self%gap)
+      do k = 1, size(self%g1)
+         call put(row, place, self%is_hidden(k))
+         call put(row, place, self%is_waiting(k))
+      end do
    end subroutine save_base
 
    !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
@@ -322,6 +374,8 @@ contains
       class(integrator_t), intent(inout) :: self  !! the integrator
       real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
       integer, intent(inout) :: place             !! last place used
+
+      integer :: k
 
       call get(row, place, self%t)
       call get(row, place, self%n_steps)
@@ -332,6 +386,11 @@ contains
       call get(row, place, self%step%f1)
       call get(row, place, self%g1)
       call get(row, place, self%rate1)
+      call get(row, place, self%gap)
+      do k = 1, size(self%g1)
+         call get(row, place, self%is_hidden(k))
+         call get(row, place, self%is_waiting(k))
+      end do
       self%step%t0 = self%t
       self%step%h = 0.0_wp
       self%step%has_inner = .false.
@@ -355,6 +414,10 @@ contains
                     //"euclidean 3", default="scaled", choices="scaled mixed absolute relative euclidean")
       call add_number(info, "floor", dim_none, "least |y| in the relative norm (FLOOR)", default="1", lower=0.0_wp, &
                       open_lower=.true.)
+      call add_word(info, "contact_onset", "how the onset of a contact is met: located (on the onset, to round-off); interpolate " &
+                    //"(linearly back to it after a step that penetrates); reject (steps that penetrate more than limit are " &
+                    //"halved, default limit=0.1um); uncontrolled (at the end of the step that finds it)", default="located", &
+                    choices="located interpolate reject uncontrolled", options="limit")
       call add_number(info, "tol", dim_none, "IMSL name of tolerance; 0: not given", default="0", lower=0.0_wp, &
                       upper=0.01_wp)
       call add_number(info, "hinit", dim_time, "IMSL name of initial_step", default="0 s", lower=0.0_wp)
@@ -373,6 +436,8 @@ contains
       type(item_t), intent(in) :: item           !! the section
       type(controls_t), intent(out) :: controls  !! the controls
 
+      integer :: k
+
       controls%tolerance = number("tolerance")
       controls%fixed_step = number("step")
       controls%initial_step = number("initial_step")
@@ -388,6 +453,19 @@ contains
       case ("euclidean"); controls%norm = norm_euclidean
       case default; controls%norm = norm_scaled
       end select
+      associate (value => item%values(column("contact_onset")))
+         select case (value%text)
+         case ("interpolate"); controls%onset = onset_interpolate
+         case ("reject"); controls%onset = onset_reject
+         case ("uncontrolled"); controls%onset = onset_uncontrolled
+         case default; controls%onset = onset_located
+         end select
+         if (allocated(value%options)) then
+            do k = 1, size(value%options)
+               controls%onset_limit = value%options(k)%number
+            end do
+         end if
+      end associate
 
    contains
 

@@ -8,7 +8,9 @@
 !> Two hooks do nothing unless a system overrides them. `set_step` tells the step about to be made
 !> (the gains of some stabilisations follow it). A system that sets `holds` has its `hold` called on
 !> every state that an integrator gives out: the end of an accepted step before its derivative is
-!> taken, the states tried in search of an event, the states of `refine`.
+!> taken, the states tried in search of an event, the states of `refine`. `mend` is called on a state
+!> that did not come from the equations at all, and `is_onset` says which events are onsets of contacts, for
+!> integrators that meet them in another way (see `onset_control`).
 module ode_system
    use kinds, only: wp
    implicit none (type, external)
@@ -30,6 +32,8 @@ module ode_system
       procedure :: last_events => ode_last_events
       procedure :: set_step => ode_set_step
       procedure :: hold => ode_hold
+      procedure :: mend => ode_mend
+      procedure :: is_onset => ode_is_onset
    end type ode_system_t
 
    abstract interface
@@ -95,5 +99,24 @@ contains
 
       status = 0
    end subroutine ode_hold
+
+   !> Bring a state that was made by interpolation onto the invariants, in place. Status as of `hold`, which this is
+   !> unless a system holds its states in a weaker way.
+   subroutine ode_mend(self, t, y, status)
+      class(ode_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                   !! time [s]
+      real(wp), intent(inout) :: y(:)             !! (n) state [any]
+      integer, intent(out) :: status              !! outcome
+
+      call self%hold(t, y, status)
+   end subroutine ode_mend
+
+   !> Whether event k, as things stand, is the onset of a contact.
+   logical function ode_is_onset(self, k) result(is_onset)
+      class(ode_system_t), intent(in) :: self  !! the system
+      integer, intent(in) :: k                 !! number of the event function
+
+      is_onset = .false. .and. k <= self%n_event
+   end function ode_is_onset
 
 end module ode_system

@@ -7,14 +7,15 @@
 !>
 !> Events: the bracket from the interpolant is closed in on by Newton's iteration on the length of
 !> the step, each time by the method itself, so that the event function is zero to round-off and the
-!> time of the event is as accurate as the step.
+!> time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
    use event_location, only: find_first_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
-      advance_too_many_steps, advance_too_small, integrator_t
+      advance_too_many_steps, advance_too_small, integrator_t, onset_located, onset_reject
    use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
+   use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
    implicit none (type, external)
    private
    public :: one_step_t
@@ -23,6 +24,7 @@ module one_step
    real(wp), parameter :: growth = 4.0_wp         !! greatest ratio of successive steps [1]
    real(wp), parameter :: shrinkage = 0.1_wp      !! least ratio of successive steps [1]
    real(wp), parameter :: near = 1.0e-9_wp        !! of a step: events closer than this count as one [1]
+   integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
    integer, parameter :: n_newton = 12            !! re-steps towards an event
    integer, parameter :: n_halving = 60           !! halvings if these do not converge
 
@@ -132,6 +134,7 @@ contains
       end if
       status = advance_step
       if (system%n_event > 0) call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      if (self%controls%onset /= onset_located) call begin_control(system, self)
       if (step_hint > 0.0_wp) then
          self%h_before = max(self%h_before, self%h_next)
          self%h_next = min(self%h_next, step_hint)
@@ -148,18 +151,20 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
-      real(wp) :: h, least, norm
+      real(wp) :: greatest, h, least, norm
       logical :: is_fixed, is_last, was_rejected
 
       call self%begin_step()
       is_fixed = self%controls%fixed_step > 0.0_wp
       was_rejected = .false.
+      greatest = huge(1.0_wp)
       least = max(self%controls%minimum_step, 4.0_wp*eps*abs(self%step%t0), eps*eps*abs(t_stop))
       do
          call check_limits(self, status)
          if (status /= advance_step) return
          h = max(self%h_next, least)
          if (is_fixed) h = self%controls%fixed_step
+         h = min(h, greatest)
          if (self%controls%maximum_step > 0.0_wp) h = min(h, self%controls%maximum_step)
          is_last = self%step%t0 + h*(1.0_wp + 1.0e-10_wp) >= t_stop
          if (is_last) h = t_stop - self%step%t0
@@ -169,7 +174,8 @@ contains
          end if
          call try_step(self, system, h, merge(t_stop, self%step%t0 + h, is_last), norm, status)
          if (status == 0) exit
-         if (status < 0 .or. is_fixed) then
+         if (status == too_deep) greatest = 0.5_wp*h
+         if (status < 0 .or. (is_fixed .and. status /= too_deep)) then
             status = advance_failed_evaluation
             return
          end if
@@ -179,7 +185,7 @@ contains
             status = advance_too_small
             return
          end if
-         self%h_next = h*max(shrinkage, safety*norm**(-1.0_wp/real(self%order, wp)))
+         if (status /= too_deep) self%h_next = h*max(shrinkage, safety*norm**(-1.0_wp/real(self%order, wp)))
       end do
       if (.not. is_fixed) call choose_next_step(self, h, norm, was_rejected, is_last)
       self%step%h = h
@@ -229,6 +235,9 @@ contains
          self%n_evaluations = self%n_evaluations + 1
       end if
       if (status /= 0) norm = huge(1.0_wp)
+      if (status == 0 .and. self%controls%onset == onset_reject) then
+         if (is_too_deep(system, self, t_new, self%trial)) status = too_deep
+      end if
    end subroutine try_step
 
    !> Tell the system the step. A system that follows it was evaluated at the start just before, also after a step that was
@@ -271,16 +280,31 @@ contains
       class(ode_system_t), intent(inout) :: system  !! the system
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
-      real(wp) :: h, high, low
+      real(wp) :: high, low
       integer :: event
-      logical :: is_found
 
       self%n_steps = self%n_steps + 1
       status = advance_step
       if (system%n_event == 0) return
       call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      if (self%controls%onset /= onset_located) call end_controlled_step(self)
       call find_first_event(system, self, event, low, high)
-      if (event == 0) return
+      if (event > 0) call go_to_event(self, system, low, high, event, status)
+      if (self%controls%onset /= onset_located .and. status >= 0) call meet_onsets(system, self, status)
+   end subroutine finish_step
+
+   !> Shorten the step so that it ends at an event.
+   subroutine go_to_event(self, system, low, high, event, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: low                   !! place before the event, by the interpolant [1]
+      real(wp), intent(in) :: high                  !! place after it, by the interpolant [1]
+      integer, intent(inout) :: event               !! the event function, by the interpolant; then the one that was met
+      integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
+
+      real(wp) :: h
+      logical :: is_found
+
       call close_in(self, system, event, low, high, h, is_found, status)
       if (.not. is_found) then
          call halve(self, system, high, h, event, status)
@@ -301,7 +325,7 @@ contains
          self%n_evaluations = self%n_evaluations + 1
       end if
       status = merge(advance_event, advance_failed_evaluation, status == 0)
-   end subroutine finish_step
+   end subroutine go_to_event
 
    !> The state after a part of the step, held, by the method itself.
    subroutine make_part(self, system, h, status)
@@ -323,7 +347,7 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       call make_part(self, system, h, status)
-      if (status == 0) call system%events(self%step%t0 + h, self%trial, self%g, self%rate)
+      if (status == 0) call self%look_at_events(system, self%step%t0 + h, self%trial, self%g, self%rate)
    end subroutine step_by
 
    !> Newton's iteration on the length of the step towards an event.

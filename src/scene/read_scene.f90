@@ -94,10 +94,12 @@ contains
          scene%dynamic_kind%columns(column_of(scene%dynamic_kind, "end"))%default = "0 s"
       end if
       call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
-      associate (k => column_of(scene%dynamic_kind, "stabilise"))
-         call check_options(scene%dynamic%values(k), scene%dynamic_kind%columns(k)%choices, &
-                            scene%dynamic_kind%columns(k)%options, diagnostics)
-      end associate
+      do k = 1, size(scene%dynamic_kind%columns)
+         associate (column => scene%dynamic_kind%columns(k))
+            if (.not. allocated(column%options)) cycle
+            call check_options(column%name, scene%dynamic%values(k), column%choices, column%options, diagnostics)
+         end associate
+      end do
       call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
       call read_settings(deck, scene%static_kind, scene%static, is_present, diagnostics)
       if (scene%has_analysis(analysis_kinematic)) then

@@ -7,7 +7,7 @@ module section_info
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: column_of, dynamic_info, hold_options, kinematic_info, output_info, scene_info, static_info
+   public :: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info, word_options
 
 contains
 
@@ -69,8 +69,8 @@ contains
       call add_control_columns(info)
    end function dynamic_info
 
-   !> Options that a word of `stabilise` takes, with the units of those that have one.
-   pure function hold_options(word) result(options)
+   !> Options that a word of `stabilise` or `contact_onset` takes, with the units of those that have one.
+   pure function word_options(word) result(options)
       character(*), intent(in) :: word          !! as in `stabilise = word`
       character(:), allocatable :: options      !! " name name[unit] "
 
@@ -79,9 +79,10 @@ contains
       case ("baumgarte_step"); options = " alpha beta "
       case ("baumgarte_adaptive"); options = " target "
       case ("augmented_lagrangian"); options = " penalty omega[s^-1] mu "
+      case ("reject"); options = " limit[m] "
       case default; options = " "
       end select
-   end function hold_options
+   end function word_options
 
    !> The section [analysis.kinematic].
    function kinematic_info() result(info)

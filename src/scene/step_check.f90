@@ -31,6 +31,13 @@ contains
                                  "it chooses its steps", "leave 'step' out; 'maximum_step' bounds the steps")
          end if
       end associate
+      associate (onset => scene%dynamic%values(column_of(scene%dynamic_kind, "contact_onset")))
+         if (onset%text /= "located" .and. method%steps() == steps_variable) then
+            call diagnostics%add(onset%location, "'contact_onset = "//onset%text//"' needs a one-step method", &
+                                 "steps of '"//scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text// &
+                                 "' hang on those before", "take verner or rk4, or leave onsets located")
+         end if
+      end associate
       associate (hold => scene%dynamic%values(column_of(scene%dynamic_kind, "stabilise")), &
                  step => scene%dynamic%values(column_of(scene%dynamic_kind, "step")))
          if (hold%text == "baumgarte_step" .and. step%number <= 0.0_wp) then

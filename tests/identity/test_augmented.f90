@@ -14,7 +14,7 @@ module test_augmented
    use kinds, only: i8, wp
    use planar_system, only: planar_system_t
    use scene_fixture, only: nl, slider_crank, start_text
-   use section_info, only: column_of, dynamic_info, hold_options
+   use section_info, only: column_of, dynamic_info, word_options
    use solver_registry, only: n_solver_kinds, new_solver
    use text, only: replace, to_text
    implicit none (type, external)
@@ -94,7 +94,7 @@ contains
             call new_hold(k, unset)
             call unset%configure([option_t ::], 1.0e-8_wp)
             call set%configure([option], 1.0e-8_wp)
-            call check_true(error, (set%words() == unset%words()) .neqv. index(hold_options(set%name()), " "//option%name) > 0, &
+            call check_true(error, (set%words() == unset%words()) .neqv. index(word_options(set%name()), " "//option%name) > 0, &
                             "option "//option%name//" of "//set%name()//" is taken if it is documented")
          end do
       end do

@@ -1,0 +1,87 @@
+!> Follows the friction of contacts that slip or stick: one row for each change.
+module slip_watch
+   use catalogue, only: state_free, state_name
+   use contact_grip, only: is_undecided, sticks
+   use friction_law, only: memory_slip
+   use kinds, only: not_a_number, wp
+   use planar_system, only: planar_system_t
+   use recorder, only: event_t
+   implicit none (type, external)
+   private
+   public :: decide_next, handle_slip
+
+   character(*), parameter :: word_slip = "slip"    !! kind of event, and state of a contact
+   character(*), parameter :: word_stick = "stick"  !! kind of event, and state of a contact
+
+contains
+
+   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way.
+   subroutine handle_slip(system, t, y, slot, k, row)
+      type(planar_system_t), intent(inout) :: system   !! the system; the contact's state is changed
+      real(wp), intent(in) :: t                        !! time [s]
+      real(wp), intent(in) :: y(:)                     !! (n) state [any]
+      integer, intent(in) :: slot                      !! set of the contact
+      integer, intent(in) :: k                         !! contact of the set
+      type(event_t), intent(out) :: row                !! what happened
+
+      integer :: before
+
+      before = system%clearances(slot)%set%grip%slip(k)
+      call system%decide_slip(t, y, slot, k)
+      call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", before == sticks), row)
+   end subroutine handle_slip
+
+   !> Decide about the first contact that has begun and is not decided. The row tells of it if it sticks.
+   subroutine decide_next(system, t, y, is_found, has_row, row)
+      type(planar_system_t), intent(inout) :: system   !! the system, its motion that of the state
+      real(wp), intent(in) :: t                        !! time [s]
+      real(wp), intent(in) :: y(:)                     !! (n) state [any]
+      logical, intent(out) :: is_found                 !! there was one
+      logical, intent(out) :: has_row                  !! it sticks: `row` tells of it
+      type(event_t), intent(out) :: row                !! what happened
+
+      integer :: k, slot
+
+      is_found = .false.
+      has_row = .false.
+      do slot = 1, size(system%clearances)
+         associate (set => system%clearances(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= is_undecided) cycle
+               is_found = .true.
+               call system%decide_slip(t, y, slot, k)
+               has_row = set%grip%slip(k) == sticks
+               if (has_row) call tell(system, t, slot, k, state_name(state_free), row)
+               return
+            end do
+         end associate
+      end do
+   end subroutine decide_next
+
+   !> The row of a change.
+   subroutine tell(system, t, slot, k, before, row)
+      type(planar_system_t), intent(in) :: system   !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      integer, intent(in) :: slot                   !! set of the contact
+      integer, intent(in) :: k                      !! contact of the set
+      character(*), intent(in) :: before            !! its state before
+      type(event_t), intent(out) :: row             !! what happened
+
+      associate (set => system%clearances(slot)%set)
+         row%time = t
+         row%kind = trim(merge(word_stick//" ", word_slip//"  ", set%grip%slip(k) == sticks))
+         row%item = set%names(set%item_of(k))%s
+         row%contact = set%labels(modulo(k - 1, set%n_contact_item) + 1)%s
+         row%impact_speed = not_a_number()
+         row%peak_force = not_a_number()
+         row%peak_penetration = not_a_number()
+         row%duration = not_a_number()
+         row%release_speed = not_a_number()
+         row%energy_lost = not_a_number()
+         row%state_before = trim(before)
+         row%state_after = row%kind
+      end associate
+   end subroutine tell
+
+end module slip_watch

@@ -1,0 +1,88 @@
+!> Room for the friction forces of contacts that stick, and the small system that they solve.
+module grip_forces
+   use kinds, only: wp
+   use lapack, only: dsyev
+   implicit none (type, external)
+   private
+   public :: grip_forces_t, new_grip_forces, solve_grips
+
+   !> Contacts whose friction has a memory.
+   type :: grip_forces_t
+      integer :: n_slip = 0                      !! contacts that may stick: of laws that remember a slip
+      integer :: n_bristle = 0                   !! contacts with bristles
+      real(wp) :: h = 0.0_wp                     !! length of the step in hand [s]
+      integer, allocatable :: slot(:)            !! (n_slip) sets of the contacts that stick, the first ones used
+      integer, allocatable :: contact(:)         !! (n_slip) the contacts
+      real(wp), allocatable :: matrix(:, :)      !! (n_slip, n_slip) what a unit force does to the sliding accelerations [1/kg]
+      real(wp), allocatable :: force(:)          !! (n_slip) forces [N]
+      real(wp), allocatable :: root(:)           !! (n_slip) roots of the normal forces [N^0.5]
+      real(wp), allocatable :: eigenvalue(:)     !! (n_slip) of the scaled matrix [N/kg]
+      real(wp), allocatable :: work(:)           !! (any) scratch [any]
+      real(wp), allocatable :: unit(:, :)        !! (3, 0:bodies) loads of a unit force [1, 1, m]
+      real(wp), allocatable :: b(:)              !! (rows) right-hand side of the rows, kept [m/s^2 or rad/s^2]
+      real(wp), allocatable :: ydot(:)           !! (n) scratch derivative [any]
+      real(wp), allocatable :: y(:)              !! (n) scratch state [any]
+   end type grip_forces_t
+
+contains
+
+   !> Room for contacts that may stick.
+   subroutine new_grip_forces(n_slip, n_bristle, n_body, n_row, n, grips)
+      integer, intent(in) :: n_slip               !! contacts that may stick
+      integer, intent(in) :: n_bristle            !! contacts with bristles
+      integer, intent(in) :: n_body               !! bodies
+      integer, intent(in) :: n_row                !! rows
+      integer, intent(in) :: n                    !! entries of the state
+      type(grip_forces_t), intent(out) :: grips   !! room
+
+      grips%n_slip = n_slip
+      grips%n_bristle = n_bristle
+      if (n_slip == 0) return
+      allocate (grips%slot(n_slip), grips%contact(n_slip), source=0)
+      allocate (grips%matrix(n_slip, n_slip), grips%force(n_slip), grips%root(n_slip), grips%eigenvalue(n_slip), &
+                grips%work(34*n_slip), grips%unit(3, 0:n_body), grips%b(n_row), grips%y(n), &
+                grips%ydot(n), source=0.0_wp)
+   end subroutine new_grip_forces
+
+   !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
+   !> to the same part of what its normal force lets it hold: least sum of x^2 / F_N.
+   subroutine solve_grips(n, lead, matrix, root, force, eigenvalue, work)
+      integer, intent(in) :: n                      !! contacts
+      integer, intent(in) :: lead                   !! first extent of the matrix
+      real(wp), intent(inout) :: matrix(lead, n)    !! (lead, n) A, destroyed [1/kg]
+      real(wp), intent(in) :: root(n)               !! (n) roots of the normal forces, positive [N^0.5]
+      real(wp), intent(inout) :: force(n)           !! (n) r [m/s^2], then x [N]
+      real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [N/kg]
+      real(wp), intent(out) :: work(:)              !! (34 n) scratch [any]
+
+      real(wp), parameter :: negligible = 1.0e-11_wp  ! eigenvalue of a direction in which nothing moves, of the greatest [1]
+      real(wp) :: part
+      integer :: i, info, j
+
+      if (n == 1) then
+         if (matrix(1, 1) > 0.0_wp) then
+            force(1) = force(1)/matrix(1, 1)
+         else
+            force(1) = 0.0_wp  ! between bodies whose motion is known
+         end if
+         return
+      end if
+      do j = 1, n
+         do i = 1, n
+            matrix(i, j) = root(i)*matrix(i, j)*root(j)
+         end do
+         force(j) = root(j)*force(j)
+      end do
+      call dsyev("V", "U", n, matrix, lead, eigenvalue, work, size(work), info)
+      work(:n) = 0.0_wp
+      do i = 1, n
+         if (info /= 0 .or. eigenvalue(i) <= negligible*eigenvalue(n)) cycle
+         part = dot_product(matrix(:n, i), force)/eigenvalue(i)
+         do j = 1, n
+            work(j) = work(j) + part*matrix(j, i)
+         end do
+      end do
+      force = root*work(:n)
+   end subroutine solve_grips
+
+end module grip_forces

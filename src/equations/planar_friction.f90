@@ -1,0 +1,296 @@
+!> Friction that remembers, in a planar scene: contacts that stick, and bristles.
+!>
+!> Normal forces are known before the accelerations, so the forces x of the m contacts that stick follow from
+!>
+!> v_T' = -2 kappa v_T:   A x = -(G a_0 + drift + 2 kappa v_T),   A = G K^-1 G^T,
+!>
+!> with G their tangential rows (`contact_grip`), a_0 the accelerations without these forces and K the augmented matrix: one
+!> solution of the augmented equations for each of them and one with all loads. kappa keeps the sliding velocity at round-off.
+!> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
+!>
+!> Events: slip s = +-1 ends where s v_T falls to zero; sticking ends where |x| = c_s F_N, its rate by a difference along the
+!> motion. A slip that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit:
+!> so a contact that can neither slip nor stick costs a bounded number of steps.
+!>
+!> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
+!> (1996), section 5.3. Limits: contacts change one after another, each for the others as they are.
+submodule(planar_system) planar_friction
+   use clearance_set, only: loss_friction
+   use contact_grip, only: is_undecided, sticks
+   use friction_law, only: memory_bristle, memory_slip
+   use grip_forces, only: solve_grips
+   implicit none (type, external)
+
+   real(wp), parameter :: kappa = 100.0_wp          !! rate at which a sliding velocity left over decays [1/s]
+   real(wp), parameter :: at_rest = 1.0e-12_wp      !! sliding velocity that is none at an onset [m/s]
+   real(wp), parameter :: part = 1.0e-4_wp          !! of the step: distance of the difference that gives rates [1]
+   real(wp), parameter :: least_step = 1.0e-7_wp    !! for that distance [s]
+   real(wp), parameter :: shortest = 1.0e-7_wp      !! time between two decisions that is no chatter [s]
+   real(wp), parameter :: least_band = 1.0e-12_wp   !! first speed the wrong way that is borne after a chatter [m/s]
+   real(wp), parameter :: widest_band = 1.0e-5_wp   !! last one [m/s]
+
+contains
+
+   !> Forces of the contacts that stick, and the accelerations with them.
+   module procedure planar_stick
+      integer :: c, d, k, m
+
+      status = 0
+      m = 0
+      do d = 1, size(self%clearances)
+         associate (set => self%clearances(d)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
+               m = m + 1
+               self%grips%slot(m) = d
+               self%grips%contact(m) = k
+            end do
+         end associate
+      end do
+      if (m == 0) return
+      associate (grips => self%grips, n => self%rows%n_solve)
+         do c = 1, m
+            associate (tangent => self%clearances(grips%slot(c))%set%grip%tangent(grips%contact(c)))
+               grips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
+               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift + 2.0_wp*kappa*tangent%v)
+            end associate
+         end do
+         grips%b(:n) = self%b(:n)
+         self%b(:n) = 0.0_wp
+         do d = 1, m
+            grips%unit = 0.0_wp
+            call add_pair(self, d, 1.0_wp, grips%unit)
+            call self%find_accelerations(grips%unit, .false., status)
+            if (status /= 0) exit
+            do c = 1, m
+               grips%matrix(c, d) = sliding_acceleration(self, c, .false.)
+            end do
+         end do
+         self%b(:n) = grips%b(:n)
+         if (status /= 0) return
+         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%root(:m), grips%force(:m), &
+                          grips%eigenvalue(:m), grips%work)
+         do c = 1, m
+            call add_pair(self, c, grips%force(c), self%g)
+            associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
+               set%grip%tangent(k)%f_t = grips%force(c)
+               self%losses(loss_friction, set%first_contact + k) = -grips%force(c)*set%grip%tangent(k)%v
+            end associate
+         end do
+      end associate
+      call self%find_accelerations(self%g, .true., status)
+   end procedure planar_stick
+
+   !> Part of the rate of the sliding velocity of a contact on the list that comes from the accelerations.
+   pure real(wp) function sliding_acceleration(self, c, with_known) result(a)
+      class(planar_system_t), intent(in) :: self   !! the system, accelerations found
+      integer, intent(in) :: c                     !! place on the list of contacts that stick
+      logical, intent(in) :: with_known            !! with those of bodies whose motion is known
+
+      a = tangential(self, self%grips%slot(c), self%grips%contact(c), with_known)
+   end function sliding_acceleration
+
+   !> The same for any contact.
+   pure real(wp) function tangential(self, slot, k, with_known) result(a)
+      class(planar_system_t), intent(in) :: self   !! the system, accelerations found
+      integer, intent(in) :: slot                  !! set of the contact
+      integer, intent(in) :: k                     !! contact of the set
+      logical, intent(in) :: with_known            !! with those of bodies whose motion is known
+
+      real(wp) :: linear(2), turning
+      integer :: body, item, side
+
+      a = 0.0_wp
+      associate (set => self%clearances(slot)%set, tangent => self%clearances(slot)%set%grip%tangent(k))
+         item = set%item_of(k)
+         do side = 1, 2
+            body = set%body(side, item)
+            if (body == 0) cycle
+            if (self%is_known(body)) then
+               if (.not. with_known) cycle
+               linear = self%motion%a(1:2, body)
+               turning = self%motion%alpha(3, body)
+            else
+               linear = self%a(1:2, body)
+               turning = self%a(3, body)
+            end if
+            if (side == 1) then
+               a = a - (dot_product(tangent%t, linear) + turning*moment_of(tangent%arm_i, tangent%t))
+            else
+               a = a + (dot_product(tangent%t, linear) + turning*moment_of(tangent%arm_j, tangent%t))
+            end if
+         end do
+      end associate
+   end function tangential
+
+   !> Add the pair of tangential forces of a contact on the list to loads on the coordinates.
+   pure subroutine add_pair(self, c, force, g)
+      class(planar_system_t), intent(in) :: self   !! the system
+      integer, intent(in) :: c                     !! place on the list of contacts that stick
+      real(wp), intent(in) :: force                !! on body j along t [N]
+      real(wp), intent(inout) :: g(:, 0:)          !! (3, 0:bodies) loads [N, N, N.m]
+
+      integer :: i, item, j
+
+      associate (set => self%clearances(self%grips%slot(c))%set)
+         associate (tangent => set%grip%tangent(self%grips%contact(c)))
+            item = set%item_of(self%grips%contact(c))
+            i = set%body(1, item)
+            j = set%body(2, item)
+            g(1:2, i) = g(1:2, i) - force*tangent%t
+            g(1:2, j) = g(1:2, j) + force*tangent%t
+            g(3, i) = g(3, i) - force*moment_of(tangent%arm_i, tangent%t)
+            g(3, j) = g(3, j) + force*moment_of(tangent%arm_j, tangent%t)
+         end associate
+      end associate
+   end subroutine add_pair
+
+   !> Moment of a unit force.
+   pure real(wp) function moment_of(arm, direction) result(moment)
+      real(wp), intent(in) :: arm(2)         !! (2) to where it acts [m]
+      real(wp), intent(in) :: direction(2)   !! (2) its direction [1]
+
+      moment = arm(1)*direction(2) - arm(2)*direction(1)
+   end function moment_of
+
+   !> Deflections of bristles from a state into the contacts.
+   module procedure planar_take_bristles
+      integer :: k, place
+
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            if (set%grip%memory /= memory_bristle) cycle
+            place = 2*self%n_position + set%grip%first_bristle
+            set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
+         end associate
+      end do
+   end procedure planar_take_bristles
+
+   !> Rates of these deflections; a contact that is free keeps its deflection.
+   module procedure planar_bristle_rates
+      integer :: k, place
+
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            if (set%grip%memory /= memory_bristle) cycle
+            place = 2*self%n_position + set%grip%first_bristle
+            ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
+         end associate
+      end do
+   end procedure planar_bristle_rates
+
+   !> Their scales: the greatest deflections that last.
+   module procedure planar_bristle_weights
+      integer :: k, place
+
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            if (set%grip%memory /= memory_bristle) cycle
+            place = 2*self%n_position + set%grip%first_bristle
+            scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
+         end associate
+      end do
+   end procedure planar_bristle_weights
+
+   !> Event functions of friction.
+   module procedure planar_friction_events
+      real(wp) :: moment
+      integer :: k, number, slot, status
+
+      g(self%n_contact + 1:) = -1.0_wp
+      rate(self%n_contact + 1:) = 0.0_wp
+      moment = part*max(self%grips%h, least_step)
+      if (any_sticks(self)) then
+         call self%evaluate(t, y, self%grips%ydot, status)
+         self%grips%y = y + moment*self%grips%ydot
+         call self%evaluate(t + moment, self%grips%y, self%grips%ydot, status)
+         call note_holds(self, rate)
+      end if
+      call self%evaluate(t, y, self%grips%ydot, status)
+      do slot = 1, size(self%clearances)
+         associate (set => self%clearances(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               number = self%n_contact + set%first_contact + k
+               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
+               associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
+                  if (slip == sticks) then
+                     g(number) = abs(tangent%f_t) - set%friction%stick_limit(tangent%f_n)
+                     rate(number) = (rate(number) - g(number))/moment
+                  else
+                     g(number) = -slip*tangent%v - set%grip%band(k)
+                     rate(number) = -slip*(tangential(self, slot, k, .true.) + tangent%drift)
+                  end if
+               end associate
+            end do
+         end associate
+      end do
+   end procedure planar_friction_events
+
+   !> What the contacts that stick are short of giving way, as of the last evaluation.
+   subroutine note_holds(self, g)
+      class(planar_system_t), intent(in) :: self   !! the system
+      real(wp), intent(inout) :: g(:)              !! (n_event) event functions [N]
+
+      integer :: k, slot
+
+      do slot = 1, size(self%clearances)
+         associate (set => self%clearances(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
+               associate (tangent => set%grip%tangent(k))
+                  g(self%n_contact + set%first_contact + k) = abs(tangent%f_t) - set%friction%stick_limit(tangent%f_n)
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine note_holds
+
+   !> Whether any contact sticks.
+   pure logical function any_sticks(self)
+      class(planar_system_t), intent(in) :: self   !! the system
+
+      integer :: k
+
+      any_sticks = .false.
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            any_sticks = any_sticks .or. any(set%contact%is_touching .and. set%grip%slip == sticks)
+         end associate
+      end do
+   end function any_sticks
+
+   !> Decide whether a contact slips, which way, or sticks. One whose slip ended, or that begins without sliding, is tried as
+   !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
+   !> that sticks until now.
+   module procedure planar_decide_slip
+      integer :: before, status
+
+      associate (set => self%clearances(slot)%set)
+         before = set%grip%slip(k)
+         if (t - set%grip%since(k) < shortest) then
+            set%grip%band(k) = min(max(2.0_wp*set%grip%band(k), least_band), widest_band)
+         else
+            set%grip%band(k) = 0.0_wp
+         end if
+         set%grip%since(k) = t
+         if (before == is_undecided) then
+            call set%lie(k, self%motion, set%grip%tangent(k))
+            if (abs(set%grip%tangent(k)%v) > at_rest) then
+               set%grip%slip(k) = nint(sign(1.0_wp, set%grip%tangent(k)%v))
+               return
+            end if
+         end if
+         set%grip%slip(k) = sticks
+         call self%evaluate(t, y, self%grips%ydot, status)
+         associate (tangent => set%grip%tangent(k))
+            if (before /= sticks .and. abs(tangent%f_t) <= set%friction%stick_limit(tangent%f_n)) return
+            set%grip%slip(k) = nint(-sign(1.0_wp, tangent%f_t))
+         end associate
+      end associate
+   end procedure planar_decide_slip
+
+end submodule planar_friction
