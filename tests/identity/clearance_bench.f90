@@ -1,12 +1,14 @@
 !> Joints with clearance of any geometry, brought into contact: what their tests start from.
 !>
-!> Three items: a journal of a body in the bearing of another, in one of the ground, and the ground's
-!> journal in the bearing of a body. They share no body, so that each is brought into contact alone.
+!> Three items: a journal (ball, slider) of a body in the bearing (on the plane, in the guide) of another, in one of the
+!> ground, and the ground's journal in the bearing of a body. They share no body, so that each is brought into contact alone.
+!> A slider has its corners C and D at the upper surface, D less deep, or not at all of the third item.
 module clearance_bench
    use bodies, only: material_t, points_t
    use check, only: check_true
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
+   use clearance_translational, only: clearance_translational_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use errors, only: error_t
    use fixed_random, only: random_t
@@ -16,7 +18,7 @@ module clearance_bench
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_motion, set_some_acceleration
-   use normal_law, only: normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t
    use text, only: split_blank, text_t
    implicit none (type, external)
    private
@@ -24,9 +26,9 @@ module clearance_bench
 
    integer, parameter :: n_item = 3                  !! items of the set
    integer, parameter :: n_before = 2                !! items of other sets before those of this one
-   integer, parameter :: n_all = n_before + n_item + 1  !! items of all sets
+   integer, parameter :: n_all = n_before + 8*n_item + 1  !! items, or contacts, of all sets, at most
    integer, parameter :: n_body = 4                  !! moving bodies
-   integer, parameter :: n_form = 2                  !! forms of formulas at most
+   integer, parameter :: n_form = 4                  !! forms of formulas, or ways of treating faces, at most
    integer, parameter :: body_i(n_item) = [1, 0, 4]  !! bodies of the bearings
    integer, parameter :: body_j(n_item) = [2, 3, 0]  !! bodies of the journals
    integer, parameter :: movable(n_item) = [2, 3, 4] !! bodies that are brought into contact
@@ -42,7 +44,12 @@ module clearance_bench
       real(wp) :: v(3, n_body) = 0.0_wp            !! (3, bodies) rates [m/s, m/s, rad/s]
       real(wp) :: a(3, n_body) = 0.0_wp            !! (3, bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       logical :: is_book = .false.                 !! formulas as the book prints them
-      logical :: has_form = .true.                 !! the kind has such a form; if not, there is no set
+      logical :: has_faces = .false.               !! contacts share faces
+      integer, allocatable :: touching(:)          !! contacts of the set that touch
+      integer, allocatable :: others(:)            !! places of other sets among the contacts
+      integer :: first = 0                         !! place of the set's first contact among all
+      integer :: last = 0                          !! place of its last contact
+      logical :: has_form = .true.                 !! the kind has such a form, and the law fits it; if not, there is no set
       logical :: is_in_contact = .true.            !! all items have the wanted penetration
       character(:), allocatable :: name            !! for messages
    end type bench_t
@@ -65,10 +72,11 @@ contains
       procedure(claim) :: what                          !! the claim
 
       type(bench_t) :: bench
-      integer :: form, friction, kind, law, n
+      integer :: form, friction, kind, law, n, n_law
 
       n = 0
       do kind = 1, n_clearance_kinds
+         n_law = n
          do law = 1, n_law_kinds
             do friction = 0, n_friction_kinds
                do form = 1, n_form
@@ -81,8 +89,8 @@ contains
                end do
             end do
          end do
+         call check_true(error, n - n_law >= 2*(n_friction_kinds + 1), "two laws at least fit each geometry")
       end do
-      call check_true(error, n >= n_clearance_kinds*n_law_kinds*(n_friction_kinds + 1), "all combinations were tried")
    end subroutine claim_all
 
    !> A geometry with a normal law, a friction law (0: none) and a form (1 the first that it offers).
@@ -101,7 +109,9 @@ contains
       type(points_t) :: points
       type(random_t) :: random
       type(text_t), allocatable :: words(:)
-      integer :: c, k
+      character(:), allocatable :: help, message
+      real(wp) :: delta(n_all), parameters(n_law_parameter), rate(n_all)
+      integer :: c, k, m
 
       random%state = int(1000*kind + 100*law_kind + 10*friction_kind + form, i8)
       call new_clearance_set(kind, bench%set)
@@ -122,12 +132,15 @@ contains
          call friction%prepare(law_item)
          bench%name = bench%name//", "//friction_info%name
       end if
-      c = column_number(info, "form")
+      c = column_number(info, "form") + column_number(info, "faces")
       words = split_blank("corrected")
       if (c > 0) words = split_blank(info%columns(c)%choices)
       bench%has_form = form <= size(words)
       if (.not. bench%has_form) return
-      bench%is_book = words(form)%s == "book"
+      bench%is_book = words(form)%s == "book" .and. column_number(info, "form") > 0
+      bench%has_faces = column_number(info, "faces") > 0 .and. words(form)%s /= "corners"
+      if (bench%has_faces) call add_face_law(bench, random)
+      if (.not. bench%has_form) return
       bench%name = bench%name//", "//words(form)%s
       points%n = 2*n_item
       allocate (points%body(2*n_item), points%s(3, 2*n_item))
@@ -136,6 +149,15 @@ contains
          call fill_item(info, k, random, items(k))
          call set_number(info, "bearing_radius", hole, items(k))
          call set_number(info, "clearance", gap, items(k))
+         call set_number(info, "radius", hole, items(k))
+         call set_number(info, "length", 50.0e-3_wp, items(k))
+         call set_number(info, "height", 40.0e-3_wp, items(k))
+         call set_number(info, "width", 30.0e-3_wp, items(k))
+         call set_number(info, "corner_radius", 1.0e-3_wp, items(k))
+         call set_number(info, "gap_upper", gap, items(k))
+         call set_number(info, "gap_lower", gap, items(k))
+         call set_number(info, "guide_start", 0.0_wp, items(k))
+         call set_number(info, "guide_end", 0.0_wp, items(k))
          if (c > 0) items(k)%values(c)%text = words(form)%s
          points%body(2*k - 1:2*k) = [body_i(k), body_j(k)]
          points%s(1:2, 2*k - 1) = random%vector(2, -0.05_wp, 0.05_wp)
@@ -148,6 +170,12 @@ contains
       materials%poisson = 0.3_wp
       call bench%set%prepare(items)
       call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)])
+      call bench%set%law%fit(bench%set%pairs(1), parameters, message, help)
+      bench%has_form = message == ""
+      if (.not. bench%has_form) return
+      bench%first = n_before + 1
+      bench%last = n_before + bench%set%n_contact
+      bench%others = [1, 2, (k, k=bench%last + 1, n_all)]
       call new_motion(n_body, bench%motion)
       do k = 1, n_body
          bench%q(:, k) = random%vector(3, -1.0_wp, 1.0_wp)*[0.1_wp, 0.1_wp, 3.0_wp]
@@ -155,15 +183,73 @@ contains
          bench%a(:, k) = random%vector(3, -1.0_wp, 1.0_wp)*[100.0_wp, 100.0_wp, 2000.0_wp]
       end do
       do k = 1, n_item
-         call bring_into_contact(bench, k, random%vector(2, -0.5_wp*gap, 0.5_wp*gap))
-         call bench%set%begin_contact(k, 0.0_wp, 5.0_wp, 0.0_wp)
+         call align(bench, k)
+         m = (k - 1)*bench%set%n_contact_item + 1
+         if (bench%set%n_contact_item > 1) m = m + 2
+         call bring_into_contact(bench, k, m, random%vector(2, -0.5_wp*gap, 0.5_wp*gap))
+         call bench%set%begin_contact(m, 0.0_wp, 5.0_wp, 0.0_wp)
       end do
+      bench%touching = pack([(m, m=1, bench%set%n_contact)], bench%set%contact%is_touching)
+      if (bench%set%n_contact_item == 1) return
+      call get_gaps(bench, 0.0_wp, delta, rate)
+      do k = 1, n_item
+         m = (k - 1)*bench%set%n_contact_item + 4
+         if (delta(n_before + m) > 0.0_wp) call bench%set%begin_contact(m, 0.0_wp, 4.0_wp, 0.0_wp)
+      end do
+      bench%touching = pack([(m, m=1, bench%set%n_contact)], bench%set%contact%is_touching)
+      bench%is_in_contact = bench%is_in_contact .and. bench%set%n_touching == 2*n_item - 1
    end subroutine make_bench
 
-   !> Move a body until an item has the wanted penetration: Newton along the gradient.
-   subroutine bring_into_contact(bench, item, offset)
+   !> A law for the faces of a slider.
+   subroutine add_face_law(bench, random)
+      type(bench_t), intent(inout) :: bench    !! the set
+      type(random_t), intent(inout) :: random  !! for its parameters
+
+      class(normal_law_t), allocatable :: law
+      type(item_t) :: item
+      type(kind_info_t) :: info
+      integer :: k
+
+      bench%has_form = .false.
+      do k = 1, n_law_kinds
+         call new_normal_law(k, law)
+         info = law%info()
+         if (info%name /= "contact.plane_face") cycle
+         call fill_item(info, 1, random, item)
+         call set_number(info, "stiffness", 0.0_wp, item)
+         call law%prepare(item)
+         allocate (bench%set%face_law, source=law)
+         bench%has_form = .true.
+      end do
+   end subroutine add_face_law
+
+   !> Turn a slider into its guide, a little askew.
+   subroutine align(bench, item)
       type(bench_t), intent(inout) :: bench   !! the set
       integer, intent(in) :: item             !! item
+
+      real(wp), parameter :: tilt(n_item) = [1.0e-4_wp, 2.0e-4_wp, 1.0e-3_wp]
+      real(wp) :: along(2), angle(0:n_body), turn
+
+      select type (set => bench%set)
+      type is (clearance_translational_t)
+         along = set%point_j(:, 8*item - 6) - set%point_j(:, 8*item - 7)
+         turn = atan2(set%axis(2, item), set%axis(1, item)) - atan2(along(2), along(1)) + tilt(item)
+         angle(0) = 0.0_wp
+         angle(1:) = bench%q(3, :)
+         if (body_j(item) == movable(item)) then
+            bench%q(3, body_j(item)) = angle(body_i(item)) + turn
+         else
+            bench%q(3, body_i(item)) = angle(body_j(item)) - turn
+         end if
+      end select
+   end subroutine align
+
+   !> Move a body until a contact has the wanted penetration: Newton along the gradient.
+   subroutine bring_into_contact(bench, item, contact, offset)
+      type(bench_t), intent(inout) :: bench   !! the set
+      integer, intent(in) :: item             !! item
+      integer, intent(in) :: contact          !! its contact
       real(wp), intent(in) :: offset(2)       !! (2) where the journal begins, from the bearing [m]
 
       real(wp), parameter :: h = 1.0e-8_wp
@@ -184,13 +270,13 @@ contains
             bench%q(c, body) = bench%q(c, body) - 2.0_wp*h
             call get_gaps(bench, 0.0_wp, low, rate)
             bench%q(c, body) = bench%q(c, body) + h
-            gradient(c) = (high(n_before + item) - low(n_before + item))/(2.0_wp*h)
+            gradient(c) = (high(n_before + contact) - low(n_before + contact))/(2.0_wp*h)
          end do
          call get_gaps(bench, 0.0_wp, delta, rate)
-         bench%q(1:2, body) = bench%q(1:2, body) + gradient*(depth - delta(n_before + item))/sum(gradient**2)
+         bench%q(1:2, body) = bench%q(1:2, body) + gradient*(depth - delta(n_before + contact))/sum(gradient**2)
       end do
       call get_gaps(bench, 0.0_wp, delta, rate)
-      bench%is_in_contact = bench%is_in_contact .and. abs(delta(n_before + item) - depth) < 1.0e-12_wp
+      bench%is_in_contact = bench%is_in_contact .and. abs(delta(n_before + contact) - depth) < 1.0e-12_wp
    end subroutine bring_into_contact
 
    !> Motion after a time with the bench's accelerations.
