@@ -2,6 +2,7 @@
 module law_fixture
    use bodies, only: material_t
    use contact_registry, only: new_normal_law
+   use expression_compile, only: compile_expression, fault_t, symbol_t
    use fixed_random, only: random_t
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
@@ -66,8 +67,15 @@ contains
       type(item_t), intent(inout) :: item    !! its row
       logical, intent(in) :: is_given        !! the row gives the stiffness
 
+      type(fault_t), allocatable :: fault
+      type(symbol_t) :: none(0)
       integer :: c
 
+      if (info%name == "contact.expression") then
+         call compile_expression("6.6e10 N/m^1.5*delta^1.5*(1 + 0.2*rate/v0)", none, .true., item%values(1)%expression, fault, &
+                                 info%columns(1)%variable, info%columns(1)%argument)
+         if (allocated(fault)) error stop "law_fixture: the expression is wrong"
+      end if
       c = column_number(info, "stiffness")
       if (c == 0) return
       if (same_dimension(info%columns(c)%dimension, dim_contact_stiffness)) item%values(c)%number = steel_pin

@@ -9,6 +9,7 @@ module contact_registry
    use law_dubowsky_freudenstein, only: law_dubowsky_freudenstein_t
    use law_esdu, only: law_esdu_t
    use law_exact, only: law_exact_t
+   use law_expression, only: law_expression_t
    use law_flores, only: law_flores_t
    use law_goldsmith, only: law_goldsmith_t
    use law_gonthier, only: law_gonthier_t
@@ -26,7 +27,7 @@ module contact_registry
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 15       !! number of normal laws
+   integer, parameter :: n_law_kinds = 16       !! number of normal laws
    integer, parameter :: n_friction_kinds = 5   !! number of friction laws
 
 contains
@@ -52,6 +53,7 @@ contains
       case (13); allocate (law_goldsmith_t :: law)
       case (14); allocate (law_esdu_t :: law)
       case (15); allocate (law_plane_face_t :: law)
+      case (16); allocate (law_expression_t :: law)
       end select
    end subroutine new_normal_law
 
