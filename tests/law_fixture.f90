@@ -2,6 +2,7 @@
 module law_fixture
    use bodies, only: material_t
    use contact_registry, only: new_normal_law
+   use expression_compile, only: compile_expression, fault_t, symbol_t
    use fixed_random, only: random_t
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
@@ -59,18 +60,27 @@ contains
       error stop "law_fixture: a law fits no surfaces"
    end subroutine fit_surfaces
 
-   !> Numbers of a row that make sense: a stiffness like that of steel, or none if it comes from the surfaces.
-   subroutine tame(info, item)
+   !> Numbers of a row that make sense: a stiffness like that of steel, or, unless it shall be given, none if it can come from
+   !> the surfaces.
+   subroutine tame(info, item, is_given)
       type(kind_info_t), intent(in) :: info  !! the law
       type(item_t), intent(inout) :: item    !! its row
+      logical, intent(in) :: is_given        !! the row gives the stiffness
 
+      type(fault_t), allocatable :: fault
+      type(symbol_t) :: none(0)
       integer :: c
 
+      if (info%name == "contact.expression") then
+         call compile_expression("6.6e10 N/m^1.5*delta^1.5*(1 + 0.2*rate/v0)", none, .true., item%values(1)%expression, fault, &
+                                 info%columns(1)%variable, info%columns(1)%argument)
+         if (allocated(fault)) error stop "law_fixture: the expression is wrong"
+      end if
       c = column_number(info, "stiffness")
       if (c == 0) return
       if (same_dimension(info%columns(c)%dimension, dim_contact_stiffness)) item%values(c)%number = steel_pin
       if (same_dimension(info%columns(c)%dimension, dim_stiffness)) item%values(c)%number = 1.5e8_wp
-      if (allocated(info%columns(c)%default)) item%values(c)%number = 0.0_wp
+      if (allocated(info%columns(c)%default) .and. .not. is_given) item%values(c)%number = 0.0_wp
    end subroutine tame
 
    !> A row of a normal law with any numbers.
@@ -89,7 +99,7 @@ contains
       call new_normal_law(kind, law)
       info = law%info()
       call fill_item(info, row, random, item)
-      call tame(info, item)
+      call tame(info, item, .false.)
       call law%prepare(item)
       call fit_surfaces(law, parameters)
       name = info%name//" row "//to_text(row)
@@ -110,7 +120,7 @@ contains
       call fill_item(law%info(), 1, random, item)
       has_restitution = column_number(law%info(), "restitution") > 0
       call set_number(law%info(), "restitution", restitution, item)
-      call tame(law%info(), item)
+      call tame(law%info(), item, .false.)
       call law%prepare(item)
       call fit_surfaces(law, parameters)
    end subroutine make_restitution

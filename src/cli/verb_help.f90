@@ -206,7 +206,7 @@ contains
       case (cell_file)
          words = words//" (a file)"
       case (cell_expression)
-         words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//column%variable//"]"
+         words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//trim(column%variable)//"]"
       case (cell_duration)
          words = words//" [s]"
       case (cell_flag)

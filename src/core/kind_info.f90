@@ -71,14 +71,16 @@ module kind_info
 
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]
 
+   integer, parameter :: longest_list = 20  !! characters of the names of an expression's variables
+
    !> One column of a table, or one key of a section of settings.
    type :: column_t
       character(:), allocatable :: name       !! as written in the deck
       integer :: cell = cell_number           !! what a cell holds, one of the above
       type(dim_t) :: dimension = dim_none     !! of a number, vector or expression
       logical :: is_any = .false.             !! of a number: any dimension will do, and is kept with the value
-      character(1) :: variable = "t"          !! of an expression: what it depends on; t is the time
-      type(dim_t) :: argument = dim_time      !! of an expression: dimension of its variable
+      character(longest_list) :: variable = "t"   !! of an expression: what it depends on, blank-separated; t is the time
+      type(dim_t) :: argument(3) = dim_time   !! of an expression: (3) dimensions of its variables
       integer :: size = 1                     !! numbers of a vector (2: in the plane; 3: either 2 or 3)
       character(:), allocatable :: refers_to  !! of a reference: blank-separated prefixes of kinds
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
@@ -222,15 +224,15 @@ contains
       type(dim_t), intent(in) :: dimension           !! of its value
       character(*), intent(in) :: help               !! one line
       character(*), intent(in), optional :: default  !! as in a deck; absent: required
-      character(1), intent(in), optional :: variable !! what it depends on; absent: the time t
-      type(dim_t), intent(in), optional :: argument  !! dimension of the variable
+      character(*), intent(in), optional :: variable    !! what it depends on, blank-separated; absent: the time t
+      type(dim_t), intent(in), optional :: argument(:)  !! (at most 3) dimensions of the variables
 
       type(column_t) :: column
 
       column = column_t(name=name, cell=cell_expression, dimension=dimension, help=help)
       if (present(default)) column%default = default
       if (present(variable)) column%variable = variable
-      if (present(argument)) column%argument = argument
+      if (present(argument)) column%argument(1:size(argument)) = argument
       call add_column(info, column)
    end subroutine add_expression
 

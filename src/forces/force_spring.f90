@@ -68,7 +68,7 @@ contains
       call add_number(info, "preload", dim_force, "tension at the free length, negative if it pushes", default="0 N")
       call add_expression(info, "actuator", dim_force, "tension as a function of time", default="0 N")
       call add_expression(info, "law", dim_force, "tension as a function of the stretch x from the free length, beside the " &
-                          //"stiffness", default="0 N", variable="x", argument=dim_length)
+                          //"stiffness", default="0 N", variable="x", argument=[dim_length])
       call add_channel(info, "force", "N", "world", 2, "force on the body of i")
       call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive if it pulls them together")
       call add_channel(info, "length", "m", "none", 1, "distance of the points")

@@ -63,7 +63,7 @@ contains
       call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
       call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
       call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
-                          default="0 N.m", variable="x", argument=dim_angle)
+                          default="0 N.m", variable="x", argument=[dim_angle])
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the body of i, counter-clockwise positive")
       call add_channel(info, "angle", "rad", "none", 1, "angle of j relative to i, counter-clockwise, turns counted")
       call add_channel(info, "angular_rate", "rad/s", "none", 1, "rate of the angle")

@@ -17,12 +17,14 @@ module expression
    public :: op_integer_power
    public :: op_log, op_log10, op_max, op_min, op_multiply, op_negate, op_number, op_power, op_real_power, op_sin
    public :: op_sinh, op_sqrt, op_step, op_subtract, op_tan, op_tanh, op_time
-   public :: stack_size
+   public :: n_variable, stack_size
+
+   integer, parameter :: n_variable = 3   !! variables of an expression at most
 
    integer, parameter :: stack_size = 40  !! deepest stack of an expression
 
    integer, parameter :: op_number = 1         !! push the operand
-   integer, parameter :: op_time = 2           !! push t
+   integer, parameter :: op_time = 2           !! push the variable whose number is the operand, the first of which is often t
    integer, parameter :: op_add = 3            !! these take two from the stack
    integer, parameter :: op_subtract = 4       !! a - b
    integer, parameter :: op_multiply = 5       !! a*b
@@ -58,10 +60,12 @@ module expression
       type(curve_t), allocatable :: curves(:) !! (any) named functions that it calls; unallocated if it cannot
       type(dim_t) :: dimension = dim_none    !! of the value
       logical :: is_soft = .false.           !! its radians may be taken or left, see expression_compile
-      logical :: is_constant = .true.        !! the time does not occur
+      logical :: is_constant = .true.        !! no variable occurs
+      real(wp) :: others(2:n_variable) = 0.0_wp  !! (2:3) values of the variables but the first in `evaluate` [any]
       character(:), allocatable :: source    !! text it was compiled from, with the values of parameters put in
    contains
       procedure :: evaluate
+      procedure :: evaluate_at
       procedure :: is_smooth
    end type expression_t
 
@@ -96,7 +100,7 @@ contains
       constant%source = ""
    end function constant_expression
 
-   !> Value and derivatives at a time.
+   !> Value and derivatives at a time, or at another first variable, the others as set.
    pure subroutine evaluate(self, t, value, d1, d2)
       class(expression_t), intent(in) :: self  !! the expression
       real(wp), intent(in) :: t                !! time [s]
@@ -107,19 +111,36 @@ contains
       real(wp) :: jet(3)
 
       jet = 0.0_wp
-      if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, self%curves, t, jet)
+      if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, self%curves, [t, self%others], 1, jet)
       value = jet(1)
       d1 = jet(2)
       d2 = jet(3)
    end subroutine evaluate
 
+   !> Value, and its derivative by one of the variables.
+   pure subroutine evaluate_at(self, x, along, value, slope)
+      class(expression_t), intent(in) :: self   !! the expression
+      real(wp), intent(in) :: x(n_variable)     !! (n_variable) the variables [any]
+      integer, intent(in) :: along              !! number of the variable of the derivative
+      real(wp), intent(out) :: value            !! its value [any]
+      real(wp), intent(out) :: slope            !! derivative [any]
+
+      real(wp) :: jet(3)
+
+      jet = 0.0_wp
+      if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, self%curves, x, along, jet)
+      value = jet(1)
+      slope = jet(2)
+   end subroutine evaluate_at
+
    !> Run a program.
-   pure subroutine evaluate_code(n, code, operand, curves, t, jet)
+   pure subroutine evaluate_code(n, code, operand, curves, x, along, jet)
       integer, intent(in) :: n                             !! number of operations
       integer, intent(in) :: code(n)                       !! (n) operations
       real(wp), intent(in) :: operand(n)                   !! (n) their numbers [any]
       type(curve_t), allocatable, intent(in) :: curves(:)  !! (any) named functions
-      real(wp), intent(in) :: t                            !! time [s]
+      real(wp), intent(in) :: x(n_variable)                !! (n_variable) the variables [any]
+      integer, intent(in) :: along                         !! number of the variable of the derivatives
       real(wp), intent(out) :: jet(3)                      !! (3) value and derivatives [any]
 
       real(wp) :: stack(3, stack_size)
@@ -133,7 +154,7 @@ contains
             stack(:, top) = [operand(k), 0.0_wp, 0.0_wp]
          case (op_time)
             top = top + 1
-            stack(:, top) = [t, 1.0_wp, 0.0_wp]
+            stack(:, top) = [x(nint(operand(k))), merge(1.0_wp, 0.0_wp, nint(operand(k)) == along), 0.0_wp]
          case (op_add:op_atan2)
             top = top - 1
             stack(:, top) = of_two(code(k), stack(:, top), stack(:, top + 1))

@@ -2,7 +2,7 @@
 module expression_compile
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_flag, ieee_set_halting_mode, ieee_set_status, &
                                           & ieee_status_type, ieee_usual
-   use expression, only: expression_t, op_add, op_atan2, op_curve, op_number, op_time, stack_size
+   use expression, only: expression_t, n_variable, op_add, op_atan2, op_curve, op_number, op_time, stack_size
    use expression_dimension, only: dimension_agrees, term_t
    use expression_functions, only: function_names, function_operation
    use expression_parser, only: parse_whole
@@ -24,21 +24,21 @@ contains
       logical, intent(in) :: has_variable               !! whether it may depend on a variable
       type(expression_t), intent(out) :: compiled       !! the expression
       type(fault_t), allocatable, intent(out) :: fault  !! unallocated: success
-      character(1), intent(in), optional :: variable    !! name of the variable; absent: `t`
-      type(dim_t), intent(in), optional :: argument     !! dimension of the variable; absent: a time
+      character(*), intent(in), optional :: variable    !! names of the variables, blank-separated; absent: `t`
+      type(dim_t), intent(in), optional :: argument(:)  !! (any) dimensions of the variables; absent: a time
 
-      character(1) :: name
+      character(:), allocatable :: names
       type(ieee_status_type) :: status
       type(parser_t) :: parser
       type(term_t) :: whole
-      type(dim_t) :: dimension
+      type(dim_t) :: dimensions(n_variable)
 
-      name = "t"
-      if (present(variable)) name = variable
-      if (.not. has_variable) name = " "
-      dimension = dim_time
-      if (present(argument)) dimension = argument
-      call new_parser(parser, source, symbols, name, dimension)
+      names = "t"
+      if (present(variable)) names = trim(variable)
+      if (.not. has_variable) names = ""
+      dimensions = dim_time
+      if (present(argument)) dimensions(1:size(argument)) = argument
+      call new_parser(parser, source, symbols, names, dimensions)
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       call parse_whole(parser, whole)

@@ -3,7 +3,7 @@ module expression_leaves
    use expression, only: op_number, op_time
    use expression_dimension, only: term_t
    use expression_functions, only: function_names, function_operation
-   use expression_state, only: advance, digits, emit, fail, letters, name_length, parser_t, peek, resolve, &
+   use expression_state, only: advance, digits, emit, fail, find_variable, letters, name_length, parser_t, peek, resolve, &
                              & suggestion, symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
@@ -29,14 +29,14 @@ contains
          term%is_soft = .true.
          call emit(parser, op_number, pi)
          return
-      else if (name == parser%variable) then
-         term%dimension = parser%argument
+      else if (find_variable(parser, name) > 0) then
+         term%dimension = parser%arguments(find_variable(parser, name))
          term%is_constant = .false.
          do i = 1, size(parser%symbols)
             if (parser%symbols(i)%name == name) call fail(parser, term%first, last, "'"//name &
                & //"' is the variable here, and a parameter", "rename the parameter")
          end do
-         call emit(parser, op_time)
+         call emit(parser, op_time, real(find_variable(parser, name), wp))
          return
       else if (name == "t") then
          call fail(parser, term%first, last, "the time 't' has no place here", "only drivers and loads depend on the time")
@@ -133,7 +133,7 @@ contains
 
       integer :: i
 
-      is_name = word == "t" .or. word == parser%variable .or. word == "pi" .or. function_operation(word) > 0
+      is_name = word == "t" .or. find_variable(parser, word) > 0 .or. word == "pi" .or. function_operation(word) > 0
       do i = 1, size(parser%symbols)
          is_name = is_name .or. parser%symbols(i)%name == word
       end do

@@ -12,8 +12,8 @@
 !> After a number a slash belongs to the unit if a known unit follows at once. `t` is always the time.
 module expression_parser
    use dimension_text, only: dimension_name
-   use expression, only: evaluate_code, op_add, op_curve, op_divide, op_integer_power, op_multiply, op_negate, op_power, &
-                       & op_real_power, op_subtract
+   use expression, only: evaluate_code, n_variable, op_add, op_curve, op_divide, op_integer_power, op_multiply, &
+                       & op_negate, op_power, op_real_power, op_subtract
    use expression_dimension, only: combine_power, combine_product, combine_sum, dimension_agrees, term_t
    use expression_functions, only: apply_function, function_names, function_operation, n_argument
    use expression_leaves, only: parse_name, parse_number
@@ -165,7 +165,7 @@ contains
 
       n = parser%n_code - right%start + 1
       call evaluate_code(n, parser%code(right%start:parser%n_code), parser%operand(right%start:parser%n_code), &
-                       & parser%curves, 0.0_wp, jet)
+                       & parser%curves, spread(0.0_wp, 1, n_variable), 1, jet)
       parser%n_code = right%start - 1
       if (.not. abs(jet(1)) <= largest) then
          call fail(parser, right%first, right%last, "this exponent is not a number up to 1000")

@@ -2,13 +2,15 @@
 module expression_state
    use curve, only: curve_t
    use dimension_text, only: base_text
+   use expression, only: n_variable
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
-   use text, only: exact_text, nearest_word, text_t
+   use text, only: exact_text, nearest_word, split_blank, text_t
    implicit none (type, external)
    private
    public :: advance, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion
-   public :: digits, fault_t, find_function, function_list, letters, parser_t, symbol_broken, symbol_function, symbol_number
+   public :: digits, fault_t, find_function, find_variable, function_list, letters, parser_t, symbol_broken, symbol_function
+   public :: symbol_number
    public :: symbol_t, symbol_word
 
    integer, parameter :: symbol_number = 1  !! a parameter with a value and a dimension
@@ -48,8 +50,8 @@ module expression_state
       integer :: at = 1                             !! next character
       integer :: last = 0                           !! last character of what was read
       integer :: depth = 0                          !! open parentheses and signs
-      character(1) :: variable = " "                !! name of the variable, blank: there is none
-      type(dim_t) :: argument = dim_none            !! its dimension
+      type(text_t), allocatable :: variables(:)     !! (any) names of the variables
+      type(dim_t) :: arguments(n_variable) = dim_none  !! (n_variable) their dimensions
       integer :: n_code = 0                         !! operations so far
       integer :: code(longest_code) = 0             !! (longest_code) operations
       real(wp) :: operand(longest_code) = 0.0_wp    !! (longest_code) their numbers [any]
@@ -65,19 +67,19 @@ module expression_state
 contains
 
    !> Set up a reader at the first character.
-   subroutine new_parser(parser, source, symbols, variable, argument)
+   subroutine new_parser(parser, source, symbols, variables, arguments)
       type(parser_t), intent(out) :: parser     !! the reader
       character(*), intent(in) :: source        !! text of the expression
       type(symbol_t), intent(in) :: symbols(:)  !! (n) parameters
-      character(1), intent(in) :: variable      !! name of the variable, blank: there is none
-      type(dim_t), intent(in) :: argument       !! its dimension
+      character(*), intent(in) :: variables     !! names of the variables, blank-separated; blank: there are none
+      type(dim_t), intent(in) :: arguments(:)   !! (any) their dimensions
 
       integer :: i
 
       parser%source = source
       parser%resolved = ""
-      parser%variable = variable
-      parser%argument = argument
+      parser%variables = split_blank(variables)
+      parser%arguments(1:size(arguments)) = arguments
       allocate (parser%symbols(size(symbols)), parser%curves(size(symbols)))
       do i = 1, size(symbols)
          parser%symbols(i) = symbols(i)
@@ -119,6 +121,19 @@ contains
       name_length = verify(string, letters//digits//"_") - 1
       if (name_length < 0) name_length = len(string)
    end function name_length
+
+   !> Number of the variable of some name, 0 if there is none.
+   pure integer function find_variable(parser, name)
+      type(parser_t), intent(in) :: parser  !! the reader
+      character(*), intent(in) :: name      !! any name
+
+      integer :: i
+
+      find_variable = 0
+      do i = 1, size(parser%variables)
+         if (parser%variables(i)%s == name) find_variable = i
+      end do
+   end function find_variable
 
    !> Number of the symbol that is a function of some name, 0 if there is none.
    pure integer function find_function(parser, name)

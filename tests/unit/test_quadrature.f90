@@ -31,7 +31,7 @@ contains
       type(fault_t), allocatable :: fault
       type(symbol_t) :: none(0)
 
-      call compile_expression(source, none, .true., compiled, fault, variable="x", argument=dim_none)
+      call compile_expression(source, none, .true., compiled, fault, variable="x", argument=[dim_none])
       call check_true(error, .not. allocated(fault), source//" is right")
       if (allocated(error)) return
       call check_close(error, integral_of(compiled, x), expected, 1.0e-12_wp*max(1.0_wp, abs(expected)), source)
