@@ -24,7 +24,7 @@ module load
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
-   public :: load_deck, loaded_t
+   public :: check_swept_words, load_deck, loaded_t
 
    !> A deck that is ready to run.
    type :: loaded_t
@@ -74,6 +74,29 @@ contains
       call check_words(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
+
+   !> Every word that a sweep gives to a parameter must make a deck without mistakes, the other parameters being the deck's own.
+   subroutine check_swept_words(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! mistakes of the deck with one of the words
+
+      type(loaded_t) :: other
+      type(options_t) :: case
+      integer :: i, k
+
+      do k = 1, size(loaded%sweep%parameters)
+         associate (parameter => loaded%sweep%parameters(k))
+            if (parameter%unit /= "") cycle
+            do i = 1, size(parameter%texts)
+               case = options
+               call append_text(case%overrides, parameter%name//"="//parameter%texts(i)%s)
+               call load_deck(case, other, error)
+               if (allocated(error)) return
+            end do
+         end associate
+      end do
+   end subroutine check_swept_words
 
    !> The analysis that the command line names; else the first of the list that the deck has.
    subroutine choose_analysis(options, scene, error)

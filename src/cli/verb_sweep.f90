@@ -15,7 +15,7 @@ module verb_sweep
    use json_text, only: json_object_t
    use kinds, only: i8, wp
    use libraries, only: library_versions
-   use load, only: load_deck, loaded_t
+   use load, only: check_swept_words, load_deck, loaded_t
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t
@@ -67,6 +67,7 @@ contains
 
       call load_deck(options, loaded, error)
       if (.not. allocated(error)) call check_request(options, loaded, error)
+      if (.not. allocated(error)) call check_swept_words(options, loaded, error)
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded%path), error)
       if (allocated(error)) return
@@ -210,7 +211,7 @@ contains
          ended = ended + 1
          call display%update(real(ended, wp)/real(size(work%processes), wp))
          call system_clock(now)
-         if (real(now - written_at, wp) < write_interval*real(rate, wp)) cycle
+         if (ended > 1 .and. real(now - written_at, wp) < write_interval*real(rate, wp)) cycle
          call write_results(work, status_running, "", none, error)
          if (allocated(error)) return
          call system_clock(written_at)

@@ -18,6 +18,7 @@ module spectrum
    real(wp), parameter :: pi = acos(-1.0_wp)      !! half the circumference of the unit circle [1]
    integer(c_int), parameter :: fftw_estimate = 64  !! FFTW: plan without measuring
 
+   ! allow(assumed-size)
    interface
       !> Plan a transform of n real samples.
       function fftw_plan_dft_r2c_1d(n, samples, lines, flags) bind(c, name="fftw_plan_dft_r2c_1d") result(plan)
@@ -25,7 +26,7 @@ module spectrum
          implicit none (type, external)
          integer(c_int), value :: n                                    !! samples
          real(c_double), intent(inout) :: samples(*)                   !! (n) samples [any]
-         complex(c_double_complex), intent(inout) :: lines(*)          !! (n/2 + 1) their transform
+         complex(c_double_complex), intent(inout) :: lines(*)          !! (n/2 + 1) their transform [any]
          integer(c_int), value :: flags                                !! how to plan
          type(c_ptr) :: plan                                           !! the plan
       end function fftw_plan_dft_r2c_1d
@@ -36,7 +37,7 @@ module spectrum
          implicit none (type, external)
          type(c_ptr), value :: plan                                    !! the plan
          real(c_double), intent(inout) :: samples(*)                   !! (n) samples [any]
-         complex(c_double_complex), intent(inout) :: lines(*)          !! (n/2 + 1) their transform
+         complex(c_double_complex), intent(inout) :: lines(*)          !! (n/2 + 1) their transform [any]
       end subroutine fftw_execute_dft_r2c
 
       !> Forget a plan.

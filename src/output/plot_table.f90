@@ -115,7 +115,7 @@ contains
       x = choose_unit(table%x_unit, largest(table, [(table%panels(1)%curves(k)%x, k=1, size(table%panels(1)%curves))]))
       call lines%line("set xlabel "//quoted(with_unit(table%x_name, x)))
       call lines%line("set offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06")
-      if (table%is_log_x) call lines%line("set logscale x")
+      if (table%is_log_x) call lines%line("set logscale x; set format x '%g'")
       if (size(table%categories) > 0) then
          tics = ""
          do k = 1, size(table%categories)
@@ -162,8 +162,11 @@ contains
 
       y = choose_unit(panel%y_unit, largest(table, panel%curves%y))
       call lines%line("set ylabel "//quoted(with_unit(panel%y_name, y)))
-      call lines%line(merge("set logscale y  ", "unset logscale y", panel%is_log_y))
-      if (any(panel%curves%style == draw_boxes)) call lines%line("set style fill solid 0.5; set yrange [0:*]")
+      call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y))
+      if (any(panel%curves%style == draw_lines)) call lines%line("set autoscale xfix; unset offsets")
+      if (any(panel%curves%style == draw_boxes)) then
+         call lines%line("set style fill solid 0.5; unset offsets; set xrange [0:*]; set yrange [0:*]")
+      end if
       do k = 1, size(panel%curves)
          call lines%line(merge("plot ", "     ", k == 1)//curve_text(table, panel%curves(k), x, y)// &
                          merge(", \", "   ", k < size(panel%curves)))

@@ -11,7 +11,7 @@ module sweep_plots
    use kinds, only: not_a_number, wp
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
-   use text, only: append_text, text_t
+   use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
    public :: sweep_table
@@ -201,14 +201,19 @@ contains
          curve%low = before + 2
          curve%colour = k
          curve%title = curve_title(results%sweep, k)
+         if (len(curve%title) == 0 .and. results%is_ensemble) then
+            curve%title = "mean ± standard deviation of "//to_text(results%n_member)//" runs"
+         end if
          curve%first = (k - 1)*n_value + 1
          curve%last = k*n_value
          panel%curves = [panel%curves, curve]
          if (.not. results%is_ensemble) cycle
          curve%style = draw_marks
          curve%title = ""
+         if (k == n) curve%title = "least, greatest"
          curve%y = before + 3
          panel%curves = [panel%curves, curve]
+         curve%title = ""
          curve%y = before + 4
          panel%curves = [panel%curves, curve]
       end do
