@@ -1,7 +1,7 @@
 !> The impact of two free bodies, integrated with many small steps: nothing of the program but the law is used.
 module free_impact
    use kinds, only: wp
-   use normal_law, only: normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t
    implicit none (type, external)
    private
    public :: impact_t, run_impact
@@ -20,9 +20,9 @@ module free_impact
 contains
 
    !> m delta'' = -F(delta, delta') from delta = 0, delta' = speed, to delta = 0 again.
-   subroutine run_impact(law, stiffness, mass, speed, impact)
+   subroutine run_impact(law, parameters, mass, speed, impact)
       class(normal_law_t), intent(in) :: law   !! the law
-      real(wp), intent(in) :: stiffness        !! contact stiffness [N/m^1.5]
+      real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) of the law, fitted to the surfaces [any]
       real(wp), intent(in) :: mass             !! reduced mass [kg]
       real(wp), intent(in) :: speed            !! approach speed [m/s]
       type(impact_t), intent(out) :: impact    !! how it went
@@ -30,9 +30,9 @@ contains
       real(wp) :: after(3), h, high, low, y(3)
       integer :: k
 
-      h = 3.2_wp*(mass**2/(stiffness**2*speed))**0.2_wp/real(n_step, wp)
+      h = law%contact_time(parameters, speed, 1.0_wp/mass)/real(n_step, wp)
       y = [0.0_wp, speed, 0.0_wp]
-      do k = 1, 3*n_step
+      do k = 1, 40*n_step
          after = runge_kutta(y, h)
          if (after(1) <= 0.0_wp) exit
          y = after
@@ -79,7 +79,7 @@ contains
 
          real(wp) :: elastic(1), f(1), unused(1), unused_too(1)
 
-         call law%force(1, y(1:1), y(2:2), [speed], [stiffness], f, unused, unused_too, elastic)
+         call law%force(1, y(1:1), y(2:2), [speed], parameters, f, unused, unused_too, elastic)
          rate = [y(2), -f(1)/mass, (f(1) - elastic(1))*y(2)]
       end function slope
 

@@ -50,9 +50,9 @@ contains
       type(planar_system_t), intent(in) :: system   !! the system
       type(contact_watch_t), intent(out) :: watch   !! the watch
 
-      allocate (watch%force(system%n_loose), watch%penetration(system%n_loose))
+      allocate (watch%force(system%n_contact), watch%penetration(system%n_contact))
       allocate (watch%y(system%n), watch%ydot(system%n), source=0.0_wp)
-      allocate (watch%g(system%n_loose), watch%g_rate(system%n_loose), source=0.0_wp)
+      allocate (watch%g(system%n_contact), watch%g_rate(system%n_contact), source=0.0_wp)
    end subroutine new_contact_watch
 
    !> Look for maxima of force and penetration within the last step.
@@ -68,9 +68,9 @@ contains
       do k = 1, size(system%clearances)
          if (system%clearances(k)%set%n_touching == 0) cycle
          call system%set_acceleration(method%step%f1)
-         do i = 1, system%clearances(k)%set%n
+         do i = 1, system%clearances(k)%set%n_contact
             if (.not. system%clearances(k)%set%contact(i)%is_touching) cycle
-            number = system%clearances(k)%set%first + i
+            number = system%clearances(k)%set%first_contact + i
             call look(system, k, i, force, penetration)
             call keep_peaks(system, k, i, penetration%value, force%value)
             has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
@@ -88,7 +88,7 @@ contains
    subroutine look(system, slot, item, force, penetration)
       type(planar_system_t), intent(in) :: system     !! the system, motion and accelerations set
       integer, intent(in) :: slot                     !! set of the contact
-      integer, intent(in) :: item                     !! item of the set
+      integer, intent(in) :: item                     !! contact of the set
       type(trend_t), intent(out) :: force             !! normal force
       type(trend_t), intent(out) :: penetration       !! penetration
 
@@ -100,7 +100,7 @@ contains
    subroutine keep_peaks(system, slot, item, delta, force)
       type(planar_system_t), intent(inout) :: system  !! the system
       integer, intent(in) :: slot                     !! set of the contact
-      integer, intent(in) :: item                     !! item of the set
+      integer, intent(in) :: item                     !! contact of the set
       real(wp), intent(in) :: delta                   !! penetration [m]
       real(wp), intent(in) :: force                   !! normal force [N]
 
@@ -116,7 +116,7 @@ contains
       type(planar_system_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
-      integer, intent(in) :: item                       !! item of the set
+      integer, intent(in) :: item                       !! contact of the set
       type(trend_t), intent(in) :: left                 !! penetration at the start of the step
       type(trend_t), intent(in) :: right                !! penetration at its end
 
@@ -145,7 +145,7 @@ contains
       type(planar_system_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
-      integer, intent(in) :: item                       !! item of the set
+      integer, intent(in) :: item                       !! contact of the set
       type(trend_t), intent(in) :: left                 !! force at the start of the step
       type(trend_t), intent(in) :: right                !! force at its end
 
@@ -223,7 +223,7 @@ contains
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(planar_system_t), intent(inout) :: system    !! the system; the contact's state is changed
       class(integrator_t), intent(in) :: method         !! the integrator, at the event
-      integer, intent(in) :: number                     !! number of the loose joint
+      integer, intent(in) :: number                     !! number of the contact
       logical, intent(out) :: is_over                   !! a contact ended: `row` tells of it
       type(event_t), intent(out) :: row                 !! the contact that ended
       real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
@@ -231,7 +231,7 @@ contains
       real(wp) :: rate
       integer :: i, k
 
-      call system%find_loose(number, k, i)
+      call system%find_contact(number, k, i)
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
       associate (set => system%clearances(k)%set)
          is_over = set%contact(i)%is_touching
@@ -261,8 +261,8 @@ contains
       is_open = .false.
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            do i = 1, set%n
-               number = set%first + i
+            do i = 1, set%n_contact
+               number = set%first_contact + i
                if (.not. set%contact(i)%is_touching) cycle
                call set%end_contact(i, method%t, 0.0_wp, loss_of(system, method%step%y1, number), .false., row)
                set%contact(i)%is_touching = .false.
@@ -310,11 +310,11 @@ contains
       end do
    end subroutine watch_load
 
-   !> What the ledger has lost in a loose joint; NaN without a ledger.
+   !> What the ledger has lost in a contact; NaN without a ledger.
    real(wp) function loss_of(system, y, number) result(loss)
       type(planar_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: y(:)                 !! (n) state [any]
-      integer, intent(in) :: number                !! number of the loose joint
+      integer, intent(in) :: number                !! number of the contact
 
       integer :: z
 

@@ -8,6 +8,7 @@ module dynamic
       integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
+   use law_validity, only: warn_of_laws
    use planar_energy, only: energy_of, energy_t
    use planar_report, only: build_catalogue, report_state
    use planar_system, only: planar_system_t
@@ -266,13 +267,14 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
 
       type(event_t) :: row
-      real(wp) :: cpu_0, cpu_1, step_hint
+      real(wp) :: cpu_0, cpu_1, hint, step_hint
       integer :: k, status
       logical :: is_over
 
       step_hint = 0.0_wp
       do k = 1, method%n_happened
-         call run%watch%handle_event(system, method, method%happened(k), is_over, row, step_hint)
+         call run%watch%handle_event(system, method, method%happened(k), is_over, row, hint)
+         if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
          run%summary%events = run%summary%events + 1
          if (is_over) then
             call cpu_time(cpu_0)
@@ -318,6 +320,7 @@ contains
                                      system%rows%is_angle(run%worst_row)))// &
                           "; a jump in a driver, or too large a tolerance?")
       end if
+      call warn_of_laws(system, run%summary%warnings)
    end subroutine warn
 
    !> Compare the results with the deck's limits.
@@ -413,7 +416,7 @@ contains
       class(integrator_t), intent(in) :: method        !! the integrator
       character(:), allocatable :: words               !! a line of the message, blank if nothing touches
 
-      real(wp) :: delta(system%n_loose), deepest, rate(system%n_loose)
+      real(wp) :: delta(system%n_contact), deepest, rate(system%n_contact)
       integer :: i, k
 
       words = ""
@@ -422,10 +425,11 @@ contains
       call system%events(method%t, method%step%y1, delta, rate)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            do i = 1, set%n
-               if (.not. set%contact(i)%is_touching .or. -delta(set%first + i) <= deepest) cycle
-               deepest = -delta(set%first + i)
-               words = new_line("a")//"  = deepest contact there: '"//set%names(i)%s//"', penetration "//real_text(deepest, 3)//" m"
+            do i = 1, set%n_contact
+               if (.not. set%contact(i)%is_touching .or. -delta(set%first_contact + i) <= deepest) cycle
+               deepest = -delta(set%first_contact + i)
+               words = new_line("a")//"  = deepest contact there: '"//set%names(set%item_of(i))%s//"', penetration "// &
+                       real_text(deepest, 3)//" m"
             end do
          end associate
       end do

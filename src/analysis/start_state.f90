@@ -98,7 +98,7 @@ contains
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
             set%n_touching = 0
-            do i = 1, set%n
+            do i = 1, set%n_contact
                if (set%contact(i)%is_touching) call set%begin_contact(i, 0.0_wp, 0.0_wp, 0.0_wp)
             end do
          end associate
@@ -132,17 +132,17 @@ contains
       real(wp), intent(in) :: y(:)                         !! (n) state [any]
       type(error_t), allocatable, intent(out) :: error     !! names the joint and the depth
 
-      real(wp) :: delta(system%n_loose), rate(system%n_loose)
+      real(wp) :: delta(system%n_contact), rate(system%n_contact)
       integer :: i, k
 
       if (system%n_loose == 0) return
       call system%events(0.0_wp, y, delta, rate)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            do i = 1, set%n
-               if (delta(set%first + i) <= touching*set%clearance(i)) cycle
-               call set_error(error, exit_assembly, "initial overlap: joint '"//set%names(i)%s// &
-                              "' begins with its surfaces "//to_text(delta(set%first + i))//" m into each other"// &
+            do i = 1, set%n_contact
+               if (delta(set%first_contact + i) <= touching*set%clearance(set%item_of(i))) cycle
+               call set_error(error, exit_assembly, "initial overlap: joint '"//set%names(set%item_of(i))%s// &
+                              "' begins with its surfaces "//to_text(delta(set%first_contact + i))//" m into each other"// &
                               new_line("a")//"  = move its bodies, enlarge the clearance, or begin with start = ideal")
                return
             end do

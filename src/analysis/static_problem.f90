@@ -49,7 +49,7 @@ contains
       class(planar_system_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
       real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
 
-      real(wp) :: delta(system%n_loose), rate(system%n_loose), rest(size(q))
+      real(wp) :: delta(system%n_contact), rate(system%n_contact), rest(size(q))
       integer :: i, k
 
       rest = 0.0_wp
@@ -57,8 +57,8 @@ contains
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
             call set%gaps(system%motion, delta, rate)
-            do i = 1, set%n
-               set%contact(i)%is_touching = delta(set%first + i) > 0.0_wp
+            do i = 1, set%n_contact
+               set%contact(i)%is_touching = delta(set%first_contact + i) > 0.0_wp
             end do
             set%n_touching = count(set%contact%is_touching)
          end associate

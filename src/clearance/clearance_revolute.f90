@@ -20,7 +20,7 @@ module clearance_revolute
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use stiffness, only: internal_stiffness
+   use surfaces, only: set_materials, shape_internal, surfaces_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -31,6 +31,7 @@ module clearance_revolute
    integer, parameter :: column_material = 5          !! column of material
    integer, parameter :: column_journal_material = 6  !! column of journal_material
    integer, parameter :: column_form = 10             !! column of form
+   integer, parameter :: column_length = 11           !! column of length
 
    !> Kinematics of one contact.
    type :: contact_t
@@ -62,8 +63,10 @@ module clearance_revolute
       real(wp), allocatable :: f_t(:)                  !! (n) friction force on the journal along t, zero without friction law [N]
    contains
       procedure, nopass :: info => revolute_info
+      procedure, nopass :: ideal_kind => revolute_ideal_kind
       procedure :: prepare => revolute_prepare
       procedure, nopass :: mistake => revolute_mistake
+      procedure, nopass :: describe => revolute_describe
       procedure :: evaluate => revolute_evaluate
       procedure :: gaps => revolute_gaps
       procedure :: watch => revolute_watch
@@ -93,6 +96,8 @@ contains
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_word(info, "form", "formulas: corrected, or as the book prints them", default="corrected", &
                     choices="corrected book")
+      call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: not known", &
+                      default="0 m", lower=0.0_wp)
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing")
       call add_channel(info, "force", "N", "world", 2, "force on the journal")
       call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
@@ -102,14 +107,21 @@ contains
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
    end function revolute_info
 
-   !> Radii, clearance, stiffness and form of each item.
-   subroutine revolute_prepare(self, items, materials)
+   !> Without clearance a revolute joint.
+   function revolute_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! name of the kind of joint
+
+      kind = "joint.revolute"
+   end function revolute_ideal_kind
+
+   !> Radii, clearance and form of each item.
+   subroutine revolute_prepare(self, items)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                !! (n) rows of the table
-      type(material_t), intent(in) :: materials(:)        !! (materials) all materials
 
-      integer :: journal_material, k
+      integer :: k
 
+      self%is_round = .true.
       allocate (self%radius_i(self%n), self%radius_j(self%n), self%is_book(self%n))
       allocate (self%kinematics(self%n))
       allocate (self%delta(self%n), self%rate(self%n), self%impact_speed(self%n), self%speed(self%n), self%f_n(self%n), &
@@ -120,15 +132,27 @@ contains
             self%clearance(k) = values(column_clearance)%number
             self%radius_j(k) = self%radius_i(k) - self%clearance(k)
             self%is_book(k) = values(column_form)%text == "book"
-            journal_material = values(column_journal_material)%index
-            if (journal_material == 0) journal_material = values(column_material)%index
-            self%stiffness(k) = self%law%stiffness
-            if (self%stiffness(k) > 0.0_wp) cycle
-            self%stiffness(k) = internal_stiffness(self%radius_i(k), self%clearance(k), &
-                                                   materials(values(column_material)%index), materials(journal_material))
          end associate
       end do
    end subroutine revolute_prepare
+
+   !> A pin in a hole.
+   pure subroutine revolute_describe(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      integer :: journal_material
+
+      pair%shape = shape_internal
+      pair%radius_i = item%values(column_radius)%number
+      pair%clearance = item%values(column_clearance)%number
+      pair%radius_j = pair%radius_i - pair%clearance
+      pair%length = item%values(column_length)%number
+      journal_material = item%values(column_journal_material)%index
+      if (journal_material == 0) journal_material = item%values(column_material)%index
+      call set_materials(pair, materials(item%values(column_material)%index), materials(journal_material))
+   end subroutine revolute_describe
 
    !> The journal must have a radius.
    subroutine revolute_mistake(item, column, message, help)
@@ -227,7 +251,7 @@ contains
       df_ddelta = 0.0_wp
       df_drate = 0.0_wp
       if (.not. self%contact(k)%is_touching) return
-      call self%law%force(1, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], [self%stiffness(k)], &
+      call self%law%force(1, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], self%parameters(:, k), &
                           f, slope_delta, slope_rate, elastic)
       f_n = f(1)
       df_ddelta = slope_delta(1)
@@ -243,14 +267,14 @@ contains
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(loads_t), intent(inout) :: loads               !! loads on the bodies
-      real(wp), intent(inout) :: losses(:, :)             !! (2, all items) power lost [W]
+      real(wp), intent(inout) :: losses(:, :)             !! (2, all contacts) power lost [W]
 
       real(wp) :: f(2)
       integer :: i, j, k
 
       do k = 1, self%n
-         losses(loss_contact, self%first + k) = 0.0_wp
-         losses(loss_friction, self%first + k) = 0.0_wp
+         losses(loss_contact, self%first_contact + k) = 0.0_wp
+         losses(loss_friction, self%first_contact + k) = 0.0_wp
       end do
       if (self%n_touching == 0) return
       do k = 1, self%n
@@ -263,7 +287,7 @@ contains
          self%rate(k) = self%kinematics(k)%rate
          self%impact_speed(k) = self%contact(k)%impact_speed
       end do
-      call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%stiffness, &
+      call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%parameters, &
                           self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)
       if (allocated(self%friction)) call evaluate_friction(self, motion, losses)
       do k = 1, self%n
@@ -271,7 +295,7 @@ contains
          associate (contact => self%kinematics(k))
             f(1) = -self%f_n(k)*contact%normal(1) - self%f_t(k)*contact%normal(2)
             f(2) = -self%f_n(k)*contact%normal(2) + self%f_t(k)*contact%normal(1)
-            losses(loss_contact, self%first + k) = (self%f_n(k) - self%f_elastic(k))*contact%rate
+            losses(loss_contact, self%first_contact + k) = (self%f_n(k) - self%f_elastic(k))*contact%rate
             i = self%body(1, k)
             j = self%body(2, k)
             loads%force(1:2, i) = loads%force(1:2, i) - f
@@ -286,7 +310,7 @@ contains
    subroutine evaluate_friction(self, motion, losses)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      real(wp), intent(inout) :: losses(:, :)             !! (2, all items) power lost [W]
+      real(wp), intent(inout) :: losses(:, :)             !! (2, all contacts) power lost [W]
 
       integer :: k
 
@@ -300,7 +324,7 @@ contains
       do k = 1, self%n
          if (.not. self%contact(k)%is_touching) cycle
          self%f_t(k) = -sign(self%f_t(k), self%kinematics(k)%v_t)
-         losses(loss_friction, self%first + k) = -self%f_t(k)*self%kinematics(k)%v_t_work
+         losses(loss_friction, self%first_contact + k) = -self%f_t(k)*self%kinematics(k)%v_t_work
       end do
    end subroutine evaluate_friction
 
@@ -308,16 +332,16 @@ contains
    subroutine revolute_gaps(self, motion, delta, rate)
       class(clearance_revolute_t), intent(in) :: self  !! the set
       type(motion_t), intent(in) :: motion             !! positions and velocities
-      real(wp), intent(inout) :: delta(:)              !! (all items) penetration [m]
-      real(wp), intent(inout) :: rate(:)               !! (all items) its rate [m/s]
+      real(wp), intent(inout) :: delta(:)              !! (all contacts) penetration [m]
+      real(wp), intent(inout) :: rate(:)               !! (all contacts) its rate [m/s]
 
       type(contact_t) :: contact
       integer :: k
 
       do k = 1, self%n
          call measure(self, k, motion, contact)
-         delta(self%first + k) = contact%delta
-         rate(self%first + k) = contact%rate
+         delta(self%first_contact + k) = contact%delta
+         rate(self%first_contact + k) = contact%rate
       end do
    end subroutine revolute_gaps
 
@@ -357,14 +381,15 @@ contains
       class(clearance_revolute_t), intent(in) :: self  !! the set
       character(*), intent(in) :: channel              !! name of the channel
       type(motion_t), intent(in) :: motion             !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)          !! (components, all items) values [any]
+      real(wp), intent(inout) :: values(:, :)          !! (components, all items or contacts) values [any]
 
       type(contact_t) :: contact
       real(wp) :: df_ddelta, df_drate, f_n, f_t
-      integer :: column, k
+      integer :: column, contact_column, k
 
       do k = 1, self%n
          column = self%first + k
+         contact_column = self%first_contact + k
          call evaluate_item(self, k, motion, contact, f_n, df_ddelta, df_drate, f_t)
          select case (channel)
          case ("eccentricity")
@@ -372,15 +397,15 @@ contains
          case ("force")
             values(:, column) = -f_n*contact%normal + f_t*[-contact%normal(2), contact%normal(1)]
          case ("penetration")
-            values(1, column) = max(contact%delta, 0.0_wp)
+            values(1, contact_column) = max(contact%delta, 0.0_wp)
          case ("penetration_rate")
-            values(1, column) = merge(contact%rate, 0.0_wp, self%contact(k)%is_touching)
+            values(1, contact_column) = merge(contact%rate, 0.0_wp, self%contact(k)%is_touching)
          case ("normal_force")
-            values(1, column) = f_n
+            values(1, contact_column) = f_n
          case ("friction_force")
-            values(1, column) = f_t
+            values(1, contact_column) = f_t
          case ("state")
-            values(1, column) = real(merge(state_contact, state_free, self%contact(k)%is_touching), wp)
+            values(1, contact_column) = real(merge(state_contact, state_free, self%contact(k)%is_touching), wp)
          end select
       end do
    end subroutine revolute_report
@@ -398,7 +423,7 @@ contains
       do k = 1, self%n
          if (.not. self%contact(k)%is_touching) cycle
          call measure(self, k, motion, contact)
-         energy = energy + self%law%potential(contact%delta, self%stiffness(k))
+         energy = energy + self%law%potential(contact%delta, self%parameters(:, k))
       end do
    end function revolute_elastic_energy
 

@@ -1,9 +1,10 @@
 !> The contract of joints with clearance: all items that share a geometry, a normal law and a friction law.
 !>
-!> Body i carries the bearing, body j the journal. A contact is free or touching; it changes only
-!> at located events: the impact speed is stored at the onset and the force acts between onset and
-!> end. Forces act on both bodies with action equal to reaction; the power that damping and
-!> friction take is given to the energy ledger.
+!> Body i carries the bearing, guide or plane, body j the journal, slider or ball. An item has one contact or several, as
+!> many as its geometry has labels: contact m is number (m - 1) mod n_contact_item + 1 of its item. A contact is free or
+!> touching; it changes only at located events: the impact speed is stored at the onset and the force acts between onset
+!> and end. Forces act on both bodies with action equal to reaction; the power that damping and friction take is given to
+!> the energy ledger, contact by contact.
 module clearance_set
    use bodies, only: material_t, points_t
    use catalogue, only: state_contact, state_free, state_name
@@ -13,8 +14,9 @@ module clearance_set
    use kinds, only: not_a_number, wp
    use memory, only: get, put
    use motion, only: loads_t, motion_t
-   use normal_law, only: normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t
    use recorder, only: event_t
+   use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -30,33 +32,46 @@ module clearance_set
       real(wp) :: impact_speed = 0.0_wp         !! normal approach speed at the onset [m/s]
       real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
       real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
-      real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the joint by then [J]
+      real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
    end type contact_memory_t
 
-   !> All items that share a geometry and its laws. One contact per item.
+   !> All items that share a geometry and its laws.
    type, abstract :: clearance_set_t
       integer :: n = 0                                      !! number of items
-      integer :: n_touching = 0                             !! number of items in contact
+      integer :: n_contact_item = 1                         !! contacts of an item
+      integer :: n_contact = 0                              !! contacts of all items
+      integer :: n_touching = 0                             !! number of contacts that touch
       integer :: first = 0                                  !! items of earlier sets
+      integer :: first_contact = 0                          !! contacts of earlier sets
+      logical :: is_round = .false.                         !! the clearance is a radial one
       type(text_t), allocatable :: names(:)                 !! (n) names
+      type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item
       integer, allocatable :: body(:, :)                    !! (2, n) bodies of bearing and journal, 0: ground
       real(wp), allocatable :: s_i(:, :)                    !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)                    !! (3, n) centre of the journal, frame of its body [m]
-      real(wp), allocatable :: clearance(:)                 !! (n) radial clearance [m]
-      real(wp), allocatable :: stiffness(:)                 !! (n) contact stiffness [N/m^1.5]
+      real(wp), allocatable :: clearance(:)                 !! (n) clearance [m]
+      type(surfaces_t), allocatable :: pairs(:)             !! (n) the surfaces
+      real(wp), allocatable :: parameters(:, :)             !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
       class(normal_law_t), allocatable :: law               !! normal law of all items
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
-      type(contact_memory_t), allocatable :: contact(:)     !! (n) state of the contacts
+      type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
+      real(wp), allocatable :: greatest_speed(:)            !! (n_contact) impact speed of the fastest contact so far [m/s]
+      real(wp), allocatable :: greatest_penetration(:)      !! (n_contact) penetration of the deepest contact so far [m]
    contains
       procedure(info_interface), nopass, deferred :: info
+      procedure, nopass :: contact_labels => clearance_contact_labels
+      procedure(ideal_interface), nopass, deferred :: ideal_kind
       procedure(prepare_interface), deferred :: prepare
       procedure(mistake_interface), nopass, deferred :: mistake
+      procedure(describe_interface), nopass, deferred :: describe
       procedure(evaluate_interface), deferred :: evaluate
       procedure(gaps_interface), deferred :: gaps
       procedure(watch_interface), deferred :: watch
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
+      procedure :: item_of => clearance_item_of
+      procedure :: fit_law => clearance_fit_law
       procedure :: begin_contact => clearance_begin_contact
       procedure :: end_contact => clearance_end_contact
       procedure :: contact_time => clearance_contact_time
@@ -78,15 +93,28 @@ module clearance_set
          type(kind_info_t) :: info  !! name, columns and channels (those of the contacts too)
       end function info_interface
 
-      !> Take the geometry's own parameters, clearance and stiffness among them (a stiffness that the law
-      !> gives comes first). Names, bodies, points and laws are set already.
-      subroutine prepare_interface(self, items, materials)
-         import :: clearance_set_t, item_t, material_t
+      !> The joint that the geometry is without clearance: its first columns are those of the geometry.
+      function ideal_interface() result(kind)
+         implicit none (type, external)
+         character(:), allocatable :: kind  !! name of the kind of joint; blank: there is none, and no column `level`
+      end function ideal_interface
+
+      !> Take the geometry's own parameters, the clearance among them. Names, bodies, points and laws are set already.
+      subroutine prepare_interface(self, items)
+         import :: clearance_set_t, item_t
          implicit none (type, external)
          class(clearance_set_t), intent(inout) :: self  !! the set
          type(item_t), intent(in) :: items(:)           !! (n) rows of the table, references resolved
-         type(material_t), intent(in) :: materials(:)   !! (materials) all materials
       end subroutine prepare_interface
+
+      !> The surfaces of a row, but for the masses of the bodies.
+      pure subroutine describe_interface(item, materials, pair)
+         import :: item_t, material_t, surfaces_t
+         implicit none (type, external)
+         type(item_t), intent(in) :: item              !! the row, references resolved
+         type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+         type(surfaces_t), intent(out) :: pair         !! its surfaces
+      end subroutine describe_interface
 
       !> What is wrong with a row as a whole.
       subroutine mistake_interface(item, column, message, help)
@@ -98,32 +126,32 @@ module clearance_set
          character(:), allocatable, intent(out) :: help         !! what would be right
       end subroutine mistake_interface
 
-      !> Add the contact forces of the touching items, and the power they lose. No allocation.
+      !> Add the contact forces of the touching contacts, and the power they lose. No allocation.
       subroutine evaluate_interface(self, motion, loads, losses)
          import :: clearance_set_t, loads_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(inout) :: self   !! the set
          type(motion_t), intent(in) :: motion            !! positions and velocities
          type(loads_t), intent(inout) :: loads           !! loads on the bodies, added to
-         real(wp), intent(inout) :: losses(:, :)         !! (2, all items) power lost by damping and friction, set here [W]
+         real(wp), intent(inout) :: losses(:, :)         !! (2, all contacts) power lost by damping and friction, set here [W]
       end subroutine evaluate_interface
 
-      !> Penetration and its rate for all items, touching or not. No allocation.
+      !> Penetration and its rate for all contacts, touching or not. No allocation.
       subroutine gaps_interface(self, motion, delta, rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         real(wp), intent(inout) :: delta(:)         !! (all items) penetration, negative: apart [m]
-         real(wp), intent(inout) :: rate(:)          !! (all items) its rate [m/s]
+         real(wp), intent(inout) :: delta(:)         !! (all contacts) penetration, negative: apart [m]
+         real(wp), intent(inout) :: rate(:)          !! (all contacts) its rate [m/s]
       end subroutine gaps_interface
 
-      !> Normal force of a touching item and its rate, for the location of its maximum.
+      !> Normal force of a touching contact and its rate, for the location of its maximum.
       subroutine watch_interface(self, k, motion, delta, rate, force, force_rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
-         integer, intent(in) :: k                    !! item of the set
+         integer, intent(in) :: k                    !! contact of the set
          type(motion_t), intent(in) :: motion        !! positions, velocities and accelerations
          real(wp), intent(out) :: delta              !! penetration [m]
          real(wp), intent(out) :: rate               !! its rate [m/s]
@@ -131,17 +159,17 @@ module clearance_set
          real(wp), intent(out) :: force_rate         !! its rate [N/s]
       end subroutine watch_interface
 
-      !> Values of a channel for all items.
+      !> Values of a channel for all items, or for all contacts if it is one of theirs.
       subroutine report_interface(self, channel, motion, values)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          character(*), intent(in) :: channel         !! name of the channel
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         real(wp), intent(inout) :: values(:, :)     !! (components, all items) values; left alone if not of this geometry [any]
+         real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values; others are left alone [any]
       end subroutine report_interface
 
-      !> Elastic energy that the touching items store.
+      !> Elastic energy that the touching contacts store.
       function energy_interface(self, motion) result(energy)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
@@ -166,9 +194,14 @@ contains
       integer :: k
 
       self%n = size(items)
+      self%labels = self%contact_labels()
+      self%n_contact_item = size(self%labels)
+      self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n))
-      allocate (self%clearance(self%n), self%stiffness(self%n), source=0.0_wp)
-      allocate (self%contact(self%n))
+      allocate (self%clearance(self%n), self%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
+      allocate (self%greatest_speed(self%n_contact), self%greatest_penetration(self%n_contact), source=0.0_wp)
+      allocate (self%pairs(self%n))
+      allocate (self%contact(self%n_contact))
       allocate (self%law, source=law)
       if (allocated(friction)) then
          if (friction%is_active()) allocate (self%friction, source=friction)
@@ -182,33 +215,73 @@ contains
       end do
    end subroutine clearance_new
 
+   !> One contact per item, without a name of its own; a geometry with several overrides this.
+   function clearance_contact_labels() result(labels)
+      type(text_t), allocatable :: labels(:)  !! (contacts of an item) names
+
+      allocate (labels(1))
+      labels(1)%s = ""
+   end function clearance_contact_labels
+
+   !> The item that a contact belongs to.
+   pure integer function clearance_item_of(self, contact) result(item)
+      class(clearance_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact              !! contact of the set
+
+      item = (contact - 1)/self%n_contact_item + 1
+   end function clearance_item_of
+
+   !> Fit the normal law to the surfaces. A law that does not fit was a mistake of the deck, unless the joint is an ideal
+   !> one that is taken as loose for its channels only: no contact is evaluated then.
+   subroutine clearance_fit_law(self, items, materials, mass)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)           !! (n) rows of the table
+      type(material_t), intent(in) :: materials(:)   !! (materials) all materials
+      real(wp), intent(in) :: mass(:)                !! (bodies) masses of the bodies [kg]
+
+      character(:), allocatable :: help, message
+      real(wp) :: parameters(n_law_parameter)
+      integer :: c, k
+
+      do k = 1, self%n
+         call self%describe(items(k), materials, self%pairs(k))
+         self%pairs(k)%inverse_mass = sum(1.0_wp/mass(pack(self%body(:, k), self%body(:, k) > 0)))
+         call self%law%fit(self%pairs(k), parameters, message, help)
+         do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
+            self%parameters(:, c) = parameters
+         end do
+      end do
+   end subroutine clearance_fit_law
+
    !> A contact begins: store its impact speed.
    subroutine clearance_begin_contact(self, k, t, impact_speed, loss)
       class(clearance_set_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: k                       !! item of the set
+      integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: t                      !! time of the onset [s]
       real(wp), intent(in) :: impact_speed           !! penetration rate at the onset [m/s]
-      real(wp), intent(in) :: loss                   !! what the ledger has lost in the joint by now [J]
+      real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now [J]
 
       self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
+      self%greatest_speed(k) = max(self%greatest_speed(k), impact_speed)
       self%n_touching = self%n_touching + 1
    end subroutine clearance_begin_contact
 
    !> A contact ends, or the run ends within it: tell its story in one row.
    subroutine clearance_end_contact(self, k, t, release_speed, loss, is_over, event)
       class(clearance_set_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: k                       !! item of the set
+      integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: t                      !! time of the end [s]
       real(wp), intent(in) :: release_speed          !! separation speed [m/s]
-      real(wp), intent(in) :: loss                   !! what the ledger has lost in the joint by now; NaN: no ledger [J]
+      real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now; NaN: no ledger [J]
       logical, intent(in) :: is_over                 !! .false.: the run ended within the contact
       type(event_t), intent(out) :: event            !! the row
 
       associate (contact => self%contact(k))
+         self%greatest_penetration(k) = max(self%greatest_penetration(k), contact%peak_penetration)
          event%time = contact%onset
          event%kind = "contact"
-         event%item = self%names(k)%s
-         event%contact = ""
+         event%item = self%names(self%item_of(k))%s
+         event%contact = self%labels(modulo(k - 1, self%n_contact_item) + 1)%s
          event%impact_speed = contact%impact_speed
          event%peak_force = contact%peak_force
          event%peak_penetration = contact%peak_penetration
@@ -228,26 +301,25 @@ contains
       end associate
    end subroutine clearance_end_contact
 
-   !> Duration of an elastic impact of two free bodies: 3.218 (m^2 / (K^2 v))^(1/5).
-   !> m is the reduced mass of the two bodies' masses. Source: classical Hertz impact.
+   !> Duration of an elastic impact of the two bodies, if they were free.
    pure real(wp) function clearance_contact_time(self, k, speed, inverse_mass) result(time)
       class(clearance_set_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                    !! item of the set
-      real(wp), intent(in) :: speed               !! impact speed, positive [m/s]
+      integer, intent(in) :: k                    !! contact of the set
+      real(wp), intent(in) :: speed               !! impact speed [m/s]
       real(wp), intent(in) :: inverse_mass(0:)    !! (0:bodies) one over the mass, 0 for the ground [1/kg]
 
-      real(wp), parameter :: factor = 3.218_wp  ! of an impact with exponent 3/2 [1]
-      real(wp) :: reduced
+      integer :: item
 
-      reduced = 1.0_wp/max(inverse_mass(self%body(1, k)) + inverse_mass(self%body(2, k)), tiny(1.0_wp))
-      time = factor*(reduced**2/(self%stiffness(k)**2*speed))**0.2_wp
+      item = self%item_of(k)
+      time = self%law%contact_time(self%parameters(:, k), speed, &
+                                   inverse_mass(self%body(1, item)) + inverse_mass(self%body(2, item)))
    end function clearance_contact_time
 
    !> Numbers that the set must keep in a checkpoint.
    integer function clearance_memory_size(self) result(n)
       class(clearance_set_t), intent(in) :: self  !! the set
 
-      n = 6*self%n
+      n = 8*self%n_contact
    end function clearance_memory_size
 
    !> Write what the set remembers.
@@ -258,11 +330,12 @@ contains
 
       integer :: k
 
-      do k = 1, self%n
+      do k = 1, self%n_contact
          associate (contact => self%contact(k))
             call put(row, place, contact%is_touching)
             call put(row, place, [contact%onset, contact%impact_speed, contact%peak_force, &
-                                  contact%peak_penetration, contact%loss_at_onset])
+                                  contact%peak_penetration, contact%loss_at_onset, self%greatest_speed(k), &
+                                  self%greatest_penetration(k)])
          end associate
       end do
    end subroutine clearance_save
@@ -275,7 +348,7 @@ contains
 
       integer :: k
 
-      do k = 1, self%n
+      do k = 1, self%n_contact
          associate (contact => self%contact(k))
             call get(row, place, contact%is_touching)
             call get(row, place, contact%onset)
@@ -283,6 +356,8 @@ contains
             call get(row, place, contact%peak_force)
             call get(row, place, contact%peak_penetration)
             call get(row, place, contact%loss_at_onset)
+            call get(row, place, self%greatest_speed(k))
+            call get(row, place, self%greatest_penetration(k))
          end associate
       end do
       self%n_touching = count(self%contact%is_touching)

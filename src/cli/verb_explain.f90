@@ -244,30 +244,34 @@ contains
       real(wp), allocatable :: delta(:), rate(:)
       character(:), allocatable :: law
       real(wp) :: step
-      integer :: i, k, v
+      integer :: c, i, k, last, v
 
       if (loaded%system%n_loose == 0) return
       step = loaded%scene%dynamic%values(column_of(loaded%scene%dynamic_kind, "step"))%number
       call say("")
       call say("loose joints")
-      allocate (delta(loaded%system%n_loose), rate(loaded%system%n_loose), source=0.0_wp)
+      allocate (delta(loaded%system%n_contact), rate(loaded%system%n_contact), source=0.0_wp)
       if (allocated(y)) call loaded%system%events(0.0_wp, y, delta, rate)
       do k = 1, size(loaded%system%clearances)
          associate (set => loaded%system%clearances(k)%set)
             law = set%law%name
             if (allocated(set%friction)) law = law//", friction "//set%friction%name
             do i = 1, set%n
-               call say(set%names(i)%s//": radial clearance "//to_text(1.0e3_wp*set%clearance(i))//" mm, law "//law// &
-                        ", stiffness "//real_text(set%stiffness(i), 6)//" N/m^1.5", 2)
-               if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*delta(set%first + i), 6)//" mm", 4)
+               c = (i - 1)*set%n_contact_item + 1
+               call say(set%names(i)%s//": "//trim(merge("radial clearance ", "clearance        ", set%is_round))//" "// &
+                        to_text(1.0e3_wp*set%clearance(i))//" mm, law "//law//", "// &
+                        set%law%story(set%parameters(:, c)), 2)
+               last = set%first_contact + i*set%n_contact_item
+               if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
+                  delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
                if (loaded%scene%analysis /= analysis_dynamic) cycle
                do v = 1, size(speeds)
                   call say("an elastic impact at "//to_text(speeds(v))//" m/s lasts about "// &
-                           real_text(1.0e6_wp*contact_time(loaded%system, set, i, speeds(v)), 3)//" us, "// &
-                           real_text(contact_time(loaded%system, set, i, speeds(v))/loaded%plan%every, 2)// &
-                           " output intervals"//steps_of(contact_time(loaded%system, set, i, speeds(v)), step), 4)
+                           real_text(1.0e6_wp*contact_time(loaded%system, set, c, speeds(v)), 3)//" us, "// &
+                           real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &
+                           " output intervals"//steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
                end do
-               call explain_validity(loaded%scene, set%names(i)%s)
+               call explain_validity(set%pairs(i)%speed_limit)
             end do
          end associate
       end do
@@ -284,33 +288,21 @@ contains
    end function steps_of
 
    !> Duration of an impact.
-   real(wp) function contact_time(system, set, item, speed)
+   real(wp) function contact_time(system, set, contact, speed)
       type(planar_system_t), intent(in) :: system   !! the system
       class(clearance_set_t), intent(in) :: set     !! the joint's set
-      integer, intent(in) :: item                   !! item of the set
+      integer, intent(in) :: contact                !! contact of the set
       real(wp), intent(in) :: speed                 !! impact speed [m/s]
 
-      contact_time = set%contact_time(item, speed, system%inverse_mass(1, :))
+      contact_time = set%contact_time(contact, speed, system%inverse_mass(1, :))
    end function contact_time
 
-   !> Impact speed up to which contact is quasi-static: 1e-5 sqrt(E/rho), Flores et al. (2008), section 3.2.
-   subroutine explain_validity(scene, name)
-      type(scene_t), intent(in) :: scene     !! the scene
-      character(*), intent(in) :: name       !! of the loose joint
+   !> Impact speed up to which contact is quasi-static.
+   subroutine explain_validity(speed_limit)
+      real(wp), intent(in) :: speed_limit  !! huge: not known [m/s]
 
-      integer :: i, k
-
-      do k = 1, size(scene%clearances)
-         do i = 1, size(scene%clearances(k)%items)
-            if (scene%clearances(k)%items(i)%name /= name) cycle
-            associate (material => scene%materials(scene%clearances(k)%items(i)%values( &
-                                                   column_of(scene%clearances(k)%info, "material"))%index))
-               if (material%density <= 0.0_wp) cycle
-               call say("the law is quasi-static: strictly for impacts below "// &
-                        real_text(1.0e-5_wp*sqrt(material%young/material%density), 3)//" m/s (1e-5 sqrt(E/rho))", 4)
-            end associate
-         end do
-      end do
+      if (speed_limit >= huge(speed_limit)) return
+      call say("the law is quasi-static: strictly for impacts below "//real_text(speed_limit, 3)//" m/s (1e-5 sqrt(E/rho))", 4)
    end subroutine explain_validity
 
    !> What the deck gives but the motion does not need.

@@ -3,29 +3,36 @@
 !> Signs: penetration delta > 0 in contact, rate > 0 approaching, force > 0 pushes the bodies apart.
 !> A law never pulls. Flores et al. (2008), chapter 3.
 !>
-!> An object of a law is one row of its deck table: a set of parameters under a name. Stiffness is
-!> handed in per contact, so that one row serves joints of different size; a contact knows its
-!> stiffness from its geometry and materials unless the row gives one.
+!> An object of a law is one row of its deck table: a set of parameters under a name. What depends on the surfaces
+!> is handed in per contact, so that one row serves joints of different size: at set-up the law fits a column of
+!> parameters to each pair of surfaces, and says so if it cannot.
 module normal_law
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use surfaces, only: surfaces_t
    implicit none (type, external)
    private
-   public :: least_impact_speed, normal_law_t
+   public :: least_impact_speed, n_law_parameter, normal_law_t, parameter_deepest
 
+   integer, parameter :: n_law_parameter = 3    !! numbers of a contact that a law may keep
+   integer, parameter :: parameter_deepest = 3  !! the one that is of every law: penetration up to which it holds, huge: any [m]
    real(wp), parameter :: least_impact_speed = 1.0e-3_wp
       !! floor of the impact speed in damping terms: a contact that opens gently must not pull [m/s]
 
    !> One row of a table of normal laws.
    type, abstract :: normal_law_t
       character(:), allocatable :: name   !! name of the row
-      real(wp) :: stiffness = 0.0_wp      !! given contact stiffness, 0: from the geometry [N/m^exponent]
+      logical :: jumps_at_turn = .false.  !! the force jumps where the penetration turns (rate = 0), which must be located
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
+      procedure(fit_interface), deferred :: fit
       procedure(force_interface), deferred :: force
       procedure(potential_interface), deferred :: potential
+      procedure(story_interface), deferred :: story
+      procedure :: mistake => normal_mistake
+      procedure :: contact_time => normal_contact_time
    end type normal_law_t
 
    abstract interface
@@ -44,31 +51,96 @@ module normal_law
          type(item_t), intent(in) :: item            !! the row
       end subroutine prepare_interface
 
-      !> Force of n contacts, its partial derivatives and its elastic part. No allocation.
-      pure subroutine force_interface(self, n, delta, rate, impact_speed, stiffness, f, df_ddelta, df_drate, f_elastic)
-         import :: normal_law_t, wp
+      !> Parameters of the law for a pair of surfaces, or what is wrong with the pair: the deck's reader asks this
+      !> first, so that a law that does not fit is a mistake of the deck.
+      subroutine fit_interface(self, pair, parameters, message, help)
+         import :: n_law_parameter, normal_law_t, surfaces_t, wp
          implicit none (type, external)
-         class(normal_law_t), intent(in) :: self      !! the law
-         integer, intent(in) :: n                     !! number of contacts
-         real(wp), intent(in) :: delta(n)             !! (n) penetration; no force where it is not positive [m]
-         real(wp), intent(in) :: rate(n)              !! (n) penetration rate [m/s]
-         real(wp), intent(in) :: impact_speed(n)      !! (n) rate at the onset, positive [m/s]
-         real(wp), intent(in) :: stiffness(n)         !! (n) contact stiffness [N/m^exponent]
-         real(wp), intent(out) :: f(n)                !! (n) normal force, not negative [N]
-         real(wp), intent(out) :: df_ddelta(n)        !! (n) its derivative by penetration [N/m]
-         real(wp), intent(out) :: df_drate(n)         !! (n) its derivative by rate [N.s/m]
-         real(wp), intent(out) :: f_elastic(n)        !! (n) elastic part of the force: the rest is lost as heat [N]
+         class(normal_law_t), intent(in) :: self                !! the law
+         type(surfaces_t), intent(in) :: pair                   !! the surfaces
+         real(wp), intent(out) :: parameters(n_law_parameter)   !! (n_law_parameter) for `force` and `potential` [any]
+         character(:), allocatable, intent(out) :: message      !! what is wrong, empty: the law fits
+         character(:), allocatable, intent(out) :: help         !! what would be right
+      end subroutine fit_interface
+
+      !> Force of n contacts, its partial derivatives and its elastic part. No allocation.
+      pure subroutine force_interface(self, n, delta, rate, impact_speed, parameters, f, df_ddelta, df_drate, f_elastic)
+         import :: n_law_parameter, normal_law_t, wp
+         implicit none (type, external)
+         class(normal_law_t), intent(in) :: self                !! the law
+         integer, intent(in) :: n                               !! number of contacts
+         real(wp), intent(in) :: delta(n)                       !! (n) penetration; no force where it is not positive [m]
+         real(wp), intent(in) :: rate(n)                        !! (n) penetration rate [m/s]
+         real(wp), intent(in) :: impact_speed(n)                !! (n) rate at the onset, positive [m/s]
+         real(wp), intent(in) :: parameters(n_law_parameter, n) !! (n_law_parameter, n) from `fit` [any]
+         real(wp), intent(out) :: f(n)                          !! (n) normal force, not negative [N]
+         real(wp), intent(out) :: df_ddelta(n)                  !! (n) its derivative by penetration [N/m]
+         real(wp), intent(out) :: df_drate(n)                   !! (n) its derivative by rate [N.s/m]
+         real(wp), intent(out) :: f_elastic(n)                  !! (n) elastic part of the force: the rest is lost as heat [N]
       end subroutine force_interface
 
       !> Elastic energy that one contact stores: the potential of the elastic part of the force.
-      pure function potential_interface(self, delta, stiffness) result(energy)
-         import :: normal_law_t, wp
+      pure function potential_interface(self, delta, parameters) result(energy)
+         import :: n_law_parameter, normal_law_t, wp
          implicit none (type, external)
-         class(normal_law_t), intent(in) :: self  !! the law
-         real(wp), intent(in) :: delta            !! penetration [m]
-         real(wp), intent(in) :: stiffness        !! contact stiffness [N/m^exponent]
-         real(wp) :: energy                       !! energy stored [J]
+         class(normal_law_t), intent(in) :: self              !! the law
+         real(wp), intent(in) :: delta                        !! penetration [m]
+         real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) from `fit` [any]
+         real(wp) :: energy                                   !! energy stored [J]
       end function potential_interface
+
+      !> The parameters of a contact in words, for `gudgeon explain`.
+      function story_interface(self, parameters) result(words)
+         import :: n_law_parameter, normal_law_t, wp
+         implicit none (type, external)
+         class(normal_law_t), intent(in) :: self              !! the law
+         real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) from `fit` [any]
+         character(:), allocatable :: words                   !! as "stiffness 6.6e10 N/m^1.5"
+      end function story_interface
    end interface
+
+contains
+
+   !> What is wrong with the row as a whole, empty if nothing is; a law with such rules overrides this.
+   function normal_mistake(self) result(message)
+      class(normal_law_t), intent(in) :: self  !! the law
+      character(:), allocatable :: message     !! one line, empty: all is well
+
+      message = repeat("", len(self%name))
+   end function normal_mistake
+
+   !> Duration of an elastic impact of two free bodies, roughly if the force is no power of the penetration: 2.943 delta/v,
+   !> where all of m v^2/2 is stored at the penetration delta. The factor is that of an exponent 3/2 (pi for 1).
+   !> Newton's iteration in logarithms, exact at once for a power. Source: Goldsmith, Impact (1960), section 4.2.
+   !> Without mass or with a law that stores nothing the penetration ends at 1 m; a speed below 1 um/s counts as that.
+   pure real(wp) function normal_contact_time(self, parameters, speed, inverse_mass) result(time)
+      class(normal_law_t), intent(in) :: self              !! the law
+      real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) from `fit` [any]
+      real(wp), intent(in) :: speed                        !! impact speed [m/s]
+      real(wp), intent(in) :: inverse_mass                 !! 1/m_i + 1/m_j of the bodies, 0 for what cannot move [1/kg]
+
+      real(wp), parameter :: factor = 2.9432752_wp            ! 2 sqrt(pi) Gamma(7/5) / Gamma(9/10) [1]
+      real(wp), parameter :: range(2) = [1.0e-12_wp, 1.0_wp]  ! (2) of the penetration [m]
+      real(wp), parameter :: slowest = 1.0e-6_wp              ! impact speed [m/s]
+      real(wp), parameter :: lightest = 1.0e-9_wp             ! inverse of the reduced mass [1/kg]
+      real(wp), parameter :: close = 1.0e-6_wp                ! logarithms that are the same [1]
+      integer, parameter :: most = 20                         ! iterations
+      real(wp) :: by_delta(1), by_rate(1), change, delta, elastic(1), energy, f(1), stored, v
+      integer :: k
+
+      v = max(speed, slowest)
+      energy = 0.5_wp*v*v/max(inverse_mass, lightest)
+      delta = sqrt(range(1))
+      do k = 1, most
+         stored = self%potential(delta, parameters)
+         call self%force(1, [delta], [0.0_wp], [v], parameters, f, by_delta, by_rate, elastic)
+         change = 2.0_wp
+         if (stored > 0.0_wp .and. elastic(1) > 0.0_wp) change = log(energy/stored)*stored/(elastic(1)*delta)
+         change = min(max(log(delta) + change, log(range(1))), log(range(2))) - log(delta)
+         delta = delta*exp(change)
+         if (abs(change) < close) exit
+      end do
+      time = factor*delta/v
+   end function normal_contact_time
 
 end module normal_law

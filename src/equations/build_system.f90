@@ -1,18 +1,15 @@
 !> From a scene to the smallest system of equations that it needs.
 !>
 !> Bodies whose motion is a known function of time are left out of the unknowns, with the rows that fix them.
-!> Loose joints whose row says `level = ideal`, or all of them in the ideal twin, become revolute
-!> joints; laws without effect are dropped; loose joints are sorted into sets that share their laws.
+!> Joints with clearance: see `build_clearances`.
 module build_system
    use augmented_schur, only: schur_is_cheap
-   use clearance_registry, only: n_clearance_kinds, new_clearance_set
-   use clearance_set, only: clearance_slot_t
+   use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use find_known, only: find_known_bodies, has_smooth_cells, joint_points, link_t
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_slot_t
-   use friction_law, only: friction_law_t
    use hold_registry, only: n_hold_kinds, new_hold
-   use item, only: item_t, option_t
+   use item, only: option_t
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t, list_sides, new_rows
    use kinds, only: wp
@@ -25,12 +22,6 @@ module build_system
    implicit none (type, external)
    private
    public :: levels_as_written, levels_ideal, levels_loose, new_system
-
-   integer, parameter :: levels_as_written = 0  !! every joint with clearance as its row says
-   integer, parameter :: levels_ideal = 1       !! every one ideal: the ideal twin
-   integer, parameter :: levels_loose = 2       !! every one loose: all that a deck can have words for
-
-   integer, parameter :: revolute_kind = 1   !! number of the revolute joint in the registry
 
    !> Which rows of a table of joints fix known bodies.
    type :: choice_t
@@ -75,7 +66,7 @@ contains
       call count_sets(scene, choices, is_taken, system)
       call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
       call add_joints(scene, choices, is_taken, .true., system)
-      call add_clearances(scene, levels, system)
+      call add_clearances(scene, levels, start_angles(scene), system)
       system%rows%n_solve = system%rows%n
       system%n_solved_set = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
       call add_joints(scene, choices, is_taken, .false., system)
@@ -86,11 +77,11 @@ contains
       call choose_hold(scene, system)
       call choose_solver(scene, system)
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
-      allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_loose), source=0.0_wp)
+      allocate (system%g(3, 0:n), system%a(3, 0:n), system%rest(3, 0:n), system%losses(2, system%n_contact), source=0.0_wp)
       system%n_position = 3*system%rows%n_unknown
-      system%n_quadrature = merge(n_ledger + 2*system%n_loose, 0, system%with_ledger)
+      system%n_quadrature = merge(n_ledger + 2*system%n_contact, 0, system%with_ledger)
       system%n = 2*system%n_position + system%n_quadrature
-      system%n_event = system%n_loose
+      system%n_event = system%n_contact
       allocate (system%held(2*system%n_position), source=0.0_wp)
    end subroutine new_system
 
@@ -291,117 +282,6 @@ contains
          call system%forces(n)%set%prepare(scene%forces(k)%items, scene%points)
       end do
    end subroutine add_forces
-
-   !> Joints with clearance: sets of loose ones that share geometry and laws, and one set of ideal ones.
-   subroutine add_clearances(scene, levels, system)
-      type(scene_t), intent(in) :: scene              !! the scene
-      integer, intent(in) :: levels                   !! how they are taken
-      type(planar_system_t), intent(inout) :: system  !! clearances and ideal joints are set
-
-      type(clearance_slot_t), allocatable :: slots(:)
-      type(item_t), allocatable :: ideal(:), loose(:)
-      logical, allocatable :: is_done(:)
-      integer :: first, friction, i, k, law, level, n
-
-      allocate (ideal(0), slots(count_clearances(scene)))
-      n = 0
-      do k = 1, n_clearance_kinds
-         associate (items => scene%clearances(k)%items, info => scene%clearances(k)%info)
-            level = column_of(info, "level")
-            law = column_of(info, "law")
-            friction = column_of(info, "friction")
-            allocate (is_done(size(items)), source=.false.)
-            do first = 1, size(items)
-               if (is_done(first)) cycle
-               allocate (loose(0))
-               do i = first, size(items)
-                  if (is_done(i)) cycle
-                  if (levels == levels_ideal .or. &
-                      (levels == levels_as_written .and. items(i)%values(level)%text == "ideal")) then
-                     call append_item(ideal, items(i))
-                  else if (items(i)%values(law)%index == items(first)%values(law)%index .and. &
-                           items(i)%values(friction)%index == items(first)%values(friction)%index) then
-                     call append_item(loose, items(i))
-                  else
-                     cycle
-                  end if
-                  is_done(i) = .true.
-               end do
-               if (size(loose) > 0) then
-                  n = n + 1
-                  call add_loose_set(scene, k, loose, slots(n), system%n_loose)
-               end if
-               deallocate (loose)
-            end do
-            deallocate (is_done)
-         end associate
-      end do
-      allocate (system%clearances(n))
-      do k = 1, n
-         call move_alloc(slots(k)%set, system%clearances(k)%set)
-      end do
-      allocate (system%ideal(merge(1, 0, size(ideal) > 0)))
-      if (size(ideal) == 0) return
-      call new_joint_set(revolute_kind, system%ideal(1)%set)
-      associate (set => system%ideal(1)%set)
-         ! bearing and journal are the first columns of every geometry, as the points of every joint
-         call set%new(ideal, [(ideal(i)%values(1)%index, i=1, size(ideal))], &
-                      [(ideal(i)%values(2)%index, i=1, size(ideal))], scene%points)
-         call set%prepare(ideal, start_angles(scene))
-         set%first_row = system%rows%n
-         system%rows%n = system%rows%n + set%n*set%n_row_item
-      end associate
-   end subroutine add_clearances
-
-   !> Number of rows of all clearance tables.
-   pure integer function count_clearances(scene) result(n)
-      type(scene_t), intent(in) :: scene  !! the scene
-
-      integer :: k
-
-      n = 0
-      do k = 1, n_clearance_kinds
-         n = n + size(scene%clearances(k)%items)
-      end do
-   end function count_clearances
-
-   !> Append a row to a list.
-   subroutine append_item(list, item)
-      type(item_t), allocatable, intent(inout) :: list(:)  !! list, grown
-      type(item_t), intent(in) :: item                     !! the row
-
-      type(item_t), allocatable :: grown(:)
-      integer :: k
-
-      allocate (grown(size(list) + 1))
-      do k = 1, size(list)
-         grown(k) = list(k)
-      end do
-      grown(size(grown)) = item
-      call move_alloc(grown, list)
-   end subroutine append_item
-
-   !> One set of loose joints with its laws and stiffnesses.
-   subroutine add_loose_set(scene, kind, items, slot, n_loose)
-      type(scene_t), intent(in) :: scene             !! the scene
-      integer, intent(in) :: kind                    !! number of the geometry
-      type(item_t), intent(in) :: items(:)           !! rows that share their laws
-      type(clearance_slot_t), intent(inout) :: slot  !! the set is made here
-      integer, intent(inout) :: n_loose              !! loose joints so far
-
-      class(friction_law_t), allocatable :: friction
-      integer :: friction_law, i, normal_law
-
-      call new_clearance_set(kind, slot%set)
-      normal_law = items(1)%values(column_of(scene%clearances(kind)%info, "law"))%index
-      friction_law = items(1)%values(column_of(scene%clearances(kind)%info, "friction"))%index
-      if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
-      call slot%set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
-                        [(items(i)%values(2)%index, i=1, size(items))], scene%points, scene%laws(normal_law)%law, friction)
-      slot%set%first = n_loose
-      n_loose = n_loose + size(items)
-      call slot%set%prepare(items, scene%materials)
-   end subroutine add_loose_set
 
    !> Room for all constraint rows, and their bodies.
    subroutine declare_rows(system)

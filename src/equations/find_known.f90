@@ -10,7 +10,7 @@ module find_known
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: find_known_bodies, has_smooth_cells, joint_points, link_t
+   public :: find_known_bodies, has_smooth_cells, joint_points, kind_number, link_t
 
    !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
    type :: link_t

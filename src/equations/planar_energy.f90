@@ -93,7 +93,7 @@ contains
       energy%load_work = y(z + work_load)
       energy%stabilisation_work = y(z + work_stabilisation)
       energy%dissipated_damper = y(z + lost_damper)
-      do k = 1, system%n_loose
+      do k = 1, system%n_contact
          energy%dissipated_contact = energy%dissipated_contact + y(z + n_ledger + 2*k - 1)
          energy%dissipated_friction = energy%dissipated_friction + y(z + n_ledger + 2*k)
       end do

@@ -5,7 +5,7 @@ module planar_report
    use bodies, only: bodies_info
    use joint_set, only: joint_set_t
    use kind_info, only: add_channel, kind_info_t
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
    use motion, only: cross
    use planar_energy, only: energy_of, energy_t
    use planar_system, only: planar_system_t
@@ -46,7 +46,7 @@ contains
       type(catalogue_t), intent(out) :: catalogue     !! what it can report
 
       type(kind_info_t) :: contact_info, info, joint_info
-      integer :: i, k
+      integer :: c, i, k
 
       catalogue%n_coordinates = 2
       info = bodies_info()
@@ -68,8 +68,11 @@ contains
             call catalogue%add_kind(room_clearances, joint_info)
             call catalogue%add_kind(room_contacts, contact_info)
             do i = 1, set%n
-               call catalogue%add_item(room_clearances, set%names(i)%s, radius=set%clearance(i), info=joint_info)
-               call catalogue%add_item(room_contacts, set%names(i)%s, info=contact_info)
+               call catalogue%add_item(room_clearances, set%names(i)%s, info=joint_info, &
+                                       radius=merge(set%clearance(i), not_a_number(), set%is_round))
+               do c = 1, set%n_contact_item
+                  call catalogue%add_item(room_contacts, set%names(i)%s, label=set%labels(c)%s, info=contact_info)
+               end do
             end do
          end associate
       end do
@@ -317,19 +320,21 @@ contains
       real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
 
       real(wp) :: force(2), moment
-      integer :: i, k
+      integer :: i, k, n
 
       do k = 1, size(system%clearances)
          call system%clearances(k)%set%report(channel, system%motion, values)
       end do
+      n = system%n_loose
       do k = 1, size(system%ideal)
          do i = 1, system%ideal(k)%set%n
+            n = n + 1
             select case (channel)
             case ("force")
                call reaction_on_i(system, system%ideal(k)%set, i, force, moment)
-               values(:, system%n_loose + i) = -force
+               values(:, n) = -force
             case ("eccentricity")
-               values(:, system%n_loose + i) = 0.0_wp
+               values(:, n) = 0.0_wp
             end select
          end do
       end do

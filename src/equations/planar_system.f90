@@ -4,10 +4,10 @@
 !> quadratures of the energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
 !> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less Phi_q a of the bodies whose motion is known.
 !>
-!> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per loose joint: lost in contact, lost by
+!> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per contact: lost by damping, lost by
 !> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|.
 !>
-!> Events: one function per loose joint, the penetration while free, its negative while touching.
+!> Events: one function per contact of a loose joint, the penetration while free, its negative while touching.
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module planar_system
@@ -31,7 +31,7 @@ module planar_system
    integer, parameter :: work_load = 2           !! quadrature: work of applied loads
    integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
    integer, parameter :: lost_damper = 4         !! quadrature: lost in dampers
-   integer, parameter :: n_ledger = 4            !! quadratures before those of the loose joints
+   integer, parameter :: n_ledger = 4            !! quadratures before those of the contacts
 
    real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
                                                                !! shows in reactions that are not unique [1]
@@ -55,10 +55,11 @@ module planar_system
       logical :: with_energies = .true.                  !! whether energies are reported, with or without a ledger
       type(joint_slot_t), allocatable :: joints(:)       !! ideal joints and drivers, one set per kind
       integer :: n_solved_set = 0                        !! sets of them with rows that are solved for, the first ones
-      type(joint_slot_t), allocatable :: ideal(:)        !! joints with clearance taken as ideal: at most one set
+      type(joint_slot_t), allocatable :: ideal(:)        !! joints with clearance taken as ideal, one set per kind
       type(force_slot_t), allocatable :: forces(:)       !! force elements, one set per kind
       type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
       integer :: n_loose = 0                             !! loose joints in all
+      integer :: n_contact = 0                           !! contacts of all loose joints
       class(augmented_t), allocatable :: solver          !! way of solving the augmented equations
       class(hold_t), allocatable :: way                  !! way of holding the constraints
       logical :: is_redundant = .false.                  !! whether rows depend on one another from the start
@@ -75,7 +76,7 @@ module planar_system
       real(wp), allocatable :: held(:)                   !! (2 positions) state corrected for an evaluation [any]
       real(wp), allocatable :: row_weight(:)             !! (rows) one over the size of the bodies, or one for angles [1/m or 1/rad]
       real(wp), allocatable :: rest(:, :)                !! (3, 0:bodies) scratch of `find_reactions` [N, N, N.m]
-      real(wp), allocatable :: losses(:, :)              !! (2, loose joints) power lost by contact and friction [W]
+      real(wp), allocatable :: losses(:, :)              !! (2, contacts) power lost by contact and friction [W]
       real(wp) :: load_power = 0.0_wp                    !! power of applied loads [W]
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
@@ -95,7 +96,7 @@ module planar_system
       procedure :: set_acceleration => planar_set_acceleration
       procedure :: set_state => planar_set_state
       procedure :: row_name => planar_row_name
-      procedure :: find_loose => planar_find_loose
+      procedure :: find_contact => planar_find_contact
       procedure :: memory_size => planar_memory_size
       procedure :: save => planar_save
       procedure :: load => planar_load
@@ -324,7 +325,7 @@ contains
       do k = 1, size(self%forces)
          power(lost_damper) = power(lost_damper) + self%forces(k)%set%lost_power(self%motion)
       end do
-      do k = 1, self%n_loose
+      do k = 1, self%n_contact
          power(n_ledger + 2*k - 1) = self%losses(1, k)
          power(n_ledger + 2*k) = self%losses(2, k)
       end do
@@ -386,8 +387,8 @@ contains
          associate (set => self%clearances(k)%set)
             call set%gaps(self%motion, g, rate)
             if (set%n_touching == 0) cycle
-            first = set%first
-            do i = 1, set%n
+            first = set%first_contact
+            do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                g(first + i) = -g(first + i)
                rate(first + i) = -rate(first + i)
@@ -425,18 +426,18 @@ contains
       call set_some_acceleration(self%rows%n_unknown, self%rows%unknown, ydot(self%n_position + 1:2*self%n_position), self%motion)
    end subroutine planar_set_acceleration
 
-   !> Set and item of a loose joint by its number.
-   subroutine planar_find_loose(self, number, slot, item)
+   !> Set of a contact and its place there by its number.
+   subroutine planar_find_contact(self, number, slot, contact)
       class(planar_system_t), intent(in) :: self  !! the system
-      integer, intent(in) :: number               !! loose joint, in the order of the sets
+      integer, intent(in) :: number               !! contact, in the order of the sets
       integer, intent(out) :: slot                !! its set
-      integer, intent(out) :: item                !! its item in the set
+      integer, intent(out) :: contact             !! its number in the set
 
       do slot = 1, size(self%clearances)
-         item = number - self%clearances(slot)%set%first
-         if (item <= self%clearances(slot)%set%n) return
+         contact = number - self%clearances(slot)%set%first_contact
+         if (contact <= self%clearances(slot)%set%n_contact) return
       end do
-   end subroutine planar_find_loose
+   end subroutine planar_find_contact
 
    !> Name of the joint or driver that a constraint row belongs to.
    function planar_row_name(self, row) result(name)

@@ -11,7 +11,7 @@ module integrator
    use interpolation, only: inner_places, interpolate, step_t
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_none, dim_time, kind_info_t
-   use kinds, only: i8, wp
+   use kinds, only: eps, i8, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
    implicit none (type, external)
@@ -52,6 +52,8 @@ module integrator
       real(wp) :: floor = 1.0_wp               !! FLOOR: of the relative norm [any]
    end type controls_t
 
+   real(wp), parameter :: round_off = 100.0_wp  !! spacings of time: events closer than this are one [1]
+
    !> An integrator with its state.
    type, abstract :: integrator_t
       type(controls_t) :: controls              !! what the user set
@@ -84,6 +86,7 @@ module integrator
       procedure :: load => integrator_load
       procedure :: make_room
       procedure :: begin_step
+      procedure :: note_events
       procedure :: set_scales
       procedure :: base_memory_size
       procedure :: save_base
@@ -209,6 +212,27 @@ contains
       allocate (self%g0(m), self%rate0(m), self%g1(m), self%rate1(m), self%g(m), self%rate(m), source=0.0_wp)
       allocate (self%happened(m), source=0)
    end subroutine make_room
+
+   !> Events of the last step: the one that it was ended for, and all that come with it. They are one
+   !> event, because whatever is left of a function that is about to become positive would have to be located anew, with a
+   !> step of round-off.
+   pure subroutine note_events(self, event, h)
+      class(integrator_t), intent(inout) :: self  !! the integrator; `g` and `rate` are those at the event
+      integer, intent(in) :: event                !! number of the event function
+      real(wp), intent(in) :: h                   !! length of the step, with what lies behind the event [s]
+
+      real(wp) :: time
+      integer :: k
+
+      time = round_off*eps*max(abs(self%step%t0 + h), h)
+      self%n_happened = 1
+      self%happened(1) = event
+      do k = 1, size(self%g)
+         if (k == event .or. self%rate(k) <= 0.0_wp .or. abs(self%g(k)) > time*self%rate(k)) cycle
+         self%n_happened = self%n_happened + 1
+         self%happened(self%n_happened) = k
+      end do
+   end subroutine note_events
 
    !> The present state becomes the start of the next step.
    subroutine begin_step(self)

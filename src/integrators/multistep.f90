@@ -256,8 +256,7 @@ contains
          self%step%h = right*self%h_whole
          self%t = self%step%t0 + self%step%h
          self%step%y1 = self%trial
-         self%n_happened = 1
-         self%happened(1) = maxloc(self%g, dim=1)
+         call self%note_events(maxloc(self%g, dim=1), self%h_whole)
          call evaluate_end(self, system, status)
       end if
       status = merge(advance_event, advance_failed_evaluation, status == 0)

@@ -293,11 +293,10 @@ contains
          end if
       end if
       if (status == 0) then
+         call self%note_events(event, self%step%h)
          self%step%h = h
          self%t = self%step%t0 + h
          self%step%y1 = self%trial
-         self%n_happened = 1
-         self%happened(1) = event
          call system%evaluate(self%t, self%step%y1, self%step%f1, status)
          self%n_evaluations = self%n_evaluations + 1
       end if

@@ -175,9 +175,9 @@ contains
             if (names(k)%s == joint) figure%joint = k
          end do
          if (figure%joint > 0) then
-            if (catalogue%rooms(room_clearances)%radius(figure%joint) <= 0.0_wp) then
-               message = "no orbit of '"//joint//"': the joint is ideal"
-               hint = "with level = clearance its journal has an orbit"
+            if (.not. catalogue%rooms(room_clearances)%radius(figure%joint) > 0.0_wp) then
+               message = "no orbit of '"//joint//"': the joint is ideal, or has no round clearance"
+               hint = "with level = clearance a journal in a bearing has an orbit"
                return
             end if
          end if

@@ -15,6 +15,7 @@ module read_scene
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use kinds, only: wp
    use name_table, only: name_table_t
+   use normal_law, only: n_law_parameter
    use option_check, only: check_options
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
@@ -22,6 +23,7 @@ module read_scene
       n_analysis, n_base, scene_t, table_bodies, table_materials, table_points
    use section_info, only: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info
+   use surfaces, only: surfaces_t
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -171,6 +173,8 @@ contains
             do i = 1, size(items)
                call new_normal_law(k, scene%laws(n + i)%law)
                call scene%laws(n + i)%law%prepare(items(i))
+               if (scene%laws(n + i)%law%mistake() == "") cycle
+               call diagnostics%add(items(i)%location, scene%laws(n + i)%law%mistake(), "in this row")
             end do
             call add_names(items, directory%laws)
          end associate
@@ -340,9 +344,12 @@ contains
          call new_clearance_set(k, set)
          do i = 1, size(scene%clearances(k)%items)
             call check_pair(scene%clearances(k)%info, scene%clearances(k)%items(i))
-            call set%mistake(scene%clearances(k)%items(i), column, message, help)
-            if (column == 0) cycle
-            call diagnostics%add(scene%clearances(k)%items(i)%values(column)%location, message, "does not fit", help)
+            associate (item => scene%clearances(k)%items(i))
+               call set%mistake(item, column, message, help)
+               if (column == 0) call check_law(scene, scene%clearances(k)%info, item, set, column, message, help)
+               if (column == 0) cycle
+               call diagnostics%add(item%values(column)%location, message, "does not fit", help)
+            end associate
          end do
       end do
 
@@ -395,6 +402,30 @@ contains
       end subroutine check_start_length
 
    end subroutine check_meaning
+
+   !> The normal law of a loose joint must fit its surfaces.
+   subroutine check_law(scene, info, item, set, column, message, help)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      type(kind_info_t), intent(in) :: info               !! the geometry
+      type(item_t), intent(in) :: item                    !! the row
+      class(clearance_set_t), intent(in) :: set           !! any set of the geometry
+      integer, intent(out) :: column                      !! column at fault, 0: all is well
+      character(:), allocatable, intent(out) :: message   !! what is wrong
+      character(:), allocatable, intent(out) :: help      !! what would be right
+
+      type(surfaces_t) :: pair
+      real(wp) :: parameters(n_law_parameter)
+
+      column = column_of(info, "level")
+      if (column <= size(item%values)) then
+         if (item%values(column)%text == "ideal") column = 0
+      end if
+      if (column == 0) return
+      column = 0
+      call set%describe(item, scene%materials, pair)
+      call scene%laws(item%values(column_of(info, "law"))%index)%law%fit(pair, parameters, message, help)
+      if (message /= "") column = column_of(info, "law")
+   end subroutine check_law
 
    !> Where the deck puts a point at the start.
    pure function start_position(scene, point) result(p)

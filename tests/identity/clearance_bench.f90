@@ -15,12 +15,13 @@ module clearance_bench
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
+   use law_fixture, only: tame
    use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_motion, set_some_acceleration
    use normal_law, only: normal_law_t
    use text, only: split_blank, text_t
    implicit none (type, external)
    private
-   public :: bench_t, claim_all, evaluate_loads, get_gaps, make_bench, move_to, n_all, n_before, n_body, n_item, stiff
+   public :: bench_t, claim_all, evaluate_loads, get_gaps, make_bench, move_to, n_all, n_before, n_body, n_item
 
    integer, parameter :: n_item = 3                  !! items of the set
    integer, parameter :: n_before = 2                !! items of other sets before those of this one
@@ -33,7 +34,6 @@ module clearance_bench
    real(wp), parameter :: hole = 10.0e-3_wp          !! radius of the bearings [m]
    real(wp), parameter :: gap = 0.5e-3_wp            !! radial clearance [m]
    real(wp), parameter :: depth = 2.0e-5_wp          !! penetration [m]
-   real(wp), parameter :: stiff = 6.61019840e10_wp   !! contact stiffness [N/m^1.5]
 
    !> A set with its motion.
    type :: bench_t
@@ -110,6 +110,8 @@ contains
       call new_normal_law(law_kind, law)
       law_info = law%info()
       call fill_item(law_info, 1, random, law_item)
+      call tame(law_info, law_item, .true.)  ! some laws are of other surfaces
+      call set_number(law_info, "restitution", 0.7_wp, law_item)
       call law%prepare(law_item)
       bench%name = info%name//", "//law_info%name
       if (friction_kind > 0) then
@@ -119,6 +121,10 @@ contains
          call set_number(friction_info, "coefficient", 0.12_wp, law_item)
          call set_number(friction_info, "v0", 1.0e-4_wp, law_item)
          call set_number(friction_info, "v1", 1.0_wp, law_item)
+         call set_number(friction_info, "v_r", 1.0e-3_wp, law_item)
+         call set_number(friction_info, "v_t", 1.0e-3_wp, law_item)
+         call set_number(friction_info, "static", 0.15_wp, law_item)
+         call set_number(friction_info, "force", 1.0e4_wp, law_item)
          call friction%prepare(law_item)
          bench%name = bench%name//", "//friction_info%name
       end if
@@ -143,10 +149,11 @@ contains
       end do
       call bench%set%new(items, [(2*k - 1, k=1, n_item)], [(2*k, k=1, n_item)], points, law, friction)
       bench%set%first = n_before
-      materials%young = 1.0e11_wp
+      bench%set%first_contact = n_before
+      materials%young = 207.0e9_wp
       materials%poisson = 0.3_wp
-      call bench%set%prepare(items, materials)
-      bench%set%stiffness = stiff
+      call bench%set%prepare(items)
+      call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)])
       call new_motion(n_body, bench%motion)
       do k = 1, n_body
          bench%q(:, k) = random%vector(3, -1.0_wp, 1.0_wp)*[0.1_wp, 0.1_wp, 3.0_wp]

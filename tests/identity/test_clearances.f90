@@ -2,7 +2,7 @@
 module test_clearances
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
-   use clearance_bench, only: bench_t, claim_all, evaluate_loads, get_gaps, move_to, n_all, n_before, n_body, n_item, stiff
+   use clearance_bench, only: bench_t, claim_all, evaluate_loads, get_gaps, move_to, n_all, n_before, n_body, n_item
    use clearance_set, only: loss_contact, loss_friction
    use differences, only: five_point, places
    use errors, only: error_t
@@ -110,7 +110,7 @@ contains
       call evaluate_loads(bench, loads, losses)
       call get_gaps(bench, 0.0_wp, delta, rate)
       associate (set => bench%set, first => n_before + 1, last => n_before + n_item)
-         call set%law%force(n_item, delta(first:last), rate(first:last), set%contact%impact_speed, set%stiffness, f, &
+         call set%law%force(n_item, delta(first:last), rate(first:last), set%contact%impact_speed, set%parameters, f, &
                             by_delta, by_rate, elastic)
          stored = sum(elastic*rate(first:last))
          scale = sum(abs(elastic*rate(first:last)))
@@ -156,12 +156,13 @@ contains
       end do
       call get_gaps(bench, 0.0_wp, delta, rate)
       associate (set => bench%set, first => n_before + 1, last => n_before + n_item)
-         call set%law%force(n_item, delta(first:last), rate(first:last), set%contact%impact_speed, set%stiffness, f, &
+         call set%law%force(n_item, delta(first:last), rate(first:last), set%contact%impact_speed, set%parameters, f, &
                             by_delta, by_rate, elastic)
          call check_close(error, five_point(energy, tick), sum(elastic*rate(first:last)), &
                           1.0e-8_wp*sum(abs(elastic*rate(first:last))), bench%name//": rate of the elastic energy")
          set%contact([1, 3])%is_touching = .false.
-         call check_close(error, set%elastic_energy(bench%motion), set%law%potential(delta(n_before + 2), stiff), 1.0e-12_wp, &
+         call check_close(error, set%elastic_energy(bench%motion), set%law%potential(delta(n_before + 2), set%parameters(:, 2)), &
+                          1.0e-12_wp, &
                           bench%name//": of one item", relative=.true.)
       end associate
    end subroutine elastic_energy

@@ -150,7 +150,7 @@ contains
          call close_to("places", [a%bodies%r(1, :), a%bodies%angle], [b%bodies%r(1, :), b%bodies%angle])
          call close_to("points", [loaded%scene%points%s], [original%scene%points%s])
          call close_to("clearance", a%clearances(1)%set%clearance, b%clearances(1)%set%clearance)
-         call close_to("stiffness", a%clearances(1)%set%stiffness, b%clearances(1)%set%stiffness)
+         call close_to("stiffness", a%clearances(1)%set%parameters(1, :), b%clearances(1)%set%parameters(1, :))
          call close_to("gains", [a%alpha, a%beta], [b%alpha, b%beta])
          call close_to("scale", [a%length_scale], [b%length_scale])
       end associate

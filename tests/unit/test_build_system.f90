@@ -68,9 +68,9 @@ contains
       call check_equal(error, system%n_event, 5, "event functions")
       if (allocated(error)) return
       do k = 1, 5
-         call system%find_loose(k, slot, item)
+         call system%find_contact(k, slot, item)
          call check_equal(error, system%clearances(slot)%set%names(item)%s, expected(k), "loose joint "//to_text(k))
-         call check_equal(error, system%clearances(slot)%set%first + item, k, "its number")
+         call check_equal(error, system%clearances(slot)%set%first_contact + item, k, "its number")
       end do
       call check_equal(error, system%clearances(1)%set%n, 2, "items that share laws")
       call check_true(error, .not. allocated(system%clearances(1)%set%friction), "no friction in the first set")
@@ -107,11 +107,12 @@ contains
 
       call system_of_text(six_bearings(), system, error)
       if (allocated(error)) return
-      call check_close(error, system%clearances(1)%set%stiffness, [steel_pin, steel_pin], 1.0e-8_wp, "steel", relative=.true.)
+      call check_close(error, system%clearances(1)%set%parameters(1, :), [steel_pin, steel_pin], 1.0e-8_wp, &
+                       "steel", relative=.true.)
       ! bronze here is half as stiff as steel: compliances 1 + 2 instead of 1 + 1
-      call check_close(error, system%clearances(2)%set%stiffness, [2.0_wp*steel_pin/3.0_wp], 1.0e-8_wp, "bronze pin", &
+      call check_close(error, system%clearances(2)%set%parameters(1, :), [2.0_wp*steel_pin/3.0_wp], 1.0e-8_wp, "bronze pin", &
                        relative=.true.)
-      call check_close(error, system%clearances(4)%set%stiffness, [3.0e9_wp], 0.0_wp, "given")
+      call check_close(error, system%clearances(4)%set%parameters(1, :), [3.0e9_wp], 0.0_wp, "given")
       call check_close(error, system%clearances(1)%set%clearance, [0.5e-3_wp, 0.5e-3_wp], 0.0_wp, "clearance")
    end subroutine test_stiffness
 

@@ -2,7 +2,7 @@
 module test_clearance_revolute
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
-   use clearance_bench, only: bench_t, claim_all, evaluate_loads, make_bench, n_all, n_before, n_body, n_item, stiff
+   use clearance_bench, only: bench_t, claim_all, evaluate_loads, make_bench, n_all, n_before, n_body, n_item
    use errors, only: error_t
    use free_impact, only: impact_t, run_impact
    use kind_info, only: kind_info_t
@@ -117,7 +117,7 @@ contains
 
       call make_bench(1, 1, 0, 1, bench)
       do k = 1, n_item
-         call run_impact(bench%set%law, stiff, reduced(k), 0.7_wp, impact)
+         call run_impact(bench%set%law, bench%set%parameters(:, k), reduced(k), 0.7_wp, impact)
          call check_close(error, bench%set%contact_time(k, 0.7_wp, inverse_mass), impact%duration, 1.0e-4_wp, &
                           "duration of an elastic impact", relative=.true.)
       end do

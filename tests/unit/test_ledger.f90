@@ -51,9 +51,9 @@ contains
       character(*), intent(in) :: what                     !! for messages
 
       real(wp) :: change, elastic(1), f(1), gained, scale, unused(1), unused_too(1), ydot(size(y)), z(size(y))
-      real(wp) :: balance(4), delta(system%n_loose), rate(system%n_loose)
+      real(wp) :: balance(4), delta(system%n_contact), rate(system%n_contact)
       type(energy_t) :: energy
-      integer :: i, k, n, status
+      integer :: i, k, m, n, status
 
       if (allocated(error)) return
       call system%evaluate(t, y, ydot, status)
@@ -64,13 +64,14 @@ contains
       if (system%n_loose > 0) call system%events(t, y, delta, rate)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            do i = 1, set%n
+            do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                ! event functions of touching contacts are the negatives of penetrations
-               call set%law%force(1, -delta(set%first + i:set%first + i), -rate(set%first + i:set%first + i), &
-                                  set%contact(i:i)%impact_speed, set%stiffness(i:i), f, unused, unused_too, elastic)
-               gained = gained - elastic(1)*rate(set%first + i)
-               scale = scale + abs(elastic(1)*rate(set%first + i))
+               m = set%first_contact + i
+               call set%law%force(1, -delta(m:m), -rate(m:m), &
+                                  set%contact(i:i)%impact_speed, set%parameters(:, i:i), f, unused, unused_too, elastic)
+               gained = gained - elastic(1)*rate(m)
+               scale = scale + abs(elastic(1)*rate(m))
             end do
          end associate
       end do

@@ -1,0 +1,56 @@
+!> A pair of surfaces that may touch: what a normal law needs to know of them.
+!>
+!> sigma_k = (1 - nu_k^2) / E_k;   least impact speed at which waves in the bodies matter: 1e-5 sqrt(E/rho)
+!>
+!> A geometry describes its contacts with it once, at set-up; a law fits its parameters to it.
+!> Source: Flores et al. (2008), eq. (3.4) and section 3.2 (the factor 1e-5 is that of Love).
+module surfaces
+   use bodies, only: material_t
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t
+
+   integer, parameter :: shape_internal = 1  !! a pin in a hole, a ball in a socket
+   integer, parameter :: shape_external = 2  !! two pins or balls side by side
+   integer, parameter :: shape_plane = 3     !! a ball, a disc or a rounded corner of radius_j against a plane
+   integer, parameter :: shape_face = 4      !! a plane face, length by width, against a plane
+
+   !> Two surfaces; what a shape does not have is zero.
+   type :: surfaces_t
+      integer :: shape = shape_internal      !! one of the above
+      real(wp) :: radius_i = 0.0_wp          !! radius of the surface of i, of the hole if there is one [m]
+      real(wp) :: radius_j = 0.0_wp          !! radius of the surface of j, of the pin in the hole [m]
+      real(wp) :: clearance = 0.0_wp         !! radius_i less radius_j of an internal pair [m]
+      real(wp) :: length = 0.0_wp            !! length of cylinders along their axes, or of a face; 0: not known [m]
+      real(wp) :: width = 0.0_wp             !! width of a face, across the plane of motion; 0: not known [m]
+      real(wp) :: sigma_i = 0.0_wp           !! (1 - nu^2)/E of the material of i [1/Pa]
+      real(wp) :: sigma_j = 0.0_wp           !! (1 - nu^2)/E of the material of j [1/Pa]
+      real(wp) :: speed_limit = huge(1.0_wp) !! impact speed up to which contact is quasi-static; huge: not known [m/s]
+      real(wp) :: inverse_mass = 0.0_wp      !! 1/m_i + 1/m_j of the bodies, 0 for the ground [1/kg]
+   end type surfaces_t
+
+contains
+
+   !> Compliances and speed limit from the materials; a density that is not given limits nothing.
+   pure subroutine set_materials(surfaces, material_i, material_j)
+      type(surfaces_t), intent(inout) :: surfaces  !! the pair
+      type(material_t), intent(in) :: material_i   !! material of the surface of i
+      type(material_t), intent(in) :: material_j   !! material of the surface of j
+
+      surfaces%sigma_i = (1.0_wp - material_i%poisson**2)/material_i%young
+      surfaces%sigma_j = (1.0_wp - material_j%poisson**2)/material_j%young
+      surfaces%speed_limit = min(speed_limit(material_i), speed_limit(material_j))
+   end subroutine set_materials
+
+   !> Impact speed up to which contact is quasi-static.
+   pure real(wp) function speed_limit(material) result(speed)
+      type(material_t), intent(in) :: material  !! of one surface
+
+      real(wp), parameter :: part = 1.0e-5_wp  ! of the speed of waves in a bar [1]
+
+      speed = huge(1.0_wp)
+      if (material%density > 0.0_wp) speed = part*sqrt(material%young/material%density)
+   end function speed_limit
+
+end module surfaces

@@ -1,0 +1,173 @@
+!> Joints with clearance of a scene: loose ones sorted into sets that share geometry and laws, ideal ones as ideal joints.
+!>
+!> Rows that say `level = ideal`, or all of them in the ideal twin, become the joint that their geometry is without
+!> clearance; a geometry that is none keeps its contact.
+module build_clearances
+   use clearance_registry, only: n_clearance_kinds, new_clearance_set
+   use clearance_set, only: clearance_set_t, clearance_slot_t
+   use find_known, only: kind_number
+   use friction_law, only: friction_law_t
+   use item, only: item_t
+   use joint_registry, only: new_joint_set
+   use joint_set, only: joint_slot_t
+   use kinds, only: wp
+   use planar_system, only: planar_system_t
+   use scene, only: scene_t
+   use section_info, only: column_of
+   implicit none (type, external)
+   private
+   public :: add_clearances, levels_as_written, levels_ideal, levels_loose
+
+   integer, parameter :: levels_as_written = 0  !! every joint with clearance as its row says
+   integer, parameter :: levels_ideal = 1       !! every one ideal: the ideal twin
+   integer, parameter :: levels_loose = 2       !! every one loose: all that a deck can have words for
+
+contains
+
+   !> Joints with clearance: sets of loose ones that share geometry and laws, and sets of ideal ones, one per kind of joint.
+   subroutine add_clearances(scene, levels, angle, system)
+      type(scene_t), intent(in) :: scene              !! the scene
+      integer, intent(in) :: levels                   !! how they are taken, one of the above
+      real(wp), intent(in) :: angle(0:)               !! (0:bodies) angles at the start [rad]
+      type(planar_system_t), intent(inout) :: system  !! clearances and ideal joints are set
+
+      type(clearance_slot_t), allocatable :: slots(:)
+      type(joint_slot_t) :: twins(n_clearance_kinds)
+      type(item_t), allocatable :: ideal(:), loose(:)
+      logical, allocatable :: is_done(:)
+      integer :: first, friction, i, k, law, n, n_ideal
+
+      allocate (slots(count_clearances(scene)))
+      n = 0
+      n_ideal = 0
+      do k = 1, n_clearance_kinds
+         associate (items => scene%clearances(k)%items, info => scene%clearances(k)%info)
+            law = column_of(info, "law")
+            friction = column_of(info, "friction")
+            is_done = [(is_ideal(scene, k, items(i), levels), i=1, size(items))]
+            allocate (ideal(0))
+            do i = 1, size(items)
+               if (is_done(i)) call append_item(ideal, items(i))
+            end do
+            do first = 1, size(items)
+               if (is_done(first)) cycle
+               allocate (loose(0))
+               do i = first, size(items)
+                  if (is_done(i) .or. items(i)%values(law)%index /= items(first)%values(law)%index .or. &
+                      items(i)%values(friction)%index /= items(first)%values(friction)%index) cycle
+                  call append_item(loose, items(i))
+                  is_done(i) = .true.
+               end do
+               n = n + 1
+               call add_loose_set(scene, k, loose, slots(n), system)
+               deallocate (loose)
+            end do
+            if (size(ideal) > 0) then
+               n_ideal = n_ideal + 1
+               call add_ideal_set(scene, k, ideal, angle, twins(n_ideal), system%rows%n)
+            end if
+            deallocate (ideal)
+         end associate
+      end do
+      allocate (system%clearances(n), system%ideal(n_ideal))
+      do k = 1, n
+         call move_alloc(slots(k)%set, system%clearances(k)%set)
+      end do
+      do k = 1, n_ideal
+         call move_alloc(twins(k)%set, system%ideal(k)%set)
+      end do
+   end subroutine add_clearances
+
+   !> Whether a row becomes an ideal joint.
+   logical function is_ideal(scene, kind, item, levels)
+      type(scene_t), intent(in) :: scene  !! the scene
+      integer, intent(in) :: kind         !! number of the geometry
+      type(item_t), intent(in) :: item    !! the row
+      integer, intent(in) :: levels       !! how joints with clearance are taken
+
+      integer :: level
+
+      level = column_of(scene%clearances(kind)%info, "level")
+      is_ideal = level <= size(item%values)
+      if (.not. is_ideal) return
+      is_ideal = levels == levels_ideal .or. (levels == levels_as_written .and. item%values(level)%text == "ideal")
+   end function is_ideal
+
+   !> Rows of a geometry as the joint that it is without clearance.
+   subroutine add_ideal_set(scene, kind, items, angle, slot, n_row)
+      type(scene_t), intent(in) :: scene         !! the scene
+      integer, intent(in) :: kind                !! number of the geometry
+      type(item_t), intent(in) :: items(:)       !! the rows
+      real(wp), intent(in) :: angle(0:)          !! (0:bodies) angles at the start [rad]
+      type(joint_slot_t), intent(inout) :: slot  !! the set is made here
+      integer, intent(inout) :: n_row            !! constraint rows so far
+
+      class(clearance_set_t), allocatable :: geometry
+      integer :: i
+
+      call new_clearance_set(kind, geometry)
+      call new_joint_set(kind_number(scene, geometry%ideal_kind()), slot%set)
+      associate (set => slot%set)
+         ! the first columns of a geometry are those of its ideal joint
+         call set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
+                      [(items(i)%values(2)%index, i=1, size(items))], scene%points)
+         call set%prepare(items, angle)
+         set%first_row = n_row
+         n_row = n_row + set%n*set%n_row_item
+      end associate
+   end subroutine add_ideal_set
+
+   !> Number of rows of all clearance tables.
+   pure integer function count_clearances(scene) result(n)
+      type(scene_t), intent(in) :: scene  !! the scene
+
+      integer :: k
+
+      n = 0
+      do k = 1, n_clearance_kinds
+         n = n + size(scene%clearances(k)%items)
+      end do
+   end function count_clearances
+
+   !> Append a row to a list.
+   subroutine append_item(list, item)
+      type(item_t), allocatable, intent(inout) :: list(:)  !! list, grown
+      type(item_t), intent(in) :: item                     !! the row
+
+      type(item_t), allocatable :: grown(:)
+      integer :: k
+
+      allocate (grown(size(list) + 1))
+      do k = 1, size(list)
+         grown(k) = list(k)
+      end do
+      grown(size(grown)) = item
+      call move_alloc(grown, list)
+   end subroutine append_item
+
+   !> One set of loose joints with its laws, fitted to the surfaces.
+   subroutine add_loose_set(scene, kind, items, slot, system)
+      type(scene_t), intent(in) :: scene              !! the scene
+      integer, intent(in) :: kind                     !! number of the geometry
+      type(item_t), intent(in) :: items(:)            !! rows that share their laws
+      type(clearance_slot_t), intent(inout) :: slot   !! the set is made here
+      type(planar_system_t), intent(inout) :: system  !! joints and contacts are counted
+
+      class(friction_law_t), allocatable :: friction
+      integer :: friction_law, i, normal_law
+
+      call new_clearance_set(kind, slot%set)
+      normal_law = items(1)%values(column_of(scene%clearances(kind)%info, "law"))%index
+      friction_law = items(1)%values(column_of(scene%clearances(kind)%info, "friction"))%index
+      if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
+      call slot%set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
+                        [(items(i)%values(2)%index, i=1, size(items))], scene%points, scene%laws(normal_law)%law, friction)
+      slot%set%first = system%n_loose
+      slot%set%first_contact = system%n_contact
+      system%n_loose = system%n_loose + slot%set%n
+      system%n_contact = system%n_contact + slot%set%n_contact
+      call slot%set%prepare(items)
+      call slot%set%fit_law(items, scene%materials, scene%bodies%mass)
+   end subroutine add_loose_set
+
+end module build_clearances
