@@ -38,7 +38,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all debug run test check bench stability figures lint format docs clean help
+.PHONY: all debug run test check bench stability figures studies lint format docs clean help
 .PHONY: objects binary test_program bench_programs
 
 all:
@@ -77,6 +77,11 @@ figures:
 	$(inner)release binary
 	@scripts/make_figures.sh $(BUILD)/gudgeon
 
+studies:
+	@scripts/setup
+	$(inner)release binary
+	@scripts/make_studies $(BUILD)/gudgeon $(STUDIES)
+
 lint:
 	@scripts/lint $(abspath $(BUILD))
 
@@ -96,6 +101,7 @@ help:
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
+	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
 	@echo "make -j objects compile all sources without linking (-k: go on after errors)"
 	@echo
