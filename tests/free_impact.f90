@@ -32,7 +32,7 @@ contains
 
       h = law%contact_time(parameters, speed, 1.0_wp/mass)/real(n_step, wp)
       y = [0.0_wp, speed, 0.0_wp]
-      do k = 1, 3*n_step
+      do k = 1, 40*n_step
          after = runge_kutta(y, h)
          if (after(1) <= 0.0_wp) exit
          y = after

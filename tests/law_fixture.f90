@@ -59,10 +59,12 @@ contains
       error stop "law_fixture: a law fits no surfaces"
    end subroutine fit_surfaces
 
-   !> Numbers of a row that make sense: a stiffness like that of steel, or none if it comes from the surfaces.
-   subroutine tame(info, item)
+   !> Numbers of a row that make sense: a stiffness like that of steel, or, unless it shall be given, none if it can come from
+   !> the surfaces.
+   subroutine tame(info, item, is_given)
       type(kind_info_t), intent(in) :: info  !! the law
       type(item_t), intent(inout) :: item    !! its row
+      logical, intent(in) :: is_given        !! the row gives the stiffness
 
       integer :: c
 
@@ -70,7 +72,7 @@ contains
       if (c == 0) return
       if (same_dimension(info%columns(c)%dimension, dim_contact_stiffness)) item%values(c)%number = steel_pin
       if (same_dimension(info%columns(c)%dimension, dim_stiffness)) item%values(c)%number = 1.5e8_wp
-      if (allocated(info%columns(c)%default)) item%values(c)%number = 0.0_wp
+      if (allocated(info%columns(c)%default) .and. .not. is_given) item%values(c)%number = 0.0_wp
    end subroutine tame
 
    !> A row of a normal law with any numbers.
@@ -89,7 +91,7 @@ contains
       call new_normal_law(kind, law)
       info = law%info()
       call fill_item(info, row, random, item)
-      call tame(info, item)
+      call tame(info, item, .false.)
       call law%prepare(item)
       call fit_surfaces(law, parameters)
       name = info%name//" row "//to_text(row)
@@ -110,7 +112,7 @@ contains
       call fill_item(law%info(), 1, random, item)
       has_restitution = column_number(law%info(), "restitution") > 0
       call set_number(law%info(), "restitution", restitution, item)
-      call tame(law%info(), item)
+      call tame(law%info(), item, .false.)
       call law%prepare(item)
       call fit_surfaces(law, parameters)
    end subroutine make_restitution

@@ -8,6 +8,7 @@ module dynamic
       integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
+   use law_validity, only: warn_of_laws
    use planar_energy, only: energy_of, energy_t
    use planar_report, only: build_catalogue, report_state
    use planar_system, only: planar_system_t
@@ -312,6 +313,7 @@ contains
                                      system%rows%is_angle(run%worst_row)))// &
                           "; a jump in a driver, or too large a tolerance?")
       end if
+      call warn_of_laws(system, run%summary%warnings)
    end subroutine warn
 
    !> Compare the results with the deck's limits.

@@ -1,18 +1,35 @@
 !> The kinds of normal laws and of friction laws: two lines each (`use`, `case`).
 module contact_registry
    use friction_ambrosio, only: friction_ambrosio_t
+   use friction_brown_mcphee, only: friction_brown_mcphee_t
+   use friction_constant, only: friction_constant_t
    use friction_coulomb, only: friction_coulomb_t
    use friction_law, only: friction_law_t
    use friction_lugre, only: friction_lugre_t
+   use friction_rooney_deravi, only: friction_rooney_deravi_t
+   use friction_threlfall, only: friction_threlfall_t
+   use law_dubowsky_freudenstein, only: law_dubowsky_freudenstein_t
+   use law_esdu, only: law_esdu_t
+   use law_exact, only: law_exact_t
+   use law_flores, only: law_flores_t
+   use law_goldsmith, only: law_goldsmith_t
+   use law_gonthier, only: law_gonthier_t
+   use law_herbert_mcwhannell, only: law_herbert_mcwhannell_t
    use law_hertz, only: law_hertz_t
+   use law_hu_guo, only: law_hu_guo_t
+   use law_hunt_crossley, only: law_hunt_crossley_t
+   use law_kelvin_voigt, only: law_kelvin_voigt_t
    use law_lankarani_nikravesh, only: law_lankarani_nikravesh_t
+   use law_lee_wang, only: law_lee_wang_t
+   use law_plane_face, only: law_plane_face_t
+   use law_zhiying_qishao, only: law_zhiying_qishao_t
    use normal_law, only: normal_law_t
    implicit none (type, external)
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 2       !! number of normal laws
-   integer, parameter :: n_friction_kinds = 3  !! number of friction laws
+   integer, parameter :: n_law_kinds = 15       !! number of normal laws
+   integer, parameter :: n_friction_kinds = 7   !! number of friction laws
 
 contains
 
@@ -24,6 +41,19 @@ contains
       select case (k)
       case (1); allocate (law_hertz_t :: law)
       case (2); allocate (law_lankarani_nikravesh_t :: law)
+      case (3); allocate (law_kelvin_voigt_t :: law)
+      case (4); allocate (law_hunt_crossley_t :: law)
+      case (5); allocate (law_herbert_mcwhannell_t :: law)
+      case (6); allocate (law_lee_wang_t :: law)
+      case (7); allocate (law_gonthier_t :: law)
+      case (8); allocate (law_zhiying_qishao_t :: law)
+      case (9); allocate (law_flores_t :: law)
+      case (10); allocate (law_hu_guo_t :: law)
+      case (11); allocate (law_exact_t :: law)
+      case (12); allocate (law_dubowsky_freudenstein_t :: law)
+      case (13); allocate (law_goldsmith_t :: law)
+      case (14); allocate (law_esdu_t :: law)
+      case (15); allocate (law_plane_face_t :: law)
       end select
    end subroutine new_normal_law
 
@@ -34,8 +64,12 @@ contains
 
       select case (k)
       case (1); allocate (friction_ambrosio_t :: law)
-      case (2); allocate (friction_coulomb_t :: law)
-      case (3); allocate (friction_lugre_t :: law)
+      case (2); allocate (friction_constant_t :: law)
+      case (3); allocate (friction_rooney_deravi_t :: law)
+      case (4); allocate (friction_threlfall_t :: law)
+      case (5); allocate (friction_brown_mcphee_t :: law)
+      case (6); allocate (friction_coulomb_t :: law)
+      case (7); allocate (friction_lugre_t :: law)
       end select
    end subroutine new_friction_law
 

@@ -11,7 +11,7 @@ module law_lankarani_nikravesh
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: law_lankarani_nikravesh_t
+   public :: lankarani_nikravesh_hysteresis, law_lankarani_nikravesh_t
 
    !> Contact with hysteresis damping.
    type, extends(hertz_family_t) :: law_lankarani_nikravesh_t

@@ -172,12 +172,32 @@ def test_jump_of_a_driver(gudgeon):
 def test_ledger_that_does_not_close(gudgeon):
     """At tolerance 1e-2 the ledger does not close: a warning says by how much. At 1e-8 there is none."""
     run = finished(gudgeon, "--tolerance", "1e-2", changes=(("analysis.dynamic", "end", "1 ms"),))
-    (words,) = run.summary["warnings"]
-    assert "ledger" in words
+    words, validity = run.summary["warnings"]
+    assert "ledger" in words and "quasi-static" in validity
     told = next(float(word) for word in words.split() if word[0].isdigit())
     assert_close(told, run.summary["energy_residual_max"] / run.summary["energy_max"], relative=6e-3)
     assert told > 1e-3
-    assert finished(gudgeon, "--tolerance", "1e-8").summary["warnings"] == []
+    assert not any("ledger" in words for words in finished(gudgeon, "--tolerance", "1e-8").summary["warnings"])
+
+
+def test_impacts_too_fast_for_the_law(gudgeon):
+    """The dry slider-crank hits at more than 1e-5 sqrt(E/rho) of steel: one warning names joint, law, both speeds."""
+    run = finished(gudgeon)
+    words = one_warning(run)
+    assert "'gudgeon'" in words and "'lankarani_nikravesh'" in words and "0.0514 m/s" in words
+    fastest = run.contacts["impact_speed"].max()
+    told = float(words.split(" m/s")[0].split()[-1])
+    assert_close(told, fastest, relative=6e-3)
+    unknown = plain_deck().replace("   density[kg/m^3]", "").replace("0.3       7850", "0.3")
+    assert "density" not in unknown and "7850" not in unknown
+    assert run_text(gudgeon, unknown).summary["warnings"] == []
+
+
+def test_penetration_beyond_the_law(gudgeon):
+    """A bearing so short that the contact leaves the range of a cylinder law: both limits in one warning."""
+    text = plain_deck().replace("  15           steel", "  0.5          steel")
+    words = one_warning(run_text(gudgeon, text, "--set", "law=dubowsky_freudenstein"))
+    assert "quasi-static" in words and "penetrations of up to" in words and "tangent" in words
 
 
 def test_open_contact_of_a_failed_run(gudgeon):

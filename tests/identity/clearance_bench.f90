@@ -17,6 +17,7 @@ module clearance_bench
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
+   use law_fixture, only: tame
    use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_motion, set_some_acceleration
    use normal_law, only: n_law_parameter, normal_law_t
    use text, only: split_blank, text_t
@@ -119,7 +120,8 @@ contains
       call new_normal_law(law_kind, law)
       law_info = law%info()
       call fill_item(law_info, 1, random, law_item)
-      call set_number(law_info, "stiffness", 0.0_wp, law_item)
+      call tame(law_info, law_item, .true.)  ! some laws are of other surfaces
+      call set_number(law_info, "restitution", 0.7_wp, law_item)
       call law%prepare(law_item)
       bench%name = info%name//", "//law_info%name
       if (friction_kind > 0) then
@@ -129,6 +131,10 @@ contains
          call set_number(friction_info, "coefficient", 0.12_wp, law_item)
          call set_number(friction_info, "v0", 1.0e-4_wp, law_item)
          call set_number(friction_info, "v1", 1.0_wp, law_item)
+         call set_number(friction_info, "v_r", 1.0e-3_wp, law_item)
+         call set_number(friction_info, "v_t", 1.0e-3_wp, law_item)
+         call set_number(friction_info, "static", 0.15_wp, law_item)
+         call set_number(friction_info, "force", 1.0e4_wp, law_item)
          call friction%prepare(law_item)
          bench%name = bench%name//", "//friction_info%name
       end if

@@ -85,6 +85,7 @@ contains
                   call force_of(law, parameters, delta, rate + 1.0e-3_wp*places(k)*speed, speed, near(k, 2))
                end do
                if (minval(near) <= 0.0_wp) cycle
+               if (law%jumps_at_turn .and. abs(rate) < 3.0e-3_wp*speed) cycle
                call check_close(error, by_delta, five_point(near(:, 1), 1.0e-3_wp*delta), 1.0e-9_wp*f/delta, name//": dF/ddelta")
                call check_close(error, by_rate, five_point(near(:, 2), 1.0e-3_wp*speed), 1.0e-9_wp*f/speed, name//": dF/drate")
             end do

@@ -23,6 +23,10 @@ contains
       call suite%test("magnitude", test_magnitude)
       call suite%test("ramp", test_ramp)
       call suite%test("mistake", test_mistake)
+      call suite%test("constant", test_constant)
+      call suite%test("rooney_deravi", test_rooney_deravi)
+      call suite%test("threlfall", test_threlfall)
+      call suite%test("brown_mcphee", test_brown_mcphee)
    end subroutine run_test_friction_laws
 
    !> A row of a friction law with any numbers that make sense together.
@@ -44,7 +48,7 @@ contains
       end do
    end subroutine make_friction
 
-   !> Not negative, not above the coefficient times the normal force, in proportion to it.
+   !> Not negative, not above the greatest coefficient times the normal force and in proportion to it, or constant.
    subroutine test_magnitude(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -53,7 +57,7 @@ contains
       class(friction_law_t), allocatable :: law
       type(item_t) :: item
       type(kind_info_t) :: info
-      real(wp), dimension(n) :: f, force, twice
+      real(wp), dimension(n) :: f, force, greatest, twice
       integer :: c, k, kind, row
 
       do kind = 1, n_friction_kinds
@@ -64,15 +68,22 @@ contains
             force = [(100.0_wp*k, k=1, n)]
             call law%force(n, force, speed, f)
             call law%force(n, 2.0_wp*force, speed, twice)
-            call check_close(error, twice, 2.0_wp*f, 1.0e-14_wp, info%name//": proportional", relative=.true.)
+            call check_close(error, f(1), 0.0_wp, 0.0_wp, info%name//": nothing at rest")
+            call check_close(error, twice(2:), merge(1.0_wp, 2.0_wp, column_number(info, "force") > 0)*f(2:), 1.0e-14_wp, &
+                             info%name//": proportional, or constant", relative=.true.)
             call check_true(error, all(f >= 0.0_wp), info%name//": not negative")
             call check_true(error, maxval(f) > 0.0_wp, info%name//": there is a force")
             call check_true(error, law%is_active(), info%name//": active")
             c = column_number(info, "coefficient")
             if (c == 0) cycle
-            call check_true(error, all(f <= item%values(c)%number*force*(1.0_wp + 1.0e-15_wp)), &
-                            info%name//": at most the coefficient times the normal force")
+            greatest = item%values(c)%number + 0.0_wp*speed
+            if (column_number(info, "static") > 0) greatest = item%values(column_number(info, "static"))%number
+            if (column_number(info, "viscous") > 0) greatest = greatest + speed*item%values(column_number(info, "viscous"))%number
+            call check_true(error, all(f <= greatest*force*(1.0_wp + 2.0e-3_wp)), &
+                            info%name//": at most the greatest coefficient times the normal force")
             call set_number(info, "coefficient", 0.0_wp, item)
+            call set_number(info, "static", 0.0_wp, item)
+            call set_number(info, "viscous", 0.0_wp, item)
             call law%prepare(item)
             call check_true(error, .not. law%is_active(), info%name//": without coefficient not active")
          end do
@@ -95,6 +106,93 @@ contains
       call law%force(2, [500.0_wp, 500.0_wp], [0.0_wp, 1.0e-3_wp], f(1:2))
       call check_close(error, f(1:2), [0.0_wp, 12.0_wp], 1.0e-12_wp, "ramp from zero")
    end subroutine test_ramp
+
+   !> A law by its name, its numbers in the order of its columns, and a word in the last one.
+   subroutine make_named(name, numbers, word, law)
+      character(*), intent(in) :: name                          !! without `friction.`
+      real(wp), intent(in) :: numbers(:)                        !! (n) SI [any]
+      character(*), intent(in) :: word                          !! blank: none
+      class(friction_law_t), allocatable, intent(out) :: law    !! the law
+
+      type(item_t) :: item
+      type(kind_info_t) :: info
+      integer :: kind
+
+      do kind = 1, n_friction_kinds
+         call make_friction(kind, 1, law, item)
+         info = law%info()
+         if (info%name == "friction."//name) exit
+      end do
+      item%values(1:size(numbers))%number = numbers
+      if (word /= " ") item%values(size(item%values))%text = word
+      call law%prepare(item)
+   end subroutine make_named
+
+   !> The same force whatever the normal force, with a ramp or, as printed, without.
+   subroutine test_constant(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      class(friction_law_t), allocatable :: law
+      real(wp) :: f(5)
+
+      call make_named("constant", [3.0_wp, 1.0e-3_wp], " ", law)
+      call law%force(5, [1.0_wp, 1.0_wp, 1.0e6_wp, 0.0_wp, 5.0_wp], [0.0_wp, 0.25e-3_wp, 7.0_wp, 7.0_wp, 1.0e-3_wp], f)
+      call check_close(error, f, [0.0_wp, 0.75_wp, 3.0_wp, 0.0_wp, 3.0_wp], 1.0e-15_wp, "with a ramp")
+      call make_named("constant", [3.0_wp, 0.0_wp], " ", law)
+      call law%force(3, [1.0_wp, 1.0_wp, 1.0e6_wp], [0.0_wp, 1.0e-12_wp, 7.0_wp], f(1:3))
+      call check_close(error, f(1:3), [0.0_wp, 3.0_wp, 3.0_wp], 0.0_wp, "as printed")
+   end subroutine test_constant
+
+   !> In proportion to the speed up to v1, then all of c_f F_N.
+   subroutine test_rooney_deravi(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      class(friction_law_t), allocatable :: law
+      real(wp) :: f(4)
+
+      call make_named("rooney_deravi", [0.1_wp, 2.0e-3_wp], " ", law)
+      call law%force(4, spread(500.0_wp, 1, 4), [0.0_wp, 0.5e-3_wp, 2.0e-3_wp, 9.0_wp], f)
+      call check_close(error, f, [0.0_wp, 12.5_wp, 50.0_wp, 50.0_wp], 1.0e-14_wp, "ramp")
+   end subroutine test_rooney_deravi
+
+   !> The exponential below v_r, and the three ways above; the slope at rest is 3 c_f F_N/v_r.
+   subroutine test_threlfall(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: full = 50.0_wp, knee = 0.950212931632136_wp  ! [N], 1 - exp(-3)
+      real(wp), parameter :: speed(5) = [0.0_wp, 1.0e-9_wp, 1.0e-3_wp, 2.0e-3_wp, 4.0e-3_wp]
+      class(friction_law_t), allocatable :: law
+      real(wp) :: f(5)
+
+      call make_named("threlfall", [0.1_wp, 2.0e-3_wp], "continuous", law)
+      call law%force(5, spread(500.0_wp, 1, 5), speed, f)
+      call check_close(error, f, full*[0.0_wp, 1.5e-6_wp, 0.776869839851570_wp, knee, knee], 1.0e-8_wp, "continuous")
+      call make_named("threlfall", [0.1_wp, 2.0e-3_wp], "exponential", law)
+      call law%force(5, spread(500.0_wp, 1, 5), speed, f)
+      call check_close(error, f(4:), full*[knee, 0.997521247823334_wp], 1.0e-12_wp, "exponential")
+      call make_named("threlfall", [0.1_wp, 2.0e-3_wp], "book", law)
+      call law%force(5, spread(500.0_wp, 1, 5), speed, f)
+      call check_close(error, f(3:), full*[0.776869839851570_wp, 1.0_wp, 1.0_wp], 1.0e-12_wp, "book")
+   end subroutine test_threlfall
+
+   !> mu_s at v_t but for 1 - tanh(4), mu_d far beyond, the viscous part in proportion; smooth.
+   subroutine test_brown_mcphee(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      class(friction_law_t), allocatable :: law
+      real(wp) :: f(4)
+
+      call make_named("brown_mcphee", [0.1_wp, 0.16_wp, 2.0e-3_wp, 0.0_wp], " ", law)
+      call law%force(4, spread(500.0_wp, 1, 4), [0.0_wp, 2.0e-3_wp, 4.0e-3_wp, 10.0_wp], f)
+      ! at 2 v_t: mu_d tanh(8) + 0.06 * 2/(1.75)^2
+      call check_close(error, f, 500.0_wp*[0.0_wp, 0.16_wp - 0.1_wp*(1.0_wp - 0.999329299739067_wp), &
+                                           0.1_wp*0.999999774929676_wp + 0.12_wp/3.0625_wp, 0.1_wp], 1.0e-8_wp, "Stribeck")
+      call make_named("brown_mcphee", [0.1_wp, 0.16_wp, 2.0e-3_wp, 0.01_wp], " ", law)
+      call law%force(1, [500.0_wp], [10.0_wp], f(1:1))
+      call check_close(error, f(1), 500.0_wp*(0.1_wp + 0.1_wp), 1.0e-8_wp, "viscous")
+      call make_named("brown_mcphee", [0.2_wp, 0.16_wp, 2.0e-3_wp, 0.0_wp], " ", law)
+      call check_true(error, index(law%mistake(), "static") > 0, "static below coefficient")
+   end subroutine test_brown_mcphee
 
    !> Ambrosio's law with given numbers.
    subroutine make_ambrosio(coefficient, v0, v1, law)

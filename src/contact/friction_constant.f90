@@ -1,0 +1,76 @@
+!> Friction of constant magnitude, whatever the normal force.
+!>
+!> F_T = c_c min(v/v1, 1) while there is a normal force
+!>
+!> Signs: against the sliding velocity. Source: Flores et al. (2008), eq. (3.12), after Dubowsky, Journal of Engineering for
+!> Industry 96 (1974), 317-323. As printed the force jumps from -c_c to c_c where the sliding turns; the ramp up to v1 is
+!> there so that an integration can pass that place. v1 = 0 is as printed.
+!> Limits: no sticking; the force jumps where a contact begins or ends.
+module friction_constant
+   use friction_law, only: friction_law_t
+   use item, only: item_t
+   use kind_info, only: add_number, dim_force, dim_speed, kind_info_t
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: friction_constant_t
+
+   !> Friction independent of the normal force.
+   type, extends(friction_law_t) :: friction_constant_t
+      real(wp) :: constant = 0.0_wp  !! c_c [N]
+      real(wp) :: v1 = 0.0_wp        !! speed above which the force is full [m/s]
+   contains
+      procedure, nopass :: info => constant_info
+      procedure :: prepare => constant_prepare
+      procedure :: is_active => constant_is_active
+      procedure :: force => constant_force
+   end type friction_constant_t
+
+contains
+
+   !> What the kind says of itself.
+   function constant_info() result(info)
+      type(kind_info_t) :: info  !! name and columns
+
+      info%name = "friction.constant"
+      info%help = "friction of constant magnitude, whatever the normal force"
+      info%source = "Flores et al. (2008), eq. (3.12)"
+      call add_number(info, "force", dim_force, "friction force while the surfaces touch and slide; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "v1", dim_speed, "full force above this sliding speed, a ramp below; 0: as the book prints it", &
+                      default="1 mm/s", lower=0.0_wp)
+   end function constant_info
+
+   !> Take the parameters.
+   subroutine constant_prepare(self, item)
+      class(friction_constant_t), intent(inout) :: self  !! the law
+      type(item_t), intent(in) :: item              !! the row
+
+      self%name = item%name
+      self%constant = item%values(1)%number
+      self%v1 = item%values(2)%number
+   end subroutine constant_prepare
+
+   !> Without a coefficient there is no friction.
+   pure logical function constant_is_active(self)
+      class(friction_constant_t), intent(in) :: self  !! the law
+
+      constant_is_active = self%constant > 0.0_wp
+   end function constant_is_active
+
+   !> Magnitude of the friction force of n contacts.
+   pure subroutine constant_force(self, n, normal_force, speed, f)
+      class(friction_constant_t), intent(in) :: self  !! the law
+      integer, intent(in) :: n                   !! number of contacts
+      real(wp), intent(in) :: normal_force(n)    !! (n) normal force [N]
+      real(wp), intent(in) :: speed(n)           !! (n) magnitude of the sliding velocity [m/s]
+      real(wp), intent(out) :: f(n)              !! (n) magnitude of the friction force [N]
+
+      integer :: k
+
+      do k = 1, n
+         f(k) = 0.0_wp
+         if (normal_force(k) > 0.0_wp .and. speed(k) > 0.0_wp) f(k) = self%constant*min(speed(k)/max(self%v1, speed(k)), 1.0_wp)
+      end do
+   end subroutine constant_force
+
+end module friction_constant
