@@ -10,7 +10,7 @@ module clearance_bench
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use errors, only: error_t
    use fixed_random, only: random_t
-   use friction_law, only: friction_law_t
+   use friction_law, only: friction_law_t, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -157,6 +157,9 @@ contains
       do k = 1, n_item
          call bring_into_contact(bench, k, random%vector(2, -0.5_wp*gap, 0.5_wp*gap))
          call bench%set%begin_contact(k, 0.0_wp, 5.0_wp, 0.0_wp)
+         if (bench%set%grip%memory /= memory_slip) cycle
+         call bench%set%lie(k, bench%motion, bench%set%grip%tangent(k))
+         bench%set%grip%slip(k) = nint(sign(1.0_wp, bench%set%grip%tangent(k)%v))
       end do
    end subroutine make_bench
 

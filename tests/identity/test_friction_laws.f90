@@ -53,7 +53,7 @@ contains
       class(friction_law_t), allocatable :: law
       type(item_t) :: item
       type(kind_info_t) :: info
-      real(wp), dimension(n) :: f, force, twice
+      real(wp), dimension(n) :: f, force, limit, twice
       integer :: c, k, kind, row
 
       do kind = 1, n_friction_kinds
@@ -70,13 +70,25 @@ contains
             call check_true(error, law%is_active(), info%name//": active")
             c = column_number(info, "coefficient")
             if (c == 0) cycle
-            call check_true(error, all(f <= item%values(c)%number*force*(1.0_wp + 1.0e-15_wp)), &
+            limit = max(item%values(c)%number, number_of("static_coefficient"))*force + number_of("viscosity")*speed*force
+            call check_true(error, all(f <= limit*(1.0_wp + 1.0e-15_wp)), &
                             info%name//": at most the coefficient times the normal force")
             call set_number(info, "coefficient", 0.0_wp, item)
             call law%prepare(item)
             call check_true(error, .not. law%is_active(), info%name//": without coefficient not active")
          end do
       end do
+
+   contains
+
+      !> Number in a column of the row, 0 if the kind has no such column.
+      real(wp) function number_of(name)
+         character(*), intent(in) :: name   !! the column
+
+         number_of = 0.0_wp
+         if (column_number(info, name) > 0) number_of = item%values(column_number(info, name))%number
+      end function number_of
+
    end subroutine test_magnitude
 
    !> Ambrosio's ramp: nothing up to v0, in proportion up to v1, then all of c_f F_N.
