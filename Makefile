@@ -19,6 +19,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 SUNDIALS_DIR ?=
 HDF5_DIR ?=
 SUITESPARSE_DIR ?=
+FFTW_DIR ?=
 LAPACK ?=
 ifeq ($(origin ARCH),undefined)
 ifeq ($(shell uname -m),x86_64)
@@ -28,7 +29,7 @@ endif
 endif
 ARCH := $(strip $(ARCH))
 
-export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR LAPACK
+export FC PYTHON SUNDIALS_DIR HDF5_DIR SUITESPARSE_DIR FFTW_DIR LAPACK
 export OPENBLAS_NUM_THREADS := 1
 export PYTHONDONTWRITEBYTECODE := 1
 
@@ -37,7 +38,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all debug run test check bench stability figures lint format docs clean help
+.PHONY: all debug run test check bench stability figures studies lint format docs clean help
 .PHONY: objects binary test_program bench_programs
 
 all:
@@ -76,6 +77,11 @@ figures:
 	$(inner)release binary
 	@scripts/make_figures.sh $(BUILD)/gudgeon
 
+studies:
+	@scripts/setup
+	$(inner)release binary
+	@scripts/make_studies $(BUILD)/gudgeon $(STUDIES)
+
 lint:
 	@scripts/lint $(abspath $(BUILD))
 
@@ -95,11 +101,12 @@ help:
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
+	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
 	@echo "make -j objects compile all sources without linking (-k: go on after errors)"
 	@echo
 	@echo "Variables: MODE=release|debug  ARCH=x86-64-v3 (ARCH= for the compiler's default)  BUILD=build  JOBS=$(JOBS)"
-	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
+	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= FFTW_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
 
 # ---- building one mode ------------------------------------------------------------------------------
@@ -172,8 +179,12 @@ ifneq ($(SUITESPARSE_DIR),)
 SUITESPARSE_PATH := $(foreach d,$(wildcard $(SUITESPARSE_DIR)/lib $(SUITESPARSE_DIR)/lib64),-L$(d) -Wl,-rpath,$(d))
 endif
 
+ifneq ($(FFTW_DIR),)
+FFTW_PATH := $(foreach d,$(wildcard $(FFTW_DIR)/lib $(FFTW_DIR)/lib64),-L$(d) -Wl,-rpath,$(d))
+endif
+
 LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(SUITESPARSE_PATH) -lklu \
-  $(or $(LAPACK),-llapack -lblas) -lm
+  $(FFTW_PATH) -lfftw3 $(or $(LAPACK),-llapack -lblas) -lm
 
 # Off, because contracts need the noise: arguments that one kind does not use, comparing with an exact zero. Off too: gfortran's
 # false alarms about allocatable descriptors (signalling NaN finds the real ones) and about queries of files in conditions.

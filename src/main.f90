@@ -10,6 +10,7 @@ program gudgeon
    use verb_help, only: list_kinds, show_help, show_version
    use verb_new, only: new_deck
    use verb_run, only: run_deck
+   use verb_sweep, only: sweep_deck
    implicit none (type, external)
 
    type(error_t), allocatable :: console_error, error
@@ -34,6 +35,8 @@ program gudgeon
          call check_deck(options, error)
       case ("explain")
          call explain_deck(options, error)
+      case ("sweep")
+         call sweep_deck(options, error)
       case ("new")
          call new_deck(options, error)
       case ("list")

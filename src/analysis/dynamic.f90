@@ -49,6 +49,7 @@ module dynamic
       logical :: is_lost = .false.               !! whether a violation is beyond all measure
       integer(i8) :: n_sample = 0                !! output instants done
       integer(i8) :: n_last_sample = 0           !! the last of them
+      integer :: n_strobe = 0                    !! stroboscopic instants done
    end type run_t
 
 contains
@@ -99,7 +100,7 @@ contains
       run%summary%steps = method%n_steps
       run%summary%rejected_steps = method%n_rejected
       run%summary%rhs_evaluations = system%n_evaluations
-      run%summary%output_evaluations = method%n_output_evaluations + int(run%n_sample, i8)
+      run%summary%output_evaluations = method%n_output_evaluations + run%n_sample + int(run%n_strobe, i8)
       run%summary%factorisations = system%solver%n_factorisations
       run%summary%samples = int(run%n_sample)
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
@@ -207,6 +208,10 @@ contains
       real(wp) :: cpu_0, cpu_1, t
       integer :: status
 
+      if (run%n_strobe < size(plan%strobes)) then
+         if (plan%strobes(run%n_strobe + 1) <= method%t) call take_strobes(system, method, plan, recorder, run, error)
+         if (allocated(error)) return
+      end if
       t = instant(plan, run%n_sample)
       if (run%n_sample > run%n_last_sample .or. t > method%t) return
       call cpu_time(cpu_0)
@@ -226,6 +231,36 @@ contains
       call cpu_time(cpu_1)
       run%aside = run%aside + (cpu_1 - cpu_0)
    end subroutine take_samples
+
+   !> All stroboscopic instants up to the end of the last step.
+   subroutine take_strobes(system, method, plan, recorder, run, error)
+      type(planar_system_t), intent(inout) :: system      !! the system
+      class(integrator_t), intent(inout) :: method        !! the integrator
+      type(time_plan_t), intent(in) :: plan               !! times
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(run_t), intent(inout) :: run                   !! state of the run
+      type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
+
+      real(wp) :: cpu_0, cpu_1, t
+      integer :: status
+
+      call cpu_time(cpu_0)
+      if (plan%strobes(run%n_strobe + 1) < method%t) call method%prepare_output(system, status)
+      do while (run%n_strobe < size(plan%strobes))
+         t = plan%strobes(run%n_strobe + 1)
+         if (t > method%t) exit
+         call method%state_at(system, t, run%y)
+         call report_state(system, t, run%y, run%ydot, run%residual, run%catalogue, status)
+         if (status /= 0) then
+            call describe_failure(system, method, advance_failed_evaluation, error)
+            return
+         end if
+         call recorder%strobe(t, run%catalogue)
+         run%n_strobe = run%n_strobe + 1
+      end do
+      call cpu_time(cpu_1)
+      run%aside = run%aside + (cpu_1 - cpu_0)
+   end subroutine take_strobes
 
    !> Handle the events at the end of the last step, and go on from there.
    subroutine handle_events(system, method, recorder, run, error)

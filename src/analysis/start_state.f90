@@ -6,6 +6,7 @@ module start_state
    use guided_motion, only: guided_coordinates
    use kinds, only: wp
    use motion, only: set_planar_motion
+   use perturbation, only: shift_t
    use planar_system, only: planar_system_t
    use scene, only: scene_t
    use section_info, only: column_of
@@ -40,12 +41,13 @@ contains
    !> only the ideal joints; both move the bodies as little as possible, with what holds only at the start there while
    !> assembling, then no more. `start = static` searches the equilibrium at t = 0. Rows of the system that runs may depend
    !> on one another: it is told.
-   subroutine find_start(scene, system, y, report, error)
+   subroutine find_start(scene, system, y, report, error, shift)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that will run
       real(wp), allocatable, intent(out) :: y(:)            !! (n) state [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or overlap
+      type(shift_t), intent(in), optional :: shift          !! a perturbation, after which the mechanism is assembled anew
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
@@ -61,6 +63,13 @@ contains
       call new_system(scene, levels, twin, is_for_start=.true.)
       call assemble(twin, q, v, report, error)
       if (allocated(error)) return
+      if (present(shift)) then
+         q = q + shift%q
+         v = v + shift%v
+         call new_system(scene, levels_as_written, twin, is_for_start=.true.)
+         call assemble(twin, q, v, report, error)
+         if (allocated(error)) return
+      end if
       call find_dependent(system, q, v, report)
       system%is_redundant = size(report%dependent) > 0
       allocate (y(system%n), source=0.0_wp)

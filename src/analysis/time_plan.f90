@@ -18,6 +18,9 @@ module time_plan
       real(wp) :: end = 0.0_wp              !! end of the motion [s]
       real(wp) :: first_output = 0.0_wp     !! first output instant [s]
       real(wp) :: every = 0.0_wp            !! output interval [s]
+      real(wp) :: after = 0.0_wp            !! end of the transient, for the statistics [s]
+      real(wp) :: period = 0.0_wp           !! of the drive, on average in the window of the statistics; 0: none [s]
+      real(wp), allocatable :: strobes(:)   !! (n) multiples of the period from `after` to `end` [s]
    end type time_plan_t
 
 contains
@@ -32,6 +35,7 @@ contains
       type(value_t) :: end
       real(wp) :: last
 
+      allocate (plan%strobes(0))
       if (scene%analysis == analysis_static) return
       end = scene%dynamic%values(column_of(scene%dynamic_kind, "end"))
       if (scene%analysis == analysis_kinematic) end = scene%kinematic%values(column_of(scene%kinematic_kind, "end"))
@@ -63,7 +67,57 @@ contains
                                  "there would be one instant and no curve")
          end if
       end associate
+      if (scene%has_statistics .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
+         call plan_statistics(scene, system, plan, diagnostics)
+      end if
    end subroutine new_time_plan
+
+   !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.
+   subroutine plan_statistics(scene, system, plan, diagnostics)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      type(planar_system_t), intent(in) :: system         !! its system, for the drivers
+      type(time_plan_t), intent(inout) :: plan            !! times
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      type(value_t) :: turns
+      integer :: k
+      real(wp) :: t
+
+      associate (after => scene%statistics%values(column_of(scene%statistics_kind, "after")), &
+                 period => scene%statistics%values(column_of(scene%statistics_kind, "period")))
+         plan%after = seconds(after, "after", -1.0_wp, system, diagnostics)
+         turns = period
+         t = 0.0_wp
+         if (period%given) t = seconds(period, "period", -1.0_wp, system, diagnostics)
+         if (diagnostics%count() > 0) return
+         if (plan%after < 0.0_wp) then
+            call diagnostics%add(after%location, "'after' must not be negative", "before the start", "a motion begins at t = 0")
+         else if (plan%after >= plan%end) then
+            call diagnostics%add(after%location, "'after' is not before the end", "after the end of the motion")
+         else if (plan%after < plan%first_output*(1.0_wp - 1.0e-9_wp)) then
+            call diagnostics%add(after%location, "'after' is before the first output instant", "nothing is sampled there", &
+                                 "statistics are taken on the output instants: see 'from' and 'last' of [output]")
+         else if (period%given .and. t <= 0.0_wp) then
+            call diagnostics%add(period%location, "the period must be positive", "no period")
+         end if
+         if (diagnostics%count() > 0 .or. .not. period%given) return
+         k = 0
+         do
+            turns%number = period%number*real(k, wp)
+            t = turns%number
+            if (k > 0) t = seconds(turns, "period", -1.0_wp, system, diagnostics)
+            if (diagnostics%count() > 0) return
+            if (t > plan%end*(1.0_wp + 1.0e-12_wp)) exit
+            if (t >= plan%after*(1.0_wp - 1.0e-12_wp)) plan%strobes = [plan%strobes, min(t, plan%end)]
+            k = k + 1
+         end do
+         associate (n => size(plan%strobes))
+            if (n > 1) plan%period = (plan%strobes(n) - plan%strobes(1))/real(n - 1, wp)
+            if (n > 1) return
+         end associate
+         call diagnostics%add(period%location, "there is less than one period between 'after' and the end", "too long")
+      end associate
+   end subroutine plan_statistics
 
    !> Output instant number k, from 0; the last of a grid that fits the motion is its end.
    pure real(wp) function instant(plan, k) result(t)

@@ -2,10 +2,11 @@
 module load
    use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
    use catalogue, only: catalogue_t
-   use channels, only: select_channels, selection_t
-   use deck_reader, only: deck_t, diagnostics_t, read_deck
+   use channels, only: list_scalars, select_channels, selection_t
+   use deck_reader, only: deck_t, diagnostics_t, read_deck, read_sweep, sweep_t
    use errors, only: error_t, exit_usage, set_error
-   use figure_words, only: check_figures
+   use figure_words, only: check_figures, figure_bifurcation, figure_portrait, figure_section, figure_statistics, figure_t, &
+      new_figure
    use function_range, only: check_function_ranges
    use item, only: item_t, location_t, value_t
    use kind_info, only: kind_info_t
@@ -16,11 +17,14 @@ module load
    use read_scene, only: scene_from_deck
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
    use section_info, only: column_of
+   use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
+   use study_info, only: sweep_info
+   use text, only: append_text, join, nearest_word, text_t
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
-   public :: load_deck, loaded_t
+   public :: check_swept_words, load_deck, loaded_t
 
    !> A deck that is ready to run.
    type :: loaded_t
@@ -29,6 +33,7 @@ module load
       type(scene_t) :: scene                      !! what it means
       type(planar_system_t) :: system             !! its equations
       type(time_plan_t) :: plan                   !! its times
+      type(sweep_t) :: sweep                      !! its cases
    end type loaded_t
 
 contains
@@ -51,6 +56,7 @@ contains
       loaded%path = options%operands(1)%s
       call read_deck(loaded%path, options%overrides, loaded%deck, mistakes)
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
+      if (mistakes%count() == 0) call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
       if (allocated(error)) return
       ! channels and figures are words of the loose joints and of the deck's first analysis, whatever this run has of them
@@ -68,6 +74,29 @@ contains
       call check_words(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
+
+   !> Every word that a sweep gives to a parameter must make a deck without mistakes, the other parameters being the deck's own.
+   subroutine check_swept_words(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! mistakes of the deck with one of the words
+
+      type(loaded_t) :: other
+      type(options_t) :: case
+      integer :: i, k
+
+      do k = 1, size(loaded%sweep%parameters)
+         associate (parameter => loaded%sweep%parameters(k))
+            if (parameter%unit /= "") cycle
+            do i = 1, size(parameter%texts)
+               case = options
+               call append_text(case%overrides, parameter%name//"="//parameter%texts(i)%s)
+               call load_deck(case, other, error)
+               if (allocated(error)) return
+            end do
+         end associate
+      end do
+   end subroutine check_swept_words
 
    !> The analysis that the command line names; else the first of the list that the deck has.
    subroutine choose_analysis(options, scene, error)
@@ -158,7 +187,7 @@ contains
 
       type(selection_t) :: selection
       character(:), allocatable :: hint, message
-      integer :: bad
+      integer :: bad, k
 
       associate (value => scene%output%values(column_of(scene%output_kind, "channels")))
          call select_channels(value%words, catalogue, selection, bad, message, hint)
@@ -166,9 +195,84 @@ contains
       end associate
       associate (value => scene%output%values(column_of(scene%output_kind, "figures")))
          call check_figures(value%words, catalogue, bad, message, hint)
+         if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
          if (bad > 0) call mistakes%add(place_of(value, bad), message, "no figure of this deck", hint)
       end associate
+      if (.not. scene%has_statistics) return
+      do k = 1, size(scene%statistics%values)
+         associate (value => scene%statistics%values(k))
+            if (size(value%words) == 0) cycle
+            call select_channels(value%words, catalogue, selection, bad, message, hint)
+            if (bad > 0) call mistakes%add(place_of(value, bad), message, "no channel of this deck", hint)
+         end associate
+      end do
    end subroutine check_words
+
+   !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
+   subroutine check_statistics_figures(scene, catalogue, bad, message, hint)
+      type(scene_t), intent(in) :: scene                   !! the scene
+      type(catalogue_t), intent(in) :: catalogue           !! what it can report
+      integer, intent(out) :: bad                          !! number of the first wrong word, 0: none
+      character(:), allocatable, intent(out) :: message    !! what is wrong with it
+      character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
+
+      type(figure_t) :: figure
+      type(text_t), allocatable :: known(:)
+      integer :: i, k
+
+      message = ""
+      hint = ""
+      associate (words => scene%output%values(column_of(scene%output_kind, "figures"))%words)
+         do bad = 1, size(words)
+            call new_figure(words(bad)%s, catalogue, figure, message, hint)
+            if (figure%kind <= figure_portrait) cycle
+            if (.not. scene%has_statistics) then
+               message = "'"//words(bad)%s//"' needs a section [statistics]"
+               hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
+               return
+            end if
+            if (.not. scene%statistics%values(column_of(scene%statistics_kind, "period"))%given .and. &
+                (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
+               message = "'"//words(bad)%s//"' needs the period of the drive"
+               hint = "in section [statistics]: period = 1 turns of motor, or a time"
+               return
+            end if
+            if (figure%kind /= figure_statistics) cycle
+            known = known_numbers(scene, catalogue)
+            do k = 1, size(figure%numbers)
+               if (any([(known(i)%s == figure%numbers(k)%s, i=1, size(known))])) cycle
+               message = "unknown number '"//figure%numbers(k)%s//"'"
+               hint = nearest_word(figure%numbers(k)%s, known)
+               if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
+               hint = hint//"numbers of this deck's statistics: "//join(known, " ")
+               return
+            end do
+         end do
+      end associate
+      bad = 0
+   end subroutine check_statistics_figures
+
+   !> Names of the numbers of a scene's statistics.
+   function known_numbers(scene, catalogue) result(names)
+      type(scene_t), intent(in) :: scene             !! the scene
+      type(catalogue_t), intent(in) :: catalogue     !! what it can report
+      type(text_t), allocatable :: names(:)          !! (n) names
+
+      type(number_t), allocatable :: list(:)
+      type(selection_t) :: selection
+      character(:), allocatable :: hint, message
+      integer :: bad, k
+
+      associate (words => scene%statistics%values(column_of(scene%statistics_kind, "channels"))%words)
+         call selection%clear(catalogue)
+         if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
+         call names_of_numbers(list_scalars(selection), catalogue, list)
+      end associate
+      allocate (names(0))
+      do k = 1, size(list)
+         call append_text(names, list(k)%name)
+      end do
+   end function known_numbers
 
    !> Where a word of a list stands.
    pure type(location_t) function place_of(value, word)

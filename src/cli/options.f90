@@ -8,7 +8,9 @@ module options
    private
    public :: options_t, read_options, verbs
 
-   character(*), parameter :: verbs = "run check explain new list help"  !! what the program can do
+   character(*), parameter :: verbs = "run check explain sweep new list help"  !! what the program can do
+
+   character(*), parameter :: write_words = "numbers channels all"               !! what `--write` takes
 
    !> What the user asked for.
    type :: options_t
@@ -18,6 +20,9 @@ module options
       character(:), allocatable :: directory         !! `--out DIR`; unallocated: outputs/NAME
       character(:), allocatable :: method            !! `--method M`; unallocated: as the deck says
       character(:), allocatable :: analysis          !! `--analysis A`; unallocated: the first that the deck has
+      character(:), allocatable :: write             !! `--write W`: numbers, channels or all
+      integer :: member = 0                          !! `--member K`: run K of the ensemble; 0: the start as it is
+      integer :: jobs = 0                            !! `--jobs N`: runs at once; 0: as many as there are processors
       character(:), allocatable :: command           !! the whole command line
       real(wp) :: tolerance = 0.0_wp                 !! `--tolerance X`; 0: as the deck says [1]
       logical :: is_ideal = .false.                  !! `--ideal`
@@ -35,7 +40,9 @@ contains
 
       select case (verb)
       case ("run")
-         words = "--out --set --ideal --analysis --tolerance --method --quiet --json"
+         words = "--out --set --ideal --analysis --tolerance --method --quiet --json --member --write"
+      case ("sweep")
+         words = "--out --set --ideal --tolerance --method --quiet --json --jobs"
       case ("check", "explain")
          words = "--set --ideal --analysis --tolerance --method"
       case ("help")
@@ -59,6 +66,7 @@ contains
          options%command = options%command//" "//argument(k)
       end do
       options%verb = "help"
+      options%write = "all"
       if (command_argument_count() == 0) return
       options%verb = argument(1)
       select case (options%verb)
@@ -114,6 +122,12 @@ contains
          value = argument(k)
          select case (word)
          case ("--out"); options%directory = value
+         case ("--write")
+            options%write = value
+            if (any_word(value, write_words)) return
+            call usage_error("unknown word '"//value//"' of "//word, value, write_words, error)
+         case ("--member"); call take_count(word, value, options%member, error)
+         case ("--jobs"); call take_count(word, value, options%jobs, error)
          case ("--method"); options%method = value
          case ("--analysis"); options%analysis = value
          case ("--set"); call append_text(options%overrides, value)
@@ -126,6 +140,22 @@ contains
          end select
       end select
    end subroutine take_option
+
+   !> A number of things, from 1 on.
+   subroutine take_count(word, value, n, error)
+      character(*), intent(in) :: word                     !! the option
+      character(*), intent(in) :: value                    !! its value
+      integer, intent(out) :: n                            !! the number
+      type(error_t), allocatable, intent(out) :: error     !! not a number from 1 on
+
+      integer :: status
+
+      n = 0
+      status = 1
+      if (len(value) > 0 .and. len(value) < 9 .and. verify(value, "0123456789") == 0) read (value, *, iostat=status) n
+      if (status == 0 .and. n >= 1) return
+      call set_error(error, exit_usage, "option "//word//" needs a number from 1 on, not '"//value//"'")
+   end subroutine take_count
 
    !> A mistake on the command line, with the nearest word that would do.
    subroutine usage_error(message, word, known, error)

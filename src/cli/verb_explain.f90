@@ -11,7 +11,7 @@ module verb_explain
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use kinematic_start, only: find_kinematic_start
-   use load, only: load_deck, loaded_t
+   use load, only: check_swept_words, load_deck, loaded_t
    use mobility, only: find_mobility, mobility_t
    use options, only: options_t
    use planar_system, only: planar_system_t
@@ -19,7 +19,7 @@ module verb_explain
    use section_info, only: column_of
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium
-   use text, only: real_text, text_t, to_text
+   use text, only: real_text, replace, text_t, to_text
    use time_plan, only: last_instant
    implicit none (type, external)
    private
@@ -37,13 +37,28 @@ contains
       real(wp), allocatable :: y(:)
 
       call load_deck(options, loaded, error)
+      if (.not. allocated(error)) call check_swept_words(options, loaded, error)
       if (.not. allocated(error)) call find_begin(loaded, y, assembly, error)
       if (allocated(error)) return
       call say(loaded%path//": no mistakes; "//counted(loaded%system%n_body, "body", "bodies")//", "// &
                counted(loaded%system%rows%n, "constraint row", "constraint rows")//", "// &
                counted(loaded%system%n_loose, "loose joint", "loose joints")//"; assembled to "// &
-               real_text(assembly%residual, 2)//" m or rad")
+               real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded))
    end subroutine check_deck
+
+   !> How many cases and runs a sweep of the deck has; blank if it has none.
+   function sweep_text(loaded) result(words)
+      type(loaded_t), intent(in) :: loaded     !! the deck
+      character(:), allocatable :: words       !! as `; a sweep of 4 cases, 16 runs each`
+
+      words = ""
+      if (loaded%sweep%is_present) words = "; a sweep of "//counted(loaded%sweep%n_cases(), "case", "cases")
+      if (.not. loaded%scene%has_ensemble) return
+      if (words == "") words = "; an ensemble"
+      associate (n => nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number))
+         words = words//", "//counted(n, "run", "runs")//" each"
+      end associate
+   end function sweep_text
 
    !> Where the analysis of the deck begins; the equilibrium of a static one.
    subroutine find_begin(loaded, y, assembly, error)
@@ -93,6 +108,7 @@ contains
       call explain_loose(loaded, y)
       call explain_dropped(loaded%scene, loaded%system)
       call explain_method(loaded)
+      if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
       defaults = all_defaults(loaded%deck)
       call say("")
       call say("defaults taken")

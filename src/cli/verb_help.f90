@@ -116,6 +116,8 @@ contains
       call say("  gudgeon run DECK [--out DIR] [--set NAME=VALUE]... [--ideal] [--analysis A]")
       call say("          [--tolerance X] [--method M] [--quiet] [--json]")
       call say("                              run the analysis; writes outputs/NAME/")
+      call say("  gudgeon sweep DECK [--out DIR] [--set NAME=VALUE]... [--jobs N]")
+      call say("                              run all cases of [sweep] and all runs of [ensemble], on all processors")
       call say("  gudgeon check DECK          find every mistake without integrating")
       call say("  gudgeon explain DECK        what is modelled, what was dropped, every default taken")
       call say("  gudgeon new NAME            write a commented deck NAME.deck to start from")
@@ -126,9 +128,11 @@ contains
       call say("")
       call say("--set changes a parameter of the deck, --ideal takes every loose joint as ideal, --analysis takes")
       call say("another of the deck's analyses than the first of dynamic, kinematic and static, --tolerance and --method")
-      call say("override the deck, --json prints summary.json and nothing else, --quiet prints errors only.")
+      call say("override the deck, --json prints summary.json and nothing else, --quiet prints errors only, --member K")
+      call say("runs number K of the deck's ensemble, --write numbers|channels leaves out what takes long to write.")
       call say("")
-      call say("Exit codes: 0 done, 2 usage, 3 deck, 4 assembly, 5 integration, 6 audit failed, 9 file or disk, 70 internal.")
+      call say("Exit codes: 0 done, 2 usage, 3 deck, 4 assembly, 5 integration, 6 audit failed, 8 part of a sweep failed,")
+      call say("9 file or disk, 70 internal.")
    end subroutine write_usage
 
    !> The manual, as a page of Markdown.

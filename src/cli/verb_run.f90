@@ -7,7 +7,7 @@ module verb_run
    use consistent_start, only: assembly_t
    use deck_reader, only: deck_text, get_includes
    use dynamic, only: limits_t, run_dynamic
-   use errors, only: error_t
+   use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
    use integrator, only: integrator_t, read_controls
    use integrator_registry, only: find_integrator
@@ -20,6 +20,7 @@ module verb_run
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
+   use perturbation, only: new_shift
    use planar_report, only: build_catalogue
    use planar_system, only: planar_system_t
    use prescribed_motion, only: newton_t
@@ -30,11 +31,12 @@ module verb_run
    use section_info, only: column_of
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
-   use text, only: append_text, real_text, text_t
+   use statistics, only: statistics_plan_t
+   use text, only: append_text, real_text, text_t, to_text
    use version, only: program_version
    implicit none (type, external)
    private
-   public :: new_method, run_deck
+   public :: directory_of, new_method, run_deck
 
    real(wp), parameter :: negligible = 1.0e-6_wp  !! change of a given velocity that is not worth a word [1]
 
@@ -75,12 +77,18 @@ contains
       real(wp), allocatable :: y(:)
 
       call new_method(loaded%scene, method)
-      call find_start(loaded%scene, loaded%system, y, assembly, error)
+      if (options%member > 0) then
+         call check_member(options, loaded, error)
+         if (allocated(error)) return
+         call find_start(loaded%scene, loaded%system, y, assembly, error, new_shift(loaded%scene, options%member))
+      else
+         call find_start(loaded%scene, loaded%system, y, assembly, error)
+      end if
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded%path), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory%path, assembly, plan)
-      if (size(plan%figures) > 0 .and. loaded%system%n_loose > 0) then
+      if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%n_loose > 0) then
          call run_twin(loaded, plan, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))
@@ -89,6 +97,24 @@ contains
       call run_dynamic(loaded%system, method, y, loaded%plan, limits_of(loaded%scene), keeper, summary, error)
       call directory%close()
    end subroutine run_motion
+
+   !> A run of an ensemble needs one.
+   subroutine check_member(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! the deck has no ensemble, or not so many runs
+
+      integer :: n
+
+      if (.not. loaded%scene%has_ensemble) then
+         call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
+         return
+      end if
+      n = nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number)
+      if (options%member > n) then
+         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%member))
+      end if
+   end subroutine check_member
 
    !> Motion prescribed by drivers.
    subroutine run_prescribed(options, loaded, error)
@@ -211,6 +237,7 @@ contains
       plan%libraries = library_versions()
       plan%command = options%command
       call get_includes(loaded%deck, plan%include_names, plan%include_texts)
+      call plan_statistics(loaded, plan%statistics)
       call known_words(loaded, plan)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
          call append_text(plan%warnings, "the start velocity that the deck gives body '"// &
@@ -218,12 +245,36 @@ contains
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
       if (loaded%system%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
+      plan%with_histories = options%write /= "numbers"
+      plan%with_texts = options%write == "all"
+      plan%with_figures = options%write == "all"
+      if (loaded%sweep%is_present .and. options%write == "all") then
+         call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
+                          " cases; this is the deck's own case ('gudgeon sweep' runs them)")
+      end if
       if (options%is_json) plan%show = show_json
       if (options%is_quiet) then
          plan%with_progress = .false.
          if (.not. options%is_json) plan%show = show_nothing
       end if
    end subroutine make_plan
+
+   !> What the deck asks of the statistics of a motion.
+   subroutine plan_statistics(loaded, plan)
+      type(loaded_t), intent(in) :: loaded            !! the deck
+      type(statistics_plan_t), intent(out) :: plan    !! what is asked for
+
+      plan%is_wanted = loaded%scene%has_statistics .and. loaded%scene%analysis == analysis_dynamic
+      if (.not. plan%is_wanted) return
+      plan%after = loaded%plan%after
+      plan%end = loaded%plan%end
+      plan%period = loaded%plan%period
+      associate (kind => loaded%scene%statistics_kind, values => loaded%scene%statistics%values)
+         plan%channels = values(column_of(kind, "channels"))%words
+         plan%spectra = values(column_of(kind, "spectra"))%words
+         plan%bins = nint(values(column_of(kind, "bins"))%number)
+      end associate
+   end subroutine plan_statistics
 
    !> The deck's words for channels and figures, without those that the joints taken as ideal do not have.
    subroutine known_words(loaded, plan)

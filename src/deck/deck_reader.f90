@@ -15,11 +15,12 @@ module deck_reader
    use diagnostics, only: diagnostics_t
    use echo, only: all_defaults, deck_text, echo_items, echo_settings, echo_start, get_includes, get_parameters
    use settings, only: check_sections, has_section, read_settings
+   use sweep_values, only: read_sweep, sweep_t, swept_t
    use tables, only: read_items
    implicit none (type, external)
    private
    public :: all_defaults, check_sections, deck_t, deck_text, deck_version, diagnostics_t, echo_items, echo_settings
    public :: echo_start, get_includes, get_parameters, has_section, is_name, location_of_end, read_deck, read_items
-   public :: read_settings
+   public :: read_settings, read_sweep, sweep_t, swept_t
 
 end module deck_reader

@@ -15,7 +15,8 @@ module settings
 
 contains
 
-   !> Read one section of settings; a missing one takes all defaults.
+   !> Read one section of settings; a missing one takes all defaults. Keys that stand in the deck itself win over those of
+   !> the same section in files that it includes.
    subroutine read_settings(deck, info, item, is_present, mistakes)
       type(deck_t), intent(inout) :: deck             !! the deck
       type(kind_info_t), intent(in) :: info           !! the kind
@@ -23,7 +24,7 @@ contains
       logical, intent(out) :: is_present              !! whether the deck has the section
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      logical, allocatable :: is_set(:)
+      logical, allocatable :: is_own(:), is_set(:)
       integer :: k, n_column, section
 
       section = find_section(deck, info%name)
@@ -34,18 +35,50 @@ contains
       item%name = ""
       item%location = location_of_end(deck)
       if (is_present) item%location = deck%sections(section)%location
-      allocate (item%values(n_column), is_set(n_column))
+      allocate (item%values(n_column), is_own(n_column), is_set(n_column))
       is_set = .false.
+      is_own = .false.
       do k = 1, n_column
          call blank_value(info%columns(k), item%values(k))
          item%values(k)%location = item%location
       end do
-      do k = 1, deck%n_line
-         if (deck%lines(k)%section /= section) cycle
-         call read_line(deck, info, deck%tokens%t(deck%lines(k)%first:deck%lines(k)%last), item, is_set, mistakes)
-      end do
+      call read_lines(.true.)
+      is_own = is_set
+      call read_lines(.false.)
       call take_defaults(deck, info, is_present, item, is_set, mistakes)
+
+   contains
+
+      !> The lines of the deck itself, or those of included files.
+      subroutine read_lines(of_deck)
+         logical, intent(in) :: of_deck  !! which of the two
+
+         integer :: i
+
+         do i = 1, deck%n_line
+            associate (line => deck%lines(i), head => deck%sections(deck%lines(i)%section))
+               if (head%name /= info%name .or. (head%location%file == 1 .neqv. of_deck)) cycle
+               if (is_own_key(deck, info, deck%tokens%t(line%first), is_own)) cycle
+               call read_line(deck, info, deck%tokens%t(line%first:line%last), item, is_set, mistakes)
+            end associate
+         end do
+      end subroutine read_lines
+
    end subroutine read_settings
+
+   !> Whether a line of an included file gives a key that the deck itself gives.
+   logical function is_own_key(deck, info, first, is_own)
+      type(deck_t), intent(in) :: deck        !! the deck
+      type(kind_info_t), intent(in) :: info   !! the kind
+      type(token_t), intent(in) :: first      !! first token of the line
+      logical, intent(in) :: is_own(:)        !! (keys) whether they stand in the deck itself
+
+      integer :: k
+
+      k = column_index(info, text_of(deck, first))
+      is_own_key = k > 0
+      if (is_own_key) is_own_key = is_own(k)
+   end function is_own_key
 
    !> Read one setting.
    subroutine read_line(deck, info, list, item, is_set, mistakes)
@@ -144,7 +177,10 @@ contains
          if (k > size(kinds)) then
             call report_unknown(deck, i, kinds, mistakes)
          else if (.not. kinds(k)%is_table) then
-            first = find_section(deck, name)
+            do first = 1, i
+               if (deck%sections(first)%name == name .and. (deck%sections(first)%location%file == 1 .eqv. &
+                                                            deck%sections(i)%location%file == 1)) exit
+            end do
             if (first < i) call mistakes%add(deck%sections(i)%location, "section "//name//" stands twice", &
                                 & "settings stand in one place", "first in line " &
                                 & //to_text(deck%sections(first)%location%line))

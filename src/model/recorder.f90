@@ -1,6 +1,6 @@
 !> The contract between an analysis and whatever keeps its results.
 !>
-!> The order of calls is `start`, then any number of `sample`, `event` and `progress`, then
+!> The order of calls is `start`, then any number of `sample`, `strobe`, `event` and `progress`, then
 !> `finish`, which is also called when the analysis failed: nothing already recorded may be lost.
 module recorder
    use catalogue, only: catalogue_t
@@ -67,6 +67,7 @@ module recorder
    contains
       procedure(start_interface), deferred :: start
       procedure(sample_interface), deferred :: sample
+      procedure :: strobe => skip_strobe
       procedure(event_interface), deferred :: event
       procedure(progress_interface), deferred :: progress
       procedure(finish_interface), deferred :: finish
@@ -118,5 +119,15 @@ module recorder
          type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
       end subroutine finish_interface
    end interface
+
+contains
+
+   !> Keep the catalogue's current values as those of an instant once per period of the drive: unless a recorder asks for
+   !> them, nothing.
+   subroutine skip_strobe(self, t, catalogue)
+      class(recorder_t), intent(inout) :: self           !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+   end subroutine skip_strobe
 
 end module recorder

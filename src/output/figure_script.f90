@@ -101,7 +101,7 @@ contains
          axes%y = choose_unit(groups(figure%scalars(last)%group)%channel%unit, largest_y(curves))
       end associate
       two_panels = needs_zoom(curves, ideal)
-      call preamble(lines, figure, 1200, merge(1000, 800, two_panels))
+      call preamble(lines, figure%name, 1200, merge(1000, 800, two_panels))
       if (two_panels) call lines%line("set lmargin at screen 0.12; set rmargin at screen 0.965")
       call lines%line("set ylabel "//quoted(ordinate_label(figure, catalogue, axes%y)))
       if (is_portrait) then

@@ -2,24 +2,36 @@
 !>
 !> `slider.velocity`, `guide.penetration`, `energy.*`: time histories of channels of one unit.
 !> `gudgeon.orbit`: path of the journal in its clearance. `portrait(slider.velocity.x,slider.acceleration.x)`:
-!> the second over the first.
+!> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
+!> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
+!> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it.
 module figure_words
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t, room_clearances, room_contacts
    use channel_names, only: item_name, scalar_t
    use channels, only: list_scalars, match_word, selection_t
    use kinds, only: wp
-   use text, only: join, nearest_word, starts_with, text_t
+   use text, only: append_text, join, nearest_word, starts_with, text_t
    use text_writer, only: extra_table_t
    implicit none (type, external)
    private
    public :: add_figure_channels, check_figures, extra_tables, figure_t, new_figure
-   public :: figure_history, figure_orbit, figure_portrait
+   public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
+   public :: figure_spectrum, figure_statistics, is_of_run, spectral_scalars, stroboscopic_scalars
 
    integer, parameter :: figure_history = 1   !! channels over time
    integer, parameter :: figure_orbit = 2     !! eccentricity, y over x
    integer, parameter :: figure_portrait = 3  !! one channel over another
+   integer, parameter :: figure_section = 4      !! one channel over another, once per period
+   integer, parameter :: figure_spectrum = 5     !! amplitude over frequency
+   integer, parameter :: figure_histogram = 6    !! number of impacts over speed or force
+   integer, parameter :: figure_bifurcation = 7  !! of a sweep: a channel once per period over the parameter
+   integer, parameter :: figure_statistics = 8   !! of a sweep: numbers with their spread over the parameter
+   integer, parameter :: most_panels = 4         !! of a figure of statistics
    integer, parameter :: most_curves = 12     !! of one figure
-   character(*), parameter :: portrait_word = "portrait("  !! how a portrait begins
+   !> How the figures with arguments begin, by their kind.
+   character(*), parameter :: call_words(figure_portrait:figure_statistics) = [character(12) :: "portrait(", "section(", &
+      "spectrum(", "histogram(", "bifurcation(", "statistics("]
+   character(*), parameter :: histogram_words = "impact_speed peak_force"  !! what there are histograms of
    character(*), parameter :: orbit_word = ".orbit"        !! how an orbit ends
 
    !> One figure.
@@ -29,6 +41,7 @@ module figure_words
       character(:), allocatable :: name             !! of its files: letters, digits, `_`, `-` and dots
       type(scalar_t), allocatable :: scalars(:)     !! (n) curves; of an orbit its coordinates; of a portrait x and y
       integer :: joint = 0                          !! of an orbit: number of the clearance joint
+      type(text_t), allocatable :: numbers(:)       !! (n) of statistics: their names; of a histogram: joint, quantity
    end type figure_t
 
 contains
@@ -67,9 +80,13 @@ contains
       hint = ""
       figure%word = word
       figure%name = file_name(word)
-      if (starts_with(word, portrait_word)) then
-         call new_portrait(word, catalogue, figure, message, hint)
-      else if (len(word) > len(orbit_word) .and. index(word, orbit_word, back=.true.) == &
+      figure%kind = kind_of_call(word)
+      if (figure%kind > 0) then
+         call new_call(word, catalogue, figure, message, hint)
+         return
+      end if
+      figure%kind = figure_history
+      if (len(word) > len(orbit_word) .and. index(word, orbit_word, back=.true.) == &
                len(word) - len(orbit_word) + 1) then
          call new_orbit(word(1:len(word) - len(orbit_word)), catalogue, figure, message, hint)
       else
@@ -113,7 +130,8 @@ contains
       figure%scalars = list_scalars(named)
       if (len(message) > 0) then
          message = "unknown figure"//message(len("unknown channel") + 1:)
-         hint = hint//"; figures are a channel, JOINT.orbit and portrait(CHANNEL,CHANNEL)"
+         hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
+                "histogram(JOINT.impact_speed), bifurcation(X) and statistics(NUMBER)"
          return
       end if
       if (size(figure%scalars) == 0 .or. size(figure%scalars) > most_curves) then
@@ -177,9 +195,71 @@ contains
       end associate
    end subroutine new_orbit
 
-   !> One channel over another.
-   subroutine new_portrait(word, catalogue, figure, message, hint)
+   !> The kind of a figure with arguments, 0 if it has none.
+   pure integer function kind_of_call(word) result(kind)
+      character(*), intent(in) :: word  !! a word of the deck
+
+      do kind = figure_portrait, figure_statistics
+         if (starts_with(word, trim(call_words(kind)))) return
+      end do
+      kind = 0
+   end function kind_of_call
+
+   !> A figure with arguments.
+   subroutine new_call(word, catalogue, figure, message, hint)
       character(*), intent(in) :: word                       !! a word of the deck
+      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
+      type(figure_t), intent(inout) :: figure                !! the figure, its kind is known
+      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
+
+      type(text_t), allocatable :: arguments(:)
+      integer :: k, least, most
+
+      allocate (figure%scalars(0), figure%numbers(0))
+      least = merge(2, 1, figure%kind == figure_portrait .or. figure%kind == figure_section)
+      most = merge(most_panels, least, figure%kind == figure_statistics)
+      arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
+      if (size(arguments) < least .or. size(arguments) > most .or. word(len(word):) /= ")") then
+         message = "cannot read '"//word//"'"
+         hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", least == 2))// &
+                ") without blanks"
+         if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers, without blanks"
+         return
+      end if
+      select case (figure%kind)
+      case (figure_histogram)
+         call take_histogram(arguments(1)%s, catalogue, figure, message, hint)
+      case (figure_statistics)
+         figure%numbers = arguments
+      case default
+         do k = 1, size(arguments)
+            call take_scalar(arguments(k)%s, catalogue, figure, message, hint)
+            if (len(message) > 0) return
+         end do
+      end select
+   end subroutine new_call
+
+   !> What stands between commas before a closing parenthesis.
+   pure function arguments_of(text) result(list)
+      character(*), intent(in) :: text           !! as `a,b)`
+      type(text_t), allocatable :: list(:)       !! (n) arguments
+
+      integer :: first, length
+
+      allocate (list(0))
+      first = 1
+      do while (first <= len(text))
+         length = scan(text(first:), ",)") - 1
+         if (length < 1) exit
+         call append_text(list, text(first:first + length - 1))
+         first = first + length + 1
+      end do
+   end function arguments_of
+
+   !> Add a channel that is one number to a figure.
+   subroutine take_scalar(word, catalogue, figure, message, hint)
+      character(*), intent(in) :: word                       !! name of the channel
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
       type(figure_t), intent(inout) :: figure                !! the figure
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
@@ -187,31 +267,73 @@ contains
 
       type(selection_t) :: named
       type(scalar_t), allocatable :: scalars(:)
-      integer :: comma, first, k, last
 
-      figure%kind = figure_portrait
-      allocate (figure%scalars(2))
-      comma = index(word, ",")
-      if (comma == 0 .or. word(len(word):) /= ")") then
-         message = "cannot read '"//word//"'"
-         hint = "write portrait(x_channel,y_channel) without blanks"
-         return
+      call match_word(word, catalogue, named, message, hint)
+      if (len(message) > 0) return
+      scalars = list_scalars(named)
+      if (size(scalars) == 1) then
+         figure%scalars = [figure%scalars, scalars]
+      else
+         message = "'"//word//"' is not one number"
+         hint = "this figure needs single components, as in "//word//".x"
       end if
-      do k = 1, 2
-         first = merge(len(portrait_word) + 1, comma + 1, k == 1)
-         last = merge(comma - 1, len(word) - 1, k == 1)
-         call match_word(word(first:last), catalogue, named, message, hint)
-         if (len(message) > 0) return
-         scalars = list_scalars(named)
-         if (size(scalars) == 1) then
-            figure%scalars(k) = scalars(1)
-         else
-            message = "'"//word(first:last)//"' is not one number"
-            hint = "a portrait needs single components, as in "//word(first:last)//".x"
-            return
-         end if
+   end subroutine take_scalar
+
+   !> A histogram of what the contacts of a joint do.
+   subroutine take_histogram(word, catalogue, figure, message, hint)
+      character(*), intent(in) :: word                       !! as `gudgeon.impact_speed`
+      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
+      type(figure_t), intent(inout) :: figure                !! the figure
+      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
+
+      integer :: dot, k
+
+      dot = index(word, ".")
+      do k = 1, size(catalogue%rooms(room_contacts)%names)
+         if (dot == 0) exit
+         if (catalogue%rooms(room_contacts)%names(k)%s /= word(1:dot - 1)) cycle
+         if (index(" "//histogram_words//" ", " "//word(dot + 1:)//" ") == 0) cycle
+         call append_text(figure%numbers, word(1:dot - 1))
+         call append_text(figure%numbers, word(dot + 1:))
+         return
       end do
-   end subroutine new_portrait
+      message = "no histogram of '"//word//"'"
+      hint = "write histogram(JOINT.impact_speed) or histogram(JOINT.peak_force) for a joint with clearance"
+   end subroutine take_histogram
+
+   !> Whether a figure is one of a single run, not of a sweep.
+   pure logical function is_of_run(figure)
+      type(figure_t), intent(in) :: figure  !! the figure
+
+      is_of_run = figure%kind /= figure_bifurcation .and. figure%kind /= figure_statistics
+   end function is_of_run
+
+   !> The channels that figures need once per period.
+   function stroboscopic_scalars(figures) result(list)
+      type(figure_t), intent(in) :: figures(:)         !! (n) figures
+      type(scalar_t), allocatable :: list(:)           !! (any) channels
+
+      integer :: k
+
+      allocate (list(0))
+      do k = 1, size(figures)
+         if (figures(k)%kind == figure_section .or. figures(k)%kind == figure_bifurcation) list = [list, figures(k)%scalars]
+      end do
+   end function stroboscopic_scalars
+
+   !> The channels whose spectra figures need.
+   function spectral_scalars(figures) result(list)
+      type(figure_t), intent(in) :: figures(:)         !! (n) figures
+      type(scalar_t), allocatable :: list(:)           !! (any) channels
+
+      integer :: k
+
+      allocate (list(0))
+      do k = 1, size(figures)
+         if (figures(k)%kind == figure_spectrum) list = [list, figures(k)%scalars]
+      end do
+   end function spectral_scalars
 
    !> Add the channels that figures need to a selection.
    subroutine add_figure_channels(figures, selection)
@@ -221,6 +343,7 @@ contains
       integer :: i, k
 
       do k = 1, size(figures)
+         if (figures(k)%kind > figure_portrait) cycle
          do i = 1, size(figures(k)%scalars)
             associate (this => figures(k)%scalars(i))
                selection%groups(this%group)%mask(this%component, this%item) = .true.

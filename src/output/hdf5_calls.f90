@@ -19,7 +19,7 @@ module hdf5_calls
    implicit none (type, external)
    private
    public :: describe, integer_attribute, long_attribute, new_dataset, new_group, open_library, real_attribute
-   public :: text_attribute, text_dataset
+   public :: integer_dataset, real_dataset, string_type, text_attribute, text_dataset
 
    logical :: is_open = .false.  !! whether the library has been opened
 
@@ -163,6 +163,47 @@ contains
       if (dataset >= 0) call h5dclose_f(dataset, closed)
       call h5tclose_f(type_id, closed)
    end subroutine text_dataset
+
+   !> Make a dataset of reals and write it.
+   subroutine real_dataset(file, path, shape, values, units, long_name, status)
+      integer(hid_t), intent(in) :: file        !! file or group
+      character(*), intent(in) :: path          !! path within it
+      integer, intent(in) :: shape(:)           !! (rank) extent, in Fortran's order
+      real(wp), intent(in) :: values(:)         !! (product of shape) the numbers [any]
+      character(*), intent(in) :: units         !! SI unit, `1` if none, or a list of them
+      character(*), intent(in) :: long_name     !! what they are
+      integer, intent(inout) :: status          !! negative: failed
+
+      real(wp), allocatable, target :: store(:)
+      integer(hid_t) :: dataset
+      integer :: closed
+
+      call new_dataset(file, path, h5t_ieee_f64le, int(shape, hsize_t), dataset, status)
+      store = [values, 0.0_wp]
+      if (status >= 0 .and. size(values) > 0) call h5dwrite_f(dataset, h5t_native_double, c_loc(store), status)
+      call describe(dataset, units, long_name, "none", status)
+      if (dataset >= 0) call h5dclose_f(dataset, closed)
+   end subroutine real_dataset
+
+   !> Make a dataset of integers and write it.
+   subroutine integer_dataset(file, path, shape, values, long_name, status)
+      integer(hid_t), intent(in) :: file        !! file or group
+      character(*), intent(in) :: path          !! path within it
+      integer, intent(in) :: shape(:)           !! (rank) extent, in Fortran's order
+      integer, intent(in) :: values(:)          !! (product of shape) the numbers
+      character(*), intent(in) :: long_name     !! what they are
+      integer, intent(inout) :: status          !! negative: failed
+
+      integer, allocatable, target :: store(:)
+      integer(hid_t) :: dataset
+      integer :: closed
+
+      call new_dataset(file, path, h5t_std_i32le, int(shape, hsize_t), dataset, status)
+      store = [values, 0]
+      if (status >= 0 .and. size(values) > 0) call h5dwrite_f(dataset, h5t_native_integer, c_loc(store), status)
+      call describe(dataset, "1", long_name, "none", status)
+      if (dataset >= 0) call h5dclose_f(dataset, closed)
+   end subroutine integer_dataset
 
    !> Open an attribute to write it, making it if need be.
    subroutine open_attribute(object, name, type_id, n, attribute, status)

@@ -16,11 +16,13 @@ module hdf5_writer
    use hdf5_events, only: event_table_t
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_time
    use hdf5_rows, only: write_rows, write_states
+   use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
    use kinds, only: i8, wp
    use output_plan, only: output_plan_t
    use posix, only: host_name, release_space, remove_file, reserve_space, system_message, utc_time
    use recorder, only: status_failed, summary_t
+   use statistics, only: number_t, statistics_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -45,6 +47,7 @@ module hdf5_writer
       integer :: written = 0                           !! rows in the file
       real(wp) :: last_time = 0.0_wp                   !! time of the last row in the file [s]
       integer(i8) :: flushed_at = 0                    !! clock at the last flush
+      logical :: with_histories = .true.               !! whether rows are kept
       logical :: is_broken = .false.                   !! a write failed: nothing more is written
    contains
       procedure, public :: start => start_file
@@ -66,6 +69,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/run.h5"
+      self%with_histories = plan%with_histories
       block = rows_of_block(catalogue)
       allocate (self%times(block))
       status = 0
@@ -124,7 +128,7 @@ contains
 
       integer :: at, i, k
 
-      if (self%is_broken) return
+      if (self%is_broken .or. .not. self%with_histories) return
       self%waiting = self%waiting + 1
       self%times(self%waiting) = t
       do k = 1, size(self%datasets)
@@ -225,11 +229,14 @@ contains
                      ". Make room there, or write elsewhere with --out DIRECTORY.")
    end subroutine fail
 
-   !> Write what waits and how the run went, and close the file.
-   subroutine finish_file(self, summary, events, error)
+   !> Write what waits, the statistics and how the run went, and close the file.
+   subroutine finish_file(self, summary, events, statistics, catalogue, numbers, error)
       class(hdf5_writer_t), intent(inout) :: self        !! the file
       type(summary_t), intent(in) :: summary             !! cost and errors of the run
       type(event_list_t), intent(in) :: events           !! all events
+      type(statistics_t), intent(in) :: statistics       !! what was gathered for the statistics
+      type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
+      type(number_t), intent(in) :: numbers(:)           !! (any) the statistics
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
 
       integer :: status
@@ -243,6 +250,9 @@ contains
          call text_attribute(self%file, "status", status_failed, status)
       else
          call self%events%sort(events, status)
+         if (statistics%plan%is_wanted) then
+            call write_statistics(self%file, statistics, catalogue, events, summary%time_end, numbers, status)
+         end if
          call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)
          call text_attribute(self%file, "status", summary%status, status)

@@ -21,6 +21,7 @@ module json_text
       procedure :: put_integer
       procedure :: put_logical
       procedure :: put_list
+      procedure :: put_object
       procedure :: put_objects
       procedure :: get => get_object
    end type json_object_t
@@ -106,6 +107,16 @@ contains
       if (size(list) > 0) call self%buffer%add(new_line("a")//self%indent)
       call self%buffer%add("]")
    end subroutine put_list
+
+   !> A member that is a finished object.
+   subroutine put_object(self, name, value)
+      class(json_object_t), intent(inout) :: self  !! the object
+      character(*), intent(in) :: name             !! of the member
+      character(*), intent(in) :: value            !! the object as text
+
+      call put_name(self, name)
+      call self%buffer%add(value)
+   end subroutine put_object
 
    !> A member that is a list of finished objects.
    subroutine put_objects(self, name, list)

@@ -40,7 +40,7 @@ contains
       path = curves(v)
       path%x = curves(h)%y
       width = real_text(axes%x%factor*radius, 9)
-      call preamble(lines, figure, 1000, 1000)
+      call preamble(lines, figure%name, 1000, 1000)
       call lines%line("set title "//quoted(title)//" font ',17'")
       call lines%line("set xlabel "//quoted(axis_of(curves(h))//" ["//axes%x%symbol//"]"))
       call lines%line("set ylabel "//quoted(axis_of(curves(v))//" ["//axes%y%symbol//"]"))

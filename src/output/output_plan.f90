@@ -1,5 +1,6 @@
 !> What a recorder is told before a run: where its files go and what they say of the run.
 module output_plan
+   use statistics, only: statistics_plan_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -28,7 +29,10 @@ module output_plan
       type(text_t), allocatable :: channels(:)         !! (n) words of the deck's `channels`; none: everything
       type(text_t), allocatable :: figures(:)          !! (n) words of the deck's `figures`
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
+      type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       logical :: with_hdf5 = .true.                    !! write run.h5
+      logical :: with_histories = .true.               !! write time histories to run.h5
+      logical :: with_texts = .true.                   !! write time histories and events as text
       logical :: with_summary = .true.                 !! write summary.txt and summary.json
       logical :: with_figures = .true.                 !! make the figures at the end
       logical :: with_progress = .true.                !! show how far the run is on the standard error

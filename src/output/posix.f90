@@ -10,9 +10,11 @@ module posix
    use posix_interfaces, only: c_is_empty, c_isatty, c_lock, c_make_directory, c_path_kind
    use posix_interfaces, only: c_real_path, c_release, c_remove_file, c_remove_tree, c_rename
    use posix_interfaces, only: c_reserve, c_setenv, c_start_program, c_unlock, c_utc_time
-   use posix_interfaces, only: c_wait_program, c_write_at, c_write_open
+   use posix_interfaces, only: c_own_path, c_processors, c_wait_any, c_wait_program, c_write_at, c_write_open
+   use text, only: buffer_t, text_t
    implicit none (type, external)
    private
+   public :: n_processors, own_path, wait_any
    public :: host_name, is_busy, is_directory, is_empty_directory, is_missing
    public :: is_terminal, lock_file, make_directory, path_exists, real_path, remove_file, remove_tree
    public :: release_space, rename_path, reserve_space, set_default_variable, start_program, system_message
@@ -183,18 +185,46 @@ contains
    end function host_name
 
    !> Start a program without a shell.
-   integer function start_program(directory, program, option, argument, log, process) result(code)
+   integer function start_program(directory, program, arguments, log, process) result(code)
       character(*), intent(in) :: directory  !! where it runs
       character(*), intent(in) :: program    !! its name, found along PATH
-      character(*), intent(in) :: option     !! first argument
-      character(*), intent(in) :: argument   !! second argument
+      type(text_t), intent(in) :: arguments(:) !! (n) its arguments
       character(*), intent(in) :: log        !! file for its messages, in the directory
       integer, intent(out) :: process        !! its number, for `wait_program`
 
+      type(buffer_t) :: list
+      integer :: k
+
       process = 0
-      code = c_start_program(directory//c_null_char, program//c_null_char, option//c_null_char, &
-                             argument//c_null_char, log//c_null_char, process)
+      do k = 1, size(arguments)
+         call list%add(arguments(k)%s//c_null_char)
+      end do
+      code = c_start_program(directory//c_null_char, program//c_null_char, list%get()//c_null_char, size(arguments), &
+                             log//c_null_char, process)
    end function start_program
+
+   !> Wait for whichever program ends next; its number, 0 if none is running.
+   integer function wait_any(code) result(process)
+      integer, intent(out) :: code  !! its exit code, 128 + signal if one ended it
+
+      code = 0
+      process = c_wait_any(code)
+   end function wait_any
+
+   !> Processors that this process may use.
+   integer function n_processors()
+      n_processors = c_processors()
+   end function n_processors
+
+   !> The file that this process runs, blank if the system does not tell.
+   function own_path() result(path)
+      character(:), allocatable :: path   !! absolute
+
+      character(kind=c_char) :: text(longest_text)
+
+      call c_own_path(text, longest_text)
+      path = from_c(text)
+   end function own_path
 
    !> Wait for a program that was started; its exit code.
    integer function wait_program(process) result(code)

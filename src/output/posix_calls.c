@@ -11,11 +11,16 @@
 #include <ftw.h>
 #include <limits.h>
 #include <math.h>
+#include <sched.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -204,10 +209,19 @@ void gudgeon_host_name(char *name, int capacity)
    name[capacity - 1] = '\0';
 }
 
-/* Starts a program in a directory without a shell; its messages go to a file there. ENOENT: not installed. */
-int gudgeon_start_program(const char *directory, const char *program, const char *option, const char *argument,
+enum { max_arguments = 1024 };
+
+/* Starts a program in a directory without a shell; its messages go to a file there. The arguments stand one behind the
+ * other, each with a null character at its end. ENOENT: not installed. */
+int gudgeon_start_program(const char *directory, const char *program, const char *arguments, int n_arguments,
                           const char *log, int *process)
 {
+   char *vector[max_arguments + 2] = {(char *)program};
+   if (n_arguments > max_arguments) return E2BIG;
+   for (int k = 1; k <= n_arguments; k++) {
+      vector[k] = (char *)arguments;
+      arguments += strlen(arguments) + 1;
+   }
    int report[2];
    if (pipe(report) != 0) return errno;
    fcntl(report[1], F_SETFD, FD_CLOEXEC);
@@ -220,15 +234,17 @@ int gudgeon_start_program(const char *directory, const char *program, const char
       return code;
    }
    if (child == 0) {
-      char *const arguments[] = {(char *)program, (char *)option, (char *)argument, NULL};
       int code = 0;
       close(report[0]);
+#ifdef __linux__
+      prctl(PR_SET_PDEATHSIG, SIGTERM); /* it ends with the program that asked for it */
+#endif
       if (chdir(directory) != 0) code = EIO;
       int input = open("/dev/null", O_RDWR);
       int messages = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
       if (messages < 0) messages = input;
       if (code == 0 && dup2(input, 0) >= 0 && dup2(input, 1) >= 0 && dup2(messages, 2) >= 0)
-         execvp(program, arguments);
+         execvp(program, vector);
       if (code == 0) code = errno;
       ssize_t told = write(report[1], &code, sizeof code);
       _exit(told > 0 ? 127 : 126);
@@ -245,6 +261,36 @@ int gudgeon_start_program(const char *directory, const char *program, const char
    }
    *process = (int)child;
    return 0;
+}
+
+/* Waits for whichever program ends next; its number, and its exit code as below. 0: none is running. */
+int gudgeon_wait_any(int *code)
+{
+   int status = 0;
+   pid_t child;
+   do child = waitpid(-1, &status, 0);
+   while (child < 0 && errno == EINTR);
+   if (child < 0) return 0;
+   *code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+   return (int)child;
+}
+
+/* Processors that this process may use. */
+int gudgeon_processors(void)
+{
+#ifdef __linux__
+   cpu_set_t set;
+   if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+#endif
+   long n = sysconf(_SC_NPROCESSORS_ONLN);
+   return n > 0 ? (int)n : 1;
+}
+
+/* The file that this process runs; empty where the system does not tell. */
+void gudgeon_own_path(char *path, int capacity)
+{
+   ssize_t n = readlink("/proc/self/exe", path, (size_t)capacity - 1);
+   path[n > 0 ? n : 0] = '\0';
 }
 
 /* Waits for a program that was started; returns its exit code, 128 + signal if one ended it. */

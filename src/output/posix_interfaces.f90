@@ -6,7 +6,7 @@ module posix_interfaces
    public :: c_error_text, c_host_name, c_is_empty, c_isatty
    public :: c_lock, c_make_directory, c_path_kind, c_real_path, c_release, c_remove_file
    public :: c_remove_tree, c_rename, c_reserve, c_setenv, c_start_program, c_unlock, c_utc_time
-   public :: c_wait_program, c_write_at, c_write_open
+   public :: c_own_path, c_processors, c_wait_any, c_wait_program, c_write_at, c_write_open
 
    ! allow(assumed-size, assumed-size-character-intent)
    interface
@@ -122,17 +122,35 @@ module posix_interfaces
          integer(c_int), value :: capacity               !! characters there is room for
       end subroutine c_host_name
 
-      integer(c_int) function c_start_program(directory, program, option, argument, log, process) &
+      integer(c_int) function c_start_program(directory, program, arguments, n_arguments, log, process) &
          bind(c, name="gudgeon_start_program")
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(in) :: directory(*)  !! (n) where it runs
          character(kind=c_char), intent(in) :: program(*)    !! (n) its name, found along PATH
-         character(kind=c_char), intent(in) :: option(*)     !! (n) first argument
-         character(kind=c_char), intent(in) :: argument(*)   !! (n) second argument
+         character(kind=c_char), intent(in) :: arguments(*)  !! (n) arguments, each with its null character
+         integer(c_int), value :: n_arguments                !! number of arguments
          character(kind=c_char), intent(in) :: log(*)        !! (n) file for its messages
          integer(c_int), intent(out) :: process              !! its number
       end function c_start_program
+
+      integer(c_int) function c_wait_any(code) bind(c, name="gudgeon_wait_any")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), intent(out) :: code  !! exit code
+      end function c_wait_any
+
+      integer(c_int) function c_processors() bind(c, name="gudgeon_processors")
+         import :: c_int
+         implicit none (type, external)
+      end function c_processors
+
+      subroutine c_own_path(path, capacity) bind(c, name="gudgeon_own_path")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(out) :: path(*)  !! (capacity) the file
+         integer(c_int), value :: capacity               !! characters there is room for
+      end subroutine c_own_path
 
       integer(c_int) function c_wait_program(process) bind(c, name="gudgeon_wait_program")
          import :: c_int

@@ -8,18 +8,23 @@ module run_recorder
    use channels, only: select_channels, selection_t
    use errors, only: error_t, exit_deck, set_error
    use event_list, only: event_list_t
-   use figure_words, only: add_figure_channels, extra_tables, figure_t, new_figure
+   use figure_words, only: add_figure_channels, extra_tables, figure_t, is_of_run, new_figure, spectral_scalars, &
+      stroboscopic_scalars
    use figures, only: make_figures
    use hdf5_writer, only: hdf5_writer_t
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp
    use output_plan, only: output_plan_t, show_json, show_summary
+   use plot_table, only: plot_table_t
    use posix, only: write_output
    use progress, only: progress_t
    use recorder, only: event_t, recorder_t, status_failed, summary_t
+   use statistics, only: number_t, statistics_t
+   use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
    use text, only: append_text, text_t
    use text_file, only: fail_file, replace_file, write_file
+   use text_table, only: file_heading
    use text_writer, only: text_writer_t
    implicit none (type, external)
    private
@@ -31,16 +36,19 @@ module run_recorder
       type(catalogue_t), allocatable, private :: items        !! what the run can report, for the figures
       type(selection_t), private :: selection                 !! what of it is kept
       type(figure_t), allocatable, private :: figures(:)      !! (n) figures to be made
+      type(figure_t), allocatable, private :: of_sweep(:)     !! (n) figures of a sweep that this run may be a part of
       type(event_list_t), private :: events                   !! all events
       type(hdf5_writer_t), private :: hdf5                    !! run.h5
       type(text_writer_t), private :: texts                   !! time histories and events.dat
       type(progress_t), private :: display                    !! how far the run is
+      type(statistics_t), private :: statistics               !! what is gathered for the statistics
       real(wp), private :: last_time = 0.0_wp                 !! time of the last sample [s]
       logical, private :: has_started = .false.               !! files were made
       logical, private :: is_broken = .false.                 !! a file could not be written
    contains
       procedure :: start => start_run
       procedure :: sample => sample_run
+      procedure :: strobe => strobe_run
       procedure :: event => event_run
       procedure :: progress => progress_run
       procedure :: finish => finish_run
@@ -62,10 +70,17 @@ contains
          call write_file(self%plan%directory//"/deck.echo", self%plan%deck_echo, error)
          if (allocated(error)) return
       end if
+      if (self%plan%is_twin()) self%plan%statistics%is_wanted = .false.
+      call self%statistics%start(self%plan%statistics, catalogue, [stroboscopic_scalars(self%figures), &
+                                 stroboscopic_scalars(self%of_sweep)], &
+                                 spectral_scalars(self%figures))
+      if (.not. self%plan%with_histories) call self%selection%clear(catalogue)
       if (self%plan%with_hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
-      call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
-      if (allocated(error)) return
+      if (self%plan%with_texts) then
+         call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
+         if (allocated(error)) return
+      end if
       self%has_started = .true.
       call self%display%start(self%plan%with_progress)
    end subroutine start_run
@@ -94,10 +109,13 @@ contains
          call self%selection%clear(catalogue)
          exit
       end do
-      allocate (self%figures(0))
+      allocate (self%figures(0), self%of_sweep(0))
       do k = 1, size(self%plan%figures)
          call new_figure(self%plan%figures(k)%s, catalogue, figure, message, hint)
-         if (len(message) == 0) then
+         if (len(message) == 0 .and. .not. is_of_run(figure) .and. .not. self%plan%is_twin()) then
+            ! figures of a sweep ask a run for their channels only
+            call append_figure(self%of_sweep, figure)
+         else if (len(message) == 0) then
             call append_figure(self%figures, figure)
          else if (.not. self%plan%is_twin()) then
             call set_error(error, exit_deck, message//"; "//hint)
@@ -148,10 +166,20 @@ contains
 
       self%last_time = t
       if (self%plan%with_hdf5) call self%hdf5%sample(t, catalogue, self%events, error)
-      call self%texts%sample(t, catalogue, self%events, second)
+      if (self%plan%with_texts) call self%texts%sample(t, catalogue, self%events, second)
+      call self%statistics%sample(t, catalogue)
       call join_errors(error, second)
       if (allocated(error)) self%is_broken = .true.
    end subroutine sample_run
+
+   !> Keep the current values as those of an instant once per period.
+   subroutine strobe_run(self, t, catalogue)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+
+      call self%statistics%strobe(t, catalogue)
+   end subroutine strobe_run
 
    !> Two failures in one.
    subroutine join_errors(error, second)
@@ -192,21 +220,35 @@ contains
       type(error_t), allocatable :: second
       type(outcome_t) :: outcome
       type(summary_t) :: full
+      type(number_t), allocatable :: numbers(:)
+      type(plot_table_t), allocatable :: tables(:)
       type(text_t), allocatable :: missing(:)
+      integer :: k
 
       call self%display%finish()
       if (.not. self%has_started) return
       full = complete_summary(summary)
-      if (self%plan%with_hdf5) call self%hdf5%finish(full, self%events, error)
-      call self%texts%finish(self%last_time, self%events, second)
-      call join_errors(error, second)
-      outcome%files = self%texts%names
+      numbers = self%statistics%numbers(self%items, self%events, full%time_end)
+      if (self%plan%with_hdf5) call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, error)
+      allocate (outcome%files(0))
+      if (self%plan%with_texts) then
+         call self%texts%finish(self%last_time, self%events, second)
+         call join_errors(error, second)
+         outcome%files = self%texts%names
+      end if
+      outcome%numbers = numbers
       allocate (outcome%pictures(0), outcome%warnings(0))
       call append_all(outcome%warnings, self%plan%warnings)
       call append_all(outcome%warnings, full%warnings)
       self%is_broken = self%is_broken .or. allocated(error)
       if (self%plan%with_figures .and. .not. self%is_broken) then
-         call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, outcome%pictures, missing, second)
+         allocate (tables(size(self%figures)))
+         do k = 1, size(tables)
+            call statistics_table(self%figures(k), self%statistics, self%items, self%events, full%time_end, &
+                                  file_heading(self%plan), tables(k))
+         end do
+         call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, outcome%pictures, &
+                           missing, second)
          call append_all(outcome%warnings, missing)
          call join_errors(error, second)
       end if

@@ -2,7 +2,6 @@
 module script_parts
    use display_units, only: display_unit_t
    use figure_data, only: curve_t
-   use figure_words, only: figure_t
    use kinds, only: wp
    use text, only: buffer_t, real_text, to_text
    implicit none (type, external)
@@ -27,18 +26,18 @@ module script_parts
 contains
 
    !> What every script begins with.
-   subroutine preamble(lines, figure, width, height)
+   subroutine preamble(lines, name, width, height)
       type(buffer_t), intent(inout) :: lines   !! the script
-      type(figure_t), intent(in) :: figure     !! the figure
+      character(*), intent(in) :: name         !! of the figure's files
       integer, intent(in) :: width             !! of the picture, in pixels
       integer, intent(in) :: height            !! of the picture, in pixels
 
-      call lines%line("# Edit this script and run it here again:  gnuplot "//figure%name//".gp")
+      call lines%line("# Edit this script and run it here again:  gnuplot "//name//".gp")
       call lines%line("reset")
       call lines%line("set encoding utf8")
       call lines%line("set terminal pngcairo noenhanced size "//to_text(width)//","//to_text(height)// &
                       " font ""DejaVu Sans,15""")
-      call lines%line("set output '"//figure%name//".png'")
+      call lines%line("set output '"//name//".png'")
       call lines%line("set key autotitle columnhead")
       call lines%line(key_below)
       call lines%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")

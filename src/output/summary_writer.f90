@@ -8,6 +8,7 @@ module summary_writer
    use output_plan, only: output_plan_t
    use plot_text, only: valid_utf8
    use recorder, only: status_complete, summary_t
+   use statistics, only: number_t
    use text, only: append_text, buffer_t, real_text, text_t, to_text
    use text_table, only: one_line
    implicit none (type, external)
@@ -21,6 +22,7 @@ module summary_writer
    type :: outcome_t
       type(text_t), allocatable :: files(:)     !! (n) files of data, paths within the directory
       type(text_t), allocatable :: pictures(:)  !! (m) pictures, paths within the directory
+      type(number_t), allocatable :: numbers(:) !! (l) the statistics
       type(text_t), allocatable :: warnings(:)  !! (k) what a careful reader should know, and what was not made
    end type outcome_t
 
@@ -84,6 +86,7 @@ contains
       call lines%line("events     "//to_text(summary%events)//" located, "//to_text(summary%contacts)// &
                       " contacts began; "//to_text(summary%samples)//" output instants")
       call impact_lines(lines, events)
+      call number_lines(lines, plan, outcome%numbers)
       call lines%line("")
       call lines%line("output     "//plan%directory//"/")
       if (plan%with_hdf5) call lines%line("           run.h5")
@@ -189,6 +192,25 @@ contains
       end do
    end subroutine impact_lines
 
+   !> The statistics.
+   subroutine number_lines(lines, plan, numbers)
+      type(buffer_t), intent(inout) :: lines     !! the summary
+      type(output_plan_t), intent(in) :: plan    !! what is known of the run
+      type(number_t), intent(in) :: numbers(:)   !! (any) the statistics
+
+      character(:), allocatable :: name
+      integer :: k
+
+      if (size(numbers) == 0) return
+      call lines%line("")
+      call lines%line("statistics from "//real_text(plan%statistics%after, 9)//" s on")
+      do k = 1, size(numbers)
+         name = numbers(k)%name
+         if (numbers(k)%unit /= "1") name = name//" ["//numbers(k)%unit//"]"
+         call lines%line("           "//name//right(real_text(numbers(k)%value, 9), max(58 - len(name), 2)))
+      end do
+   end subroutine number_lines
+
    !> A duration as text.
    pure function ended(duration) result(s)
       real(wp), intent(in) :: duration   !! of a contact; NaN: not ended [s]
@@ -224,6 +246,7 @@ contains
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
       call put_summary(json, summary)
+      if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)
       call json%put_list("figures", outcome%pictures)
@@ -263,6 +286,21 @@ contains
       call json%put_real("wall_seconds", summary%wall_seconds)
       call json%put_real("seconds_per_rhs", seconds_per_rhs(summary))
    end subroutine put_summary
+
+   !> The statistics as an object.
+   function numbers_object(numbers) result(object)
+      type(number_t), intent(in) :: numbers(:)      !! (any) the statistics
+      character(:), allocatable :: object           !! as text
+
+      type(json_object_t) :: json
+      integer :: k
+
+      call json%start(1)
+      do k = 1, size(numbers)
+         call json%put_real(numbers(k)%name, numbers(k)%value)
+      end do
+      object = json%get()
+   end function numbers_object
 
    !> The first impacts as objects.
    function impact_objects(events) result(objects)

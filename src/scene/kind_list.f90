@@ -14,6 +14,7 @@ module kind_list
    use kind_info, only: kind_info_t
    use normal_law, only: normal_law_t
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
    private
    public :: all_kinds, clearance_info, force_info, friction_info, function_info, joint_info, law_info
@@ -92,7 +93,7 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(8 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(11 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
@@ -128,6 +129,9 @@ contains
       kinds(n + 2) = kinematic_info()
       kinds(n + 3) = static_info()
       kinds(n + 4) = output_info()
+      kinds(n + 5) = statistics_info()
+      kinds(n + 6) = sweep_info()
+      kinds(n + 7) = ensemble_info()
    end subroutine all_kinds
 
 end module kind_list

@@ -22,6 +22,7 @@ module read_scene
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
       n_analysis, n_base, scene_t, table_bodies, table_materials, table_points
    use section_info, only: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use study_info, only: ensemble_info, statistics_info
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
    implicit none (type, external)
@@ -50,6 +51,7 @@ contains
       call read_settings(deck, scene_info(), scene%header, is_present, diagnostics)
       call read_analyses(deck, scene, diagnostics)
       call read_settings(deck, scene%output_kind, scene%output, is_present, diagnostics)
+      call read_studies(deck, scene, diagnostics)
       call read_tables(deck, scene, diagnostics)
       call add_names(scene%base(table_bodies)%items, directory%bodies)
       call add_names(scene%base(table_points)%items, directory%points)
@@ -106,6 +108,24 @@ contains
          call read_settings(deck, scene%kinematic_kind, scene%kinematic, is_present, diagnostics)
       end if
    end subroutine read_analyses
+
+   !> The sections of statistics and of many runs, if the deck has them.
+   subroutine read_studies(deck, scene, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck
+      type(scene_t), intent(inout) :: scene               !! settings are set
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      logical :: is_present
+
+      scene%statistics_kind = statistics_info()
+      scene%has_statistics = has_section(deck, scene%statistics_kind%name)
+      if (scene%has_statistics) then
+         call read_settings(deck, scene%statistics_kind, scene%statistics, is_present, diagnostics)
+      end if
+      scene%ensemble_kind = ensemble_info()
+      scene%has_ensemble = has_section(deck, scene%ensemble_kind%name)
+      if (scene%has_ensemble) call read_settings(deck, scene%ensemble_kind, scene%ensemble, is_present, diagnostics)
+   end subroutine read_studies
 
    !> The tables of joints, forces and clearances.
    subroutine read_tables(deck, scene, diagnostics)

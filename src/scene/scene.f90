@@ -72,6 +72,12 @@ module scene
       type(item_t) :: static                                 !! its settings, defaults if the deck has none
       type(kind_info_t) :: output_kind                       !! keys of the output
       type(item_t) :: output                                 !! settings of the output
+      logical :: has_statistics = .false.                    !! whether statistics are asked for
+      type(kind_info_t) :: statistics_kind                   !! keys of the statistics
+      type(item_t) :: statistics                             !! their settings
+      logical :: has_ensemble = .false.                      !! whether there are runs from perturbed starts
+      type(kind_info_t) :: ensemble_kind                     !! keys of the ensemble
+      type(item_t) :: ensemble                               !! its settings
    end type scene_t
 
 end module scene

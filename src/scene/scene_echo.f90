@@ -28,6 +28,8 @@ contains
       if (scene%has_analysis(analysis_kinematic)) text = text//echo_settings(scene%kinematic_kind, scene%kinematic)
       if (scene%has_analysis(analysis_static)) text = text//echo_settings(scene%static_kind, scene%static)
       text = text//echo_settings(scene%output_kind, scene%output)
+      if (scene%has_statistics) text = text//echo_settings(scene%statistics_kind, scene%statistics)
+      if (scene%has_ensemble) text = text//echo_settings(scene%ensemble_kind, scene%ensemble)
 
    contains
 

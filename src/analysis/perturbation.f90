@@ -1,0 +1,56 @@
+!> Perturbed starts of an ensemble.
+!>
+!> Every coordinate of every body is moved, and its velocity changed, by a random number, equally likely between minus and
+!> plus the amplitude of [ensemble]; the angle by that over the radius of gyration, so that all coordinates move alike.
+!> `find_start` then assembles the mechanism anew, its loose joints loose: what drivers and joints hold goes back, what is
+!> free stays moved. The numbers follow from the seed and the number of the run alone: a run is the same whatever runs
+!> beside it and whatever parameters are swept.
+module perturbation
+   use kinds, only: wp
+   use scene, only: scene_t
+   use section_info, only: column_of
+   implicit none (type, external)
+   private
+   public :: new_shift, shift_t
+
+   integer, parameter :: discarded = 64  !! numbers after which generators with neighbouring seeds have parted
+
+   !> A perturbation of the start.
+   type :: shift_t
+      real(wp), allocatable :: q(:)  !! (3 bodies) of positions [m, m, rad]
+      real(wp), allocatable :: v(:)  !! (3 bodies) of velocities [m/s, m/s, rad/s]
+   end type shift_t
+
+contains
+
+   !> The perturbation of a run.
+   function new_shift(scene, member) result(shift)
+      type(scene_t), intent(in) :: scene    !! the scene, with an ensemble
+      integer, intent(in) :: member         !! number of the run, from 1
+      type(shift_t) :: shift                !! its perturbation
+
+      integer, allocatable :: state(:)
+      integer :: k, n
+      real(wp) :: arm, unused(discarded), x(6)
+
+      call random_seed(size=n)
+      allocate (state(n))
+      associate (kind => scene%ensemble_kind, values => scene%ensemble%values)
+         state = [(ieor(nint(values(column_of(kind, "seed"))%number), 40503*k), k=1, n)]
+         state(1) = ieor(state(1), member)
+         call random_seed(put=state)
+         call random_number(unused)
+         allocate (shift%q(3*scene%bodies%n), shift%v(3*scene%bodies%n))
+         do k = 1, scene%bodies%n
+            arm = 1.0_wp
+            if (scene%bodies%inertia(k) > 0.0_wp) arm = sqrt(scene%bodies%inertia(k)/scene%bodies%mass(k))
+            call random_number(x)
+            x = 2.0_wp*x - 1.0_wp
+            x([3, 6]) = x([3, 6])/arm
+            shift%q(3*k - 2:3*k) = values(column_of(kind, "position"))%number*x(1:3)
+            shift%v(3*k - 2:3*k) = values(column_of(kind, "velocity"))%number*x(4:6)
+         end do
+      end associate
+   end function new_shift
+
+end module perturbation

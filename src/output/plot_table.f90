@@ -1,0 +1,246 @@
+!> Figures that are not histories: a table of numbers beside its script, drawn in one or several panels.
+!>
+!> The table is `NAME.dat` in the folder of the figures, the script `NAME.gp`; both are text that a user can edit.
+module plot_table
+   use display_units, only: choose_unit, display_unit_t
+   use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use plot_text, only: quoted
+   use script_parts, only: colours, key_below, preamble
+   use text, only: buffer_t, real_text, text_t, to_text
+   use text_file, only: write_file
+   implicit none (type, external)
+   private
+   public :: draw_bars, draw_boxes, draw_lines, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t, write_plot
+
+   integer, parameter :: draw_points = 1   !! dots
+   integer, parameter :: draw_lines = 2    !! a line
+   integer, parameter :: draw_boxes = 3    !! boxes from `low` to `high` on the abscissa
+   integer, parameter :: draw_bars = 4     !! dots joined by a line, with bars of half length `low`
+   integer, parameter :: draw_marks = 5    !! small dashes, without a title
+
+   !> One curve: columns of the table.
+   type :: plot_curve_t
+      integer :: style = draw_points          !! one of the above
+      integer :: x = 1                        !! column of the abscissa
+      integer :: y = 2                        !! column of the ordinate
+      integer :: low = 0                      !! column of the bar's half length, or of a box's begin
+      integer :: high = 0                     !! column of a box's end
+      integer :: colour = 1                   !! number of the colour
+      integer :: first = 1                    !! its first row
+      integer :: last = huge(1)               !! its last row
+      character(:), allocatable :: title      !! in the legend; blank: none
+   end type plot_curve_t
+
+   !> Curves over one another.
+   type :: panel_t
+      character(:), allocatable :: y_name              !! what stands beside the ordinate
+      character(:), allocatable :: y_unit              !! SI unit
+      logical :: is_log_y = .false.                    !! whether the ordinate is logarithmic
+      type(plot_curve_t), allocatable :: curves(:)     !! (n) curves
+   end type panel_t
+
+   !> A table and how it is drawn.
+   type :: plot_table_t
+      character(:), allocatable :: name                !! of the files, without suffix
+      character(:), allocatable :: heading             !! lines with `#` before the columns
+      type(text_t), allocatable :: labels(:)           !! (columns) names with units
+      real(wp), allocatable :: values(:, :)            !! (columns, rows) SI [any]
+      character(:), allocatable :: x_name              !! what stands below the abscissa
+      character(:), allocatable :: x_unit              !! SI unit
+      logical :: is_log_x = .false.                    !! whether the abscissa is logarithmic
+      type(text_t), allocatable :: categories(:)       !! (n) words at 1, 2, ... of the abscissa; none: numbers
+      type(panel_t), allocatable :: panels(:)          !! (n) what is drawn
+   end type plot_table_t
+
+contains
+
+   !> Write the table and its script into a folder; nothing if it has no rows.
+   subroutine write_plot(folder, title, table, is_written, error)
+      character(*), intent(in) :: folder                 !! of the figures
+      character(*), intent(in) :: title                  !! of the scene, any text
+      type(plot_table_t), intent(in) :: table            !! the table
+      logical, intent(out) :: is_written                 !! whether there was something to draw
+      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+
+      is_written = .false.
+      if (.not. allocated(table%values)) return
+      if (size(table%values) == 0) return
+      call write_file(folder//"/"//table%name//".dat", table_text(table), error)
+      if (.not. allocated(error)) call write_file(folder//"/"//table%name//".gp", script_of(table, title), error)
+      is_written = .not. allocated(error)
+   end subroutine write_plot
+
+   !> The table as text.
+   function table_text(table) result(text)
+      type(plot_table_t), intent(in) :: table   !! the table
+      character(:), allocatable :: text         !! whole lines
+
+      type(buffer_t) :: lines
+      character(24) :: number
+      integer :: i, k
+
+      call lines%add(table%heading)
+      do i = 1, size(table%labels)
+         if (i > 1) call lines%add(" ")
+         call lines%add(""""//table%labels(i)%s//"""")
+      end do
+      call lines%line("")
+      do k = 1, size(table%values, 2)
+         do i = 1, size(table%values, 1)
+            write (number, "(es24.16e3)") table%values(i, k)
+            if (i > 1) call lines%add(" ")
+            call lines%add(number)
+         end do
+         call lines%line("")
+      end do
+      text = lines%get()
+   end function table_text
+
+   !> The script.
+   function script_of(table, title) result(script)
+      type(plot_table_t), intent(in) :: table     !! the table
+      character(*), intent(in) :: title           !! of the scene, any text
+      character(:), allocatable :: script         !! lines for gnuplot
+
+      type(buffer_t) :: lines
+      type(display_unit_t) :: x
+      character(:), allocatable :: tics
+      integer :: k, n
+
+      n = size(table%panels)
+      call preamble(lines, table%name, merge(1200, 1500, n < 3), merge(800, 1100, n < 2))
+      call lines%line("unset key")
+      x = choose_unit(table%x_unit, largest(table, [(table%panels(1)%curves(k)%x, k=1, size(table%panels(1)%curves))]))
+      call lines%line("set xlabel "//quoted(with_unit(table%x_name, x)))
+      call lines%line("set offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06")
+      if (table%is_log_x) call lines%line("set logscale x; set format x '%g'")
+      if (size(table%categories) > 0) then
+         tics = ""
+         do k = 1, size(table%categories)
+            if (k > 1) tics = tics//", "
+            tics = tics//quoted(table%categories(k)%s)//" "//to_text(k)
+         end do
+         call lines%line("set xtics ("//tics//") noenhanced rotate by -20")
+      end if
+      if (n == 1) then
+         call lines%line("set title "//quoted(title)//" font ',17'")
+      else
+         call lines%line("set multiplot layout "//trim(merge("2,1", "2,2", n < 3))//" title "//quoted(title)//" font ',17'")
+      end if
+      do k = 1, n
+         if (has_titles(table%panels(k))) call lines%line(key_below)
+         call panel_lines(lines, table, table%panels(k), x)
+      end do
+      if (n > 1) call lines%line("unset multiplot")
+      call lines%line("unset output")
+      script = lines%get()
+   end function script_of
+
+   !> Whether a panel has a legend.
+   pure logical function has_titles(panel)
+      type(panel_t), intent(in) :: panel  !! the panel
+
+      integer :: k
+
+      has_titles = .false.
+      do k = 1, size(panel%curves)
+         has_titles = has_titles .or. len(panel%curves(k)%title) > 0
+      end do
+   end function has_titles
+
+   !> One panel.
+   subroutine panel_lines(lines, table, panel, x)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(plot_table_t), intent(in) :: table     !! the table
+      type(panel_t), intent(in) :: panel          !! the panel
+      type(display_unit_t), intent(in) :: x       !! scale of the abscissa
+
+      type(display_unit_t) :: y
+      integer :: k
+
+      y = choose_unit(panel%y_unit, largest(table, panel%curves%y))
+      call lines%line("set ylabel "//quoted(with_unit(panel%y_name, y)))
+      call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y))
+      if (any(panel%curves%style == draw_lines)) call lines%line("set autoscale xfix; unset offsets")
+      if (any(panel%curves%style == draw_boxes)) then
+         call lines%line("set style fill solid 0.5; unset offsets; set xrange [0:*]; set yrange [0:*]")
+      end if
+      do k = 1, size(panel%curves)
+         call lines%line(merge("plot ", "     ", k == 1)//curve_text(table, panel%curves(k), x, y)// &
+                         merge(", \", "   ", k < size(panel%curves)))
+      end do
+   end subroutine panel_lines
+
+   !> One curve of a plot command.
+   function curve_text(table, curve, x, y) result(s)
+      type(plot_table_t), intent(in) :: table     !! the table
+      type(plot_curve_t), intent(in) :: curve     !! the curve
+      type(display_unit_t), intent(in) :: x       !! scale of the abscissa
+      type(display_unit_t), intent(in) :: y       !! scale of the ordinate
+      character(:), allocatable :: s              !! as `'name.dat' using ($1*1000):2 with lines`
+
+      character(:), allocatable :: colour
+
+      colour = " linecolor rgb '"//colours(mod(curve%colour - 1, size(colours)) + 1)//"'"
+      s = "'"//table%name//".dat'"
+      if (curve%last < huge(1)) s = s//" every ::"//to_text(curve%first - 1)//"::"//to_text(curve%last - 1)
+      s = s//" using "
+      select case (curve%style)
+      case (draw_boxes)
+         s = s//"(($"//to_text(curve%low)//"+$"//to_text(curve%high)//")*"//real_text(0.5_wp*x%factor, 9)//"):"// &
+             scaled(curve%y, y)//":(($"//to_text(curve%high)//"-$"//to_text(curve%low)//")*"//real_text(x%factor, 9)// &
+             ") with boxes linewidth 1"//colour
+      case (draw_bars)
+         s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//":"//scaled(curve%low, y)// &
+             " with yerrorlines linewidth 2 pointtype 7 pointsize 1.2"//colour
+      case (draw_lines)
+         s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with lines linewidth 1.5"//colour
+      case (draw_marks)
+         s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with points pointtype 1 pointsize 0.9 linewidth 1"//colour
+      case default
+         s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with points pointtype 7 pointsize 0.7"//colour
+      end select
+      if (len(curve%title) > 0) then
+         s = s//" title "//quoted(curve%title)
+      else
+         s = s//" notitle"
+      end if
+   end function curve_text
+
+   !> A column, scaled.
+   function scaled(column, unit) result(s)
+      integer, intent(in) :: column               !! its number
+      type(display_unit_t), intent(in) :: unit    !! its scale
+      character(:), allocatable :: s              !! for `using`
+
+      s = "($"//to_text(column)//"*"//real_text(unit%factor, 9)//")"
+   end function scaled
+
+   !> A name with the unit shown.
+   function with_unit(name, unit) result(label)
+      character(*), intent(in) :: name            !! what it is
+      type(display_unit_t), intent(in) :: unit    !! its unit
+      character(:), allocatable :: label          !! as `velocity [m/s]`
+
+      label = name
+      if (len(unit%symbol) > 0) label = label//" ["//unit%symbol//"]"
+   end function with_unit
+
+   !> Greatest magnitude in some columns.
+   pure real(wp) function largest(table, columns)
+      type(plot_table_t), intent(in) :: table  !! the table
+      integer, intent(in) :: columns(:)        !! (any) columns
+
+      integer :: i, k
+
+      largest = 0.0_wp
+      do k = 1, size(table%values, 2)
+         do i = 1, size(columns)
+            if (ieee_is_finite(table%values(columns(i), k))) largest = max(largest, abs(table%values(columns(i), k)))
+         end do
+      end do
+   end function largest
+
+end module plot_table

@@ -1,0 +1,367 @@
+!> Numbers of a motion after its transient: of channels on the output instants, of contacts from their events, and the
+!> channels once per period of the drive.
+!>
+!> Of a channel x at the output instants t_k from the end of the transient on: mean and RMS by the trapezoidal rule,
+!> $$ \bar x = \frac{1}{t_n - t_1} \sum_k \tfrac12 (x_k + x_{k+1}) (t_{k+1} - t_k), \quad x_{rms}^2 = \overline{x^2}, $$
+!> the least and the greatest value, and the peak max |x|. Contact fractions and counts come from the located events and do
+!> not depend on the output instants: the fraction is the share of the time in which at least one contact of the joint is
+!> closed; an impact belongs to the window if its onset does.
+module statistics
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use catalogue, only: catalogue_t, room_contacts
+   use channel_names, only: scalar_name, scalar_t
+   use channels, only: list_scalars, match_word, selection_t
+   use event_list, only: event_list_t
+   use kinds, only: not_a_number, wp
+   use spectrum, only: amplitude_spectrum
+   use text, only: append_text, text_t
+   implicit none (type, external)
+   private
+   public :: add_scalars, joint_statistics, joint_statistics_t, joints_of, names_of_numbers, number_t, statistics_plan_t
+   public :: statistics_t
+
+   integer, parameter :: n_of_channel = 5  !! numbers of a channel
+   !> Their names.
+   character(*), parameter :: channel_words(n_of_channel) = [character(4) :: "mean", "rms", "peak", "min", "max"]
+   integer, parameter :: n_of_joint = 8    !! numbers of a joint with clearance
+   !> Their names.
+   character(*), parameter :: joint_words(n_of_joint) = [character(18) :: "contact_fraction", "impacts", &
+      "impacts_per_second", "impacts_per_period", "impact_speed.mean", "impact_speed.max", "peak_force.mean", "peak_force.max"]
+   !> Their units.
+   character(*), parameter :: joint_units(n_of_joint) = [character(3) :: "1", "1", "1/s", "1", "m/s", "m/s", "N", "N"]
+
+   !> What is asked for. Lists that are not allocated count as empty.
+   type :: statistics_plan_t
+      logical :: is_wanted = .false.             !! the deck has a section [statistics]
+      real(wp) :: after = 0.0_wp                 !! end of the transient [s]
+      real(wp) :: end = 0.0_wp                   !! end of the motion [s]
+      real(wp) :: period = 0.0_wp                !! of the drive, 0: none [s]
+      integer :: bins = 20                       !! of the histograms
+      type(text_t), allocatable :: channels(:)   !! (n) words for channels
+      type(text_t), allocatable :: spectra(:)    !! (n) words for channels
+   end type statistics_plan_t
+
+   !> One number of a run.
+   type :: number_t
+      character(:), allocatable :: name      !! as `motor.moment.rms`
+      character(:), allocatable :: unit      !! SI, `1` if none
+      real(wp) :: value = 0.0_wp             !! NaN: not known [any]
+   end type number_t
+
+   !> What the contacts of a joint did in the window.
+   type :: joint_statistics_t
+      character(:), allocatable :: name                 !! of the joint
+      real(wp) :: contact_fraction = 0.0_wp             !! of the time [1]
+      real(wp), allocatable :: speeds(:)                !! (impacts) impact speeds [m/s]
+      real(wp), allocatable :: forces(:)                !! (impacts) peak forces [N]
+   end type joint_statistics_t
+
+   !> What is gathered during a run.
+   type :: statistics_t
+      type(statistics_plan_t) :: plan                     !! what is asked for
+      type(scalar_t), allocatable :: channels(:)          !! (n) channels of the numbers and of the sections
+      type(scalar_t), allocatable :: spectra(:)           !! (m) channels of the spectra
+      integer :: n_strobe = 0                             !! instants once per period so far
+      real(wp), allocatable :: strobe_times(:)            !! (n_strobe or more) these instants [s]
+      real(wp), allocatable :: strobes(:, :)              !! (n, n_strobe or more) the channels at them, SI [any]
+      integer, private :: n_sample = 0                    !! output instants in the window so far
+      real(wp), private :: t_first = 0.0_wp               !! the first of them [s]
+      real(wp), private :: t_last = 0.0_wp                !! the last of them [s]
+      real(wp), allocatable, private :: x_last(:)         !! (n) values at the last instant, SI [any]
+      real(wp), allocatable, private :: integral(:)       !! (n) of the values [any]
+      real(wp), allocatable, private :: integral_2(:)     !! (n) of their squares [any]
+      real(wp), allocatable, private :: lowest(:)         !! (n) least values [any]
+      real(wp), allocatable, private :: highest(:)        !! (n) greatest values [any]
+      real(wp), allocatable, private :: series(:, :)      !! (m, n_sample or more) channels of the spectra, SI [any]
+   contains
+      procedure :: start => start_statistics
+      procedure :: sample => sample_statistics
+      procedure :: strobe => strobe_statistics
+      procedure :: numbers => numbers_of_run
+      procedure :: spectrum_of
+   end type statistics_t
+
+contains
+
+   !> Understand the words and begin; words that the catalogue does not know are skipped.
+   subroutine start_statistics(self, plan, catalogue, sections, spectra)
+      class(statistics_t), intent(inout) :: self        !! what is gathered
+      type(statistics_plan_t), intent(in) :: plan       !! what is asked for
+      type(catalogue_t), intent(in) :: catalogue        !! what can be recorded
+      type(scalar_t), intent(in) :: sections(:)         !! (any) channels that figures need once per period
+      type(scalar_t), intent(in) :: spectra(:)          !! (any) channels whose spectra figures need
+
+      integer :: n
+
+      self%plan = plan
+      self%n_sample = 0
+      self%n_strobe = 0
+      allocate (self%channels(0), self%spectra(0))
+      if (.not. plan%is_wanted) return
+      if (allocated(plan%channels)) call take_words(plan%channels, catalogue, self%channels)
+      if (allocated(plan%spectra)) call take_words(plan%spectra, catalogue, self%spectra)
+      call add_scalars(self%channels, sections)
+      call add_scalars(self%spectra, spectra)
+      n = size(self%channels)
+      allocate (self%x_last(n), self%integral(n), self%integral_2(n), source=0.0_wp)
+      allocate (self%lowest(n), source=huge(1.0_wp))
+      allocate (self%highest(n), source=-huge(1.0_wp))
+      allocate (self%strobe_times(64), self%strobes(n, 64), self%series(size(self%spectra), 1024))
+   end subroutine start_statistics
+
+   !> The numbers that words name, appended to a list.
+   subroutine take_words(words, catalogue, list)
+      type(text_t), intent(in) :: words(:)                     !! (any) words of the deck
+      type(catalogue_t), intent(in) :: catalogue               !! what can be recorded
+      type(scalar_t), allocatable, intent(inout) :: list(:)    !! (n) grown
+
+      type(selection_t) :: named
+      character(:), allocatable :: hint, message
+      integer :: k
+
+      do k = 1, size(words)
+         call match_word(words(k)%s, catalogue, named, message, hint)
+         if (len(message) == 0) call add_scalars(list, list_scalars(named))
+      end do
+   end subroutine take_words
+
+   !> Append numbers that are not in a list yet.
+   subroutine add_scalars(list, scalars)
+      type(scalar_t), allocatable, intent(inout) :: list(:)    !! (n) grown
+      type(scalar_t), intent(in) :: scalars(:)                 !! (any) numbers
+
+      integer :: k
+
+      do k = 1, size(scalars)
+         call add_scalar(list, scalars(k))
+      end do
+   end subroutine add_scalars
+
+   !> Append a number that is not in a list yet.
+   subroutine add_scalar(list, scalar)
+      type(scalar_t), allocatable, intent(inout) :: list(:)    !! (n) grown
+      type(scalar_t), intent(in) :: scalar                     !! the number
+
+      if (any(list%group == scalar%group .and. list%component == scalar%component .and. list%item == scalar%item)) return
+      list = [list, scalar]
+   end subroutine add_scalar
+
+   !> An output instant.
+   subroutine sample_statistics(self, t, catalogue)
+      class(statistics_t), intent(inout) :: self  !! what is gathered
+      real(wp), intent(in) :: t                   !! time [s]
+      type(catalogue_t), intent(in) :: catalogue  !! values at t
+
+      real(wp) :: step, x
+      integer :: k
+
+      if (.not. self%plan%is_wanted .or. t < self%plan%after) return
+      step = t - self%t_last
+      if (self%n_sample == 0) self%t_first = t
+      do k = 1, size(self%channels)
+         x = value_of(catalogue, self%channels(k))
+         if (self%n_sample > 0) then
+            self%integral(k) = self%integral(k) + 0.5_wp*step*(x + self%x_last(k))
+            self%integral_2(k) = self%integral_2(k) + 0.5_wp*step*(x**2 + self%x_last(k)**2)
+         end if
+         self%x_last(k) = x
+         self%lowest(k) = min(self%lowest(k), x)
+         self%highest(k) = max(self%highest(k), x)
+      end do
+      self%n_sample = self%n_sample + 1
+      self%t_last = t
+      if (size(self%spectra) == 0) return
+      call make_room(self%series, self%n_sample)
+      do k = 1, size(self%spectra)
+         self%series(k, self%n_sample) = value_of(catalogue, self%spectra(k))
+      end do
+   end subroutine sample_statistics
+
+   !> An instant once per period.
+   subroutine strobe_statistics(self, t, catalogue)
+      class(statistics_t), intent(inout) :: self  !! what is gathered
+      real(wp), intent(in) :: t                   !! time [s]
+      type(catalogue_t), intent(in) :: catalogue  !! values at t
+
+      real(wp), allocatable :: longer(:)
+      integer :: k
+
+      self%n_strobe = self%n_strobe + 1
+      call make_room(self%strobes, self%n_strobe)
+      if (self%n_strobe > size(self%strobe_times)) then
+         allocate (longer(size(self%strobes, 2)), source=0.0_wp)
+         longer(1:self%n_strobe - 1) = self%strobe_times
+         call move_alloc(longer, self%strobe_times)
+      end if
+      self%strobe_times(self%n_strobe) = t
+      do k = 1, size(self%channels)
+         self%strobes(k, self%n_strobe) = value_of(catalogue, self%channels(k))
+      end do
+   end subroutine strobe_statistics
+
+   !> A value of the catalogue.
+   pure real(wp) function value_of(catalogue, scalar)
+      type(catalogue_t), intent(in) :: catalogue  !! current values
+      type(scalar_t), intent(in) :: scalar        !! which
+
+      value_of = catalogue%groups(scalar%group)%data(scalar%component, scalar%item)
+   end function value_of
+
+   !> Make sure that an array has a column of a given number.
+   subroutine make_room(columns, n)
+      real(wp), allocatable, intent(inout) :: columns(:, :)  !! (any, at least n on return) [any]
+      integer, intent(in) :: n                               !! columns needed
+
+      real(wp), allocatable :: larger(:, :)
+
+      if (n <= size(columns, 2)) return
+      allocate (larger(size(columns, 1), max(n, 2*size(columns, 2))))
+      larger(:, 1:size(columns, 2)) = columns
+      call move_alloc(larger, columns)
+   end subroutine make_room
+
+   !> Amplitude spectrum of channel number k of the spectra.
+   subroutine spectrum_of(self, k, frequency, amplitude)
+      class(statistics_t), intent(in) :: self                !! what was gathered
+      integer, intent(in) :: k                               !! number of the channel
+      real(wp), allocatable, intent(out) :: frequency(:)     !! (lines) [Hz]
+      real(wp), allocatable, intent(out) :: amplitude(:)     !! (lines) SI [any]
+
+      allocate (frequency(0), amplitude(0))
+      if (self%n_sample < 2) return
+      call amplitude_spectrum(self%series(k, 1:self%n_sample), &
+                              (self%t_last - self%t_first)/real(self%n_sample - 1, wp), frequency, amplitude)
+   end subroutine spectrum_of
+
+   !> All numbers of the run.
+   function numbers_of_run(self, catalogue, events, t_end) result(list)
+      class(statistics_t), intent(in) :: self        !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue     !! what can be recorded
+      type(event_list_t), intent(in) :: events       !! all events
+      real(wp), intent(in) :: t_end                  !! last instant reached [s]
+      type(number_t), allocatable :: list(:)         !! (any) numbers
+
+      type(joint_statistics_t) :: joint
+      type(text_t), allocatable :: joints(:)
+      real(wp) :: span, values(n_of_joint)
+      integer :: k
+
+      allocate (list(0))
+      if (.not. self%plan%is_wanted) return
+      call names_of_numbers(self%channels, catalogue, list)
+      span = self%t_last - self%t_first
+      do k = 1, size(self%channels)
+         if (self%n_sample == 0) exit
+         list(n_of_channel*(k - 1) + 3)%value = max(abs(self%lowest(k)), abs(self%highest(k)))
+         list(n_of_channel*(k - 1) + 4)%value = self%lowest(k)
+         list(n_of_channel*(k - 1) + 5)%value = self%highest(k)
+         if (span <= 0.0_wp) cycle
+         list(n_of_channel*(k - 1) + 1)%value = self%integral(k)/span
+         list(n_of_channel*(k - 1) + 2)%value = sqrt(self%integral_2(k)/span)
+      end do
+      joints = joints_of(catalogue)
+      span = t_end - self%plan%after
+      do k = 1, size(joints)
+         call joint_statistics(joints(k)%s, events, self%plan%after, t_end, joint)
+         values = not_a_number()
+         values(1:2) = [joint%contact_fraction, real(size(joint%speeds), wp)]
+         if (span > 0.0_wp) values(3) = values(2)/span
+         if (span > 0.0_wp .and. self%plan%period > 0.0_wp) values(4) = values(2)*self%plan%period/span
+         if (size(joint%speeds) > 0) then
+            values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]
+            values(7:8) = [sum(joint%forces)/real(size(joint%forces), wp), maxval(joint%forces)]
+         end if
+         associate (first => n_of_channel*size(self%channels) + n_of_joint*(k - 1))
+            list(first + 1:first + n_of_joint)%value = values
+         end associate
+      end do
+   end function numbers_of_run
+
+   !> Names and units of all numbers: those of the channels, then those of the joints; the values are NaN.
+   subroutine names_of_numbers(channels, catalogue, list)
+      type(scalar_t), intent(in) :: channels(:)                !! (n) channels
+      type(catalogue_t), intent(in) :: catalogue               !! what can be recorded
+      type(number_t), allocatable, intent(out) :: list(:)      !! (any) numbers
+
+      type(text_t), allocatable :: joints(:)
+      integer :: i, k, n
+
+      joints = joints_of(catalogue)
+      allocate (list(n_of_channel*size(channels) + n_of_joint*size(joints)))
+      n = 0
+      do k = 1, size(channels)
+         do i = 1, n_of_channel
+            n = n + 1
+            list(n)%name = scalar_name(catalogue, channels(k))//"."//trim(channel_words(i))
+            list(n)%unit = catalogue%groups(channels(k)%group)%channel%unit
+            list(n)%value = not_a_number()
+         end do
+      end do
+      do k = 1, size(joints)
+         do i = 1, n_of_joint
+            n = n + 1
+            list(n)%name = joints(k)%s//"."//trim(joint_words(i))
+            list(n)%unit = trim(joint_units(i))
+            list(n)%value = not_a_number()
+         end do
+      end do
+   end subroutine names_of_numbers
+
+   !> The joints that have contacts.
+   function joints_of(catalogue) result(names)
+      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
+      type(text_t), allocatable :: names(:)       !! (n) each once
+
+      integer :: i, k
+
+      allocate (names(0))
+      associate (contacts => catalogue%rooms(room_contacts))
+         do k = 1, size(contacts%names)
+            do i = 1, size(names)
+               if (names(i)%s == contacts%names(k)%s) exit
+            end do
+            if (i > size(names)) call append_text(names, contacts%names(k)%s)
+         end do
+      end associate
+   end function joints_of
+
+   !> Contact fraction and impacts of a joint between two instants.
+   subroutine joint_statistics(name, events, from, until, joint)
+      character(*), intent(in) :: name                  !! of the joint
+      type(event_list_t), intent(in) :: events          !! all events
+      real(wp), intent(in) :: from                      !! begin of the window [s]
+      real(wp), intent(in) :: until                     !! its end [s]
+      type(joint_statistics_t), intent(out) :: joint    !! what its contacts did
+
+      real(wp) :: begin, closed, covered, end
+      integer, allocatable :: order(:)
+      integer :: k, n
+
+      joint%name = name
+      order = events%order_by_onset()
+      allocate (joint%speeds(size(order)), joint%forces(size(order)))
+      n = 0
+      closed = 0.0_wp
+      covered = from
+      do k = 1, size(order)
+         if (events%word(order(k), 1) /= "contact" .or. events%word(order(k), 2) /= name) cycle
+         associate (numbers => events%numbers(:, order(k)))
+            begin = numbers(1)
+            end = until
+            if (ieee_is_finite(numbers(5))) end = min(until, begin + numbers(5))
+            if (begin >= from .and. begin < until) then
+               n = n + 1
+               joint%speeds(n) = numbers(2)
+               joint%forces(n) = numbers(3)
+            end if
+         end associate
+         ! contacts come in the order of their onsets: what reaches beyond those before is new
+         closed = closed + max(0.0_wp, end - max(begin, covered))
+         covered = max(covered, end)
+      end do
+      joint%speeds = joint%speeds(1:n)
+      joint%forces = joint%forces(1:n)
+      if (until > from) joint%contact_fraction = closed/(until - from)
+   end subroutine joint_statistics
+
+end module statistics
