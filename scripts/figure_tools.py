@@ -44,13 +44,13 @@ def start(default, title):
 
 
 def deck_text(deck, changes):
-    """A deck without figures of its own and with the changes {section: {key: value}}; a key that is not there is added."""
+    """A deck without figures of its own and with the changes {section: {key: value}}; what is not there is added."""
     text = deck.read_text()
     changes = {**changes, "output": {"figures": None, **changes.get("output", {})}}
     for section, settings in changes.items():
+        if f"[{section}]" not in text:
+            text += f"\n[{section}]\n"
         found = re.search(rf"(?ms)^\[{re.escape(section)}\][^\n]*\n(.*?)(?=^\[|\Z)", text)
-        if not found:
-            sys.exit(f"{deck}: no section [{section}]")
         body = found.group(1)
         for key, value in settings.items():
             body = re.sub(rf"(?m)^{key} *=.*\n?", "", body)
