@@ -245,6 +245,11 @@ $(BENCH_PROGRAMS): $(B)/bench/%: $(B)/obj/tests/bench/%.o $(call object,$(BENCH_
 	@echo "  LD $@"
 	@$(LINK)
 
+# tests are compiled once and run once
+ifeq ($(MODE),release)
+$(TEST_OBJECTS): private FFLAGS += -O1
+endif
+
 $(B)/obj/%.o: %.f90 $(B)/flags
 	@echo "  FC $<"
 	@$(COMPILE) -c $< -o $@

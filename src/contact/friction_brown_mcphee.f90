@@ -42,9 +42,10 @@ contains
       info%help = "friction with a smooth peak of the static one at a transition speed"
       info%source = "Brown and McPhee (2016)"
       call add_number(info, "coefficient", dim_none, "coefficient of friction while sliding", lower=0.0_wp)
-      call add_number(info, "static", dim_none, "greatest coefficient, reached at v_t; at least `coefficient`", lower=0.0_wp)
+      call add_number(info, "static_coefficient", dim_none, "greatest coefficient, reached at v_t; at least `coefficient`", &
+                      lower=0.0_wp)
       call add_number(info, "v_t", dim_speed, "transition speed", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "viscous", per_speed, "coefficient in proportion to the sliding speed", default="0 s/m", lower=0.0_wp)
+      call add_number(info, "viscosity", per_speed, "coefficient in proportion to the sliding speed", default="0 s/m", lower=0.0_wp)
    end function brown_mcphee_info
 
    !> Take the parameters.
@@ -72,7 +73,9 @@ contains
       character(:), allocatable :: message       !! one line, empty: all is well
 
       message = ""
-      if (self%static < self%coefficient) message = "static must not be less than coefficient: the force falls beyond v_t"
+      if (self%static < self%coefficient) then
+         message = "static_coefficient must not be less than coefficient: the force falls beyond v_t"
+      end if
    end function brown_mcphee_mistake
 
    !> Magnitude of the friction force of n contacts.

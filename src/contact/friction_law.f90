@@ -75,7 +75,7 @@ contains
       class(friction_law_t), intent(in) :: self  !! the law
       real(wp), intent(in) :: normal_force       !! normal force, not negative [N]
 
-      f = merge(0.0_wp, 0.0_wp*normal_force, self%memory == memory_none)
+      f = 0.0_wp
    end function friction_stick_limit
 
    !> Force of the bristles of one contact and the rate of their deflection: none, unless the law says otherwise.
@@ -95,7 +95,7 @@ contains
    pure real(wp) function friction_bristle_scale(self) result(z)
       class(friction_law_t), intent(in) :: self  !! the law
 
-      z = merge(1.0_wp, 0.0_wp, self%memory >= memory_none)
+      z = 1.0_wp
    end function friction_bristle_scale
 
    !> What is wrong with the parameters as a whole, empty if nothing is; a law with such rules overrides this.

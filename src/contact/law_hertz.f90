@@ -37,7 +37,7 @@ contains
    pure real(wp) function hertz_hysteresis(restitution) result(h)
       real(wp), intent(in) :: restitution  !! coefficient of restitution ce [1]
 
-      h = 0.0_wp*restitution
+      h = 0.0_wp
    end function hertz_hysteresis
 
    !> Force of n contacts.

@@ -26,7 +26,6 @@ module build_system
    private
    public :: levels_as_written, levels_ideal, levels_loose, new_system
 
-
 contains
 
    !> Build the system of a scene.

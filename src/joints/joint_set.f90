@@ -181,7 +181,7 @@ contains
       real(wp), intent(out) :: f_dot          !! its first time derivative [rad/s]
       real(wp), intent(out) :: f_dot_dot      !! its second time derivative [rad/s^2]
 
-      f = 0.0_wp*t*k*self%n
+      f = 0.0_wp
       f_dot = 0.0_wp
       f_dot_dot = 0.0_wp
    end subroutine joint_prescription

@@ -17,7 +17,7 @@ module plot_table
    integer, parameter :: draw_points = 1   !! dots
    integer, parameter :: draw_lines = 2    !! a line
    integer, parameter :: draw_boxes = 3    !! boxes from `low` to `high` on the abscissa
-   integer, parameter :: draw_bars = 4     !! dots joined by a line, with bars of half length `low`
+   integer, parameter :: draw_bars = 4     !! dots with bars of half length `low`, joined by a line unless at words
    integer, parameter :: draw_marks = 5    !! small dashes, without a title
 
    !> One curve: columns of the table.
@@ -194,7 +194,8 @@ contains
              ") with boxes linewidth 1"//colour
       case (draw_bars)
          s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//":"//scaled(curve%low, y)// &
-             " with yerrorlines linewidth 2 pointtype 7 pointsize 1.2"//colour
+             " with "//trim(merge("yerrorbars ", "yerrorlines", size(table%categories) > 0))// &
+             " linewidth 2 pointtype 7 pointsize 1.2"//colour
       case (draw_lines)
          s = s//scaled(curve%x, x)//":"//scaled(curve%y, y)//" with lines linewidth 1.5"//colour
       case (draw_marks)

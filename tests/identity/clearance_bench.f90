@@ -12,7 +12,7 @@ module clearance_bench
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use errors, only: error_t
    use fixed_random, only: random_t
-   use friction_law, only: friction_law_t
+   use friction_law, only: friction_law_t, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -133,7 +133,7 @@ contains
          call set_number(friction_info, "v1", 1.0_wp, law_item)
          call set_number(friction_info, "v_r", 1.0e-3_wp, law_item)
          call set_number(friction_info, "v_t", 1.0e-3_wp, law_item)
-         call set_number(friction_info, "static", 0.15_wp, law_item)
+         call set_number(friction_info, "static_coefficient", 0.15_wp, law_item)
          call set_number(friction_info, "force", 1.0e4_wp, law_item)
          call friction%prepare(law_item)
          bench%name = bench%name//", "//friction_info%name
@@ -194,17 +194,30 @@ contains
          if (bench%set%n_contact_item > 1) m = m + 2
          call bring_into_contact(bench, k, m, random%vector(2, -0.5_wp*gap, 0.5_wp*gap))
          call bench%set%begin_contact(m, 0.0_wp, 5.0_wp, 0.0_wp)
+         call let_slip(bench, m)
       end do
       bench%touching = pack([(m, m=1, bench%set%n_contact)], bench%set%contact%is_touching)
       if (bench%set%n_contact_item == 1) return
       call get_gaps(bench, 0.0_wp, delta, rate)
       do k = 1, n_item
          m = (k - 1)*bench%set%n_contact_item + 4
-         if (delta(n_before + m) > 0.0_wp) call bench%set%begin_contact(m, 0.0_wp, 4.0_wp, 0.0_wp)
+         if (.not. delta(n_before + m) > 0.0_wp) cycle
+         call bench%set%begin_contact(m, 0.0_wp, 4.0_wp, 0.0_wp)
+         call let_slip(bench, m)
       end do
       bench%touching = pack([(m, m=1, bench%set%n_contact)], bench%set%contact%is_touching)
       bench%is_in_contact = bench%is_in_contact .and. bench%set%n_touching == 2*n_item - 1
    end subroutine make_bench
+
+   !> A contact that could stick slips the way that it moves.
+   subroutine let_slip(bench, contact)
+      type(bench_t), intent(inout) :: bench   !! the set
+      integer, intent(in) :: contact          !! its contact
+
+      if (bench%set%grip%memory /= memory_slip) return
+      call bench%set%lie(contact, bench%motion, bench%set%grip%tangent(contact))
+      bench%set%grip%slip(contact) = nint(sign(1.0_wp, bench%set%grip%tangent(contact)%v))
+   end subroutine let_slip
 
    !> A law for the faces of a slider.
    subroutine add_face_law(bench, random)

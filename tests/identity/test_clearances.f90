@@ -42,7 +42,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error  !! what failed
       type(bench_t), intent(inout) :: bench               !! the combination
 
-      real(wp), parameter :: h = 1.0e-6_wp
+      real(wp), parameter :: h = 4.0e-7_wp  ! the normal of a pin turns by some 1e4 rad/s
       real(wp) :: delta(n_all, 4), expected(n_all), rate(n_all)
       integer :: k
 

@@ -67,6 +67,8 @@ class Case:
         """The deck with the way's settings, and without figures."""
         text = (ROOT / self.deck).read_text()
         settings = {"method": way.method, "stabilise": way.stabilise, "solver": way.solver}
+        if (way.stabilise, way.solver) != ("auto", "auto"):
+            settings["coordinates"] = "full"  # a way of holding or solving needs constraints
         if way.tolerance:
             settings["tolerance"] = way.tolerance
         if way.step:

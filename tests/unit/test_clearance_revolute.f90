@@ -4,6 +4,7 @@ module test_clearance_revolute
    use check, only: check_close, check_equal, check_true, suite_t
    use clearance_bench, only: bench_t, claim_all, evaluate_loads, make_bench, n_all, n_before, n_body, n_item
    use errors, only: error_t
+   use friction_law, only: memory_bristle, memory_none
    use free_impact, only: impact_t, run_impact
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -42,6 +43,8 @@ contains
 
       info = bench%set%info()
       if (info%name /= "clearance.revolute") return
+      ! a force that depends on a state, or always on material velocities: test_friction_memory
+      if (bench%set%grip%memory == memory_bristle .or. (bench%is_book .and. bench%set%grip%memory /= memory_none)) return
       call evaluate_loads(bench, loads, losses)
       force = 0.0_wp
       friction = 0.0_wp
