@@ -73,7 +73,8 @@ contains
       character(:), allocatable :: message       !! one line, empty: all is well
 
       message = ""
-      if (self%static < self%coefficient) message = "static_coefficient must not be less than coefficient: the force falls beyond v_t"
+      if (self%static < self%coefficient) &
+         message = "static_coefficient must not be less than coefficient: the force falls beyond v_t"
    end function brown_mcphee_mistake
 
    !> Magnitude of the friction force of n contacts.
