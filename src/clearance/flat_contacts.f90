@@ -347,8 +347,10 @@ contains
          acceleration(c) = penetration_acceleration(self, first + c, motion, contacts(c))
       end do
       force = force_in_faces(self, item, contacts, k - first)
-      h = max(abs(contacts(k - first)%delta), least)
-      h = part*min(h/max(abs(contacts(k - first)%rate), tiny(1.0_wp)), sqrt(h/max(abs(acceleration(k - first)), tiny(1.0_wp))))
+      associate (n => self%n_contact_item)  ! the others move too, and may be faster
+         h = max(abs(contacts(k - first)%delta), least)
+         h = part*min(h/max(maxval(abs(contacts(:n)%rate)), tiny(1.0_wp)), sqrt(h/max(maxval(abs(acceleration(:n))), tiny(1.0_wp))))
+      end associate
       force_rate = 0.0_wp
       do place = 1, size(places)
          do c = 1, self%n_contact_item
