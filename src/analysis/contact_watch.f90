@@ -38,6 +38,7 @@ module contact_watch
       real(wp), allocatable :: g(:), g_rate(:)       !! (contacts) scratch event functions and rates [m, m/s]
    contains
       procedure :: after_step
+      procedure :: after_restart
       procedure :: handle_event
       procedure :: memory_size => watch_memory_size
       procedure :: save => watch_save
@@ -84,6 +85,26 @@ contains
          end do
       end do
    end subroutine after_step
+
+   !> After events: forces that jumped with them begin anew, and count as peaks at once.
+   subroutine after_restart(self, system, method)
+      class(contact_watch_t), intent(inout) :: self     !! the watch
+      type(planar_system_t), intent(inout) :: system    !! the system, at the present state
+      class(integrator_t), intent(in) :: method         !! the integrator, begun again
+
+      integer :: i, k, number
+
+      do k = 1, size(system%clearances)
+         if (.not. system%clearances(k)%set%energy_jumps .or. system%clearances(k)%set%n_touching == 0) cycle
+         call system%set_acceleration(method%step%f1)
+         do i = 1, system%clearances(k)%set%n_contact
+            if (.not. system%clearances(k)%set%contact(i)%is_touching) cycle
+            number = system%clearances(k)%set%first_contact + i
+            call look(system, k, i, self%force(number), self%penetration(number))
+            call keep_peaks(system, k, i, self%penetration(number)%value, self%force(number)%value)
+         end do
+      end do
+   end subroutine after_restart
 
    !> Force and penetration of a contact at the present motion.
    subroutine look(system, slot, item, force, penetration)
@@ -219,18 +240,20 @@ contains
       place = bracket%place_a + s*(bracket%place_b - bracket%place_a)
    end function maximum_in
 
-   !> A located event: a contact begins or ends, slips or sticks.
+   !> A located event: a contact begins or ends, slips or sticks. Where the energy that the contacts store jumps with it, what
+   !> is gone counts as lost in this contact: it is negative where the energy grows.
    subroutine handle_event(self, system, method, number, is_over, row, step_hint)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(planar_system_t), intent(inout) :: system    !! the system; the contact's state is changed
-      class(integrator_t), intent(in) :: method         !! the integrator, at the event
+      class(integrator_t), intent(inout) :: method      !! the integrator, at the event; the ledger of its state may change
       integer, intent(in) :: number                     !! number of the event function
       logical, intent(out) :: is_over                   !! there is something to tell: a contact ended, or its friction changed
       type(event_t), intent(out) :: row                 !! what there is to tell
       real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
 
-      real(wp) :: rate
+      real(wp) :: lost, rate, stored
       integer :: i, k
+      type(trend_t) :: force, penetration
 
       if (number > system%n_contact) then
          call system%find_contact(number - system%n_contact, k, i)
@@ -243,19 +266,29 @@ contains
       end if
       call system%find_contact(number, k, i)
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
+      call look(system, k, i, force, penetration)
+      rate = penetration%rate  ! the normal one: at an end of a guide that of the event is axial
       associate (set => system%clearances(k)%set)
+         stored = 0.0_wp
+         if (set%energy_jumps) stored = set%elastic_energy(system%motion)
          is_over = set%contact(i)%is_touching
          if (is_over) then
-            call set%end_contact(i, method%t, self%g_rate(number), loss_of(system, method%step%y1, number), .true., row)
+            call set%end_contact(i, method%t, -rate, loss_of(system, method%step%y1, number), .true., row)
             step_hint = 0.0_wp
          else
-            rate = self%g_rate(number)
+            rate = max(rate, 0.0_wp)
             call set%begin_contact(i, method%t, rate, loss_of(system, method%step%y1, number))
             self%force(number) = trend_t(0.0_wp, 0.0_wp)
             self%penetration(number) = trend_t(0.0_wp, rate)
             step_hint = first_step*set%contact_time(i, max(rate, tiny(1.0_wp)), &
                                                     system%inverse_mass(1, :))
          end if
+         if (.not. (set%energy_jumps .and. system%with_ledger)) return
+         lost = stored - set%elastic_energy(system%motion)
+         associate (in_contact => method%step%y1(loss_place(system, number)))
+            in_contact = in_contact + lost
+         end associate
+         if (is_over) row%energy_lost = row%energy_lost + lost
       end associate
    end subroutine handle_event
 
@@ -330,8 +363,16 @@ contains
 
       loss = not_a_number()
       if (.not. system%with_ledger) return
-      z = system%n - system%n_quadrature + n_ledger + 2*number
-      loss = y(z - 1) + y(z)
+      z = loss_place(system, number)
+      loss = y(z) + y(z + 1)
    end function loss_of
+
+   !> Place in the state of what the ledger lost by damping in a contact; what it lost by friction is the next.
+   pure integer function loss_place(system, number) result(z)
+      type(planar_system_t), intent(in) :: system  !! the system, with a ledger
+      integer, intent(in) :: number                !! number of the contact
+
+      z = system%n - system%n_quadrature + n_ledger + 2*number - 1
+   end function loss_place
 
 end module contact_watch

@@ -293,7 +293,11 @@ contains
       call decide_slips(system, method%t, method%step%y1, recorder, run, error)
       if (allocated(error)) return
       call method%restart(system, step_hint, status)
-      if (status /= 0) call describe_failure(system, method, status, error)
+      if (status /= 0) then
+         call describe_failure(system, method, status, error)
+         return
+      end if
+      call run%watch%after_restart(system, method)
    end subroutine handle_events
 
    !> Decide whether contacts that have just begun slip or stick.

@@ -45,6 +45,7 @@ module clearance_set
       integer :: first = 0                                  !! items of earlier sets
       integer :: first_contact = 0                          !! contacts of earlier sets
       logical :: is_round = .false.                         !! the clearance is a radial one
+      logical :: energy_jumps = .false.                     !! stored energy and forces may jump where a contact begins or ends
       type(text_t), allocatable :: names(:)                 !! (n) names
       type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item
       integer, allocatable :: body(:, :)                    !! (2, n) bodies of bearing and journal, 0: ground

@@ -30,7 +30,7 @@
 module clearance_translational
    use bodies, only: material_t
    use clearance_set, only: clearance_fit_law
-   use flat_contacts, only: add_contact_channels, flat_contacts_t, flat_gaps, flat_report, flat_t, flat_work_t
+   use flat_contacts, only: add_contact_channels, flat_contacts_t, flat_gaps, flat_report, flat_t
    use item, only: item_t
    use joint_translational, only: add_axis_columns
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, kind_info_t
@@ -199,6 +199,7 @@ contains
          end associate
       end do
       self%has_faces = any(self%faces /= faces_corners)
+      self%energy_jumps = any(self%faces == faces_book) .or. any(self%ends(2, :) < huge(1.0_wp))
    end subroutine translational_prepare
 
    !> Unit vector at an angle from an axis of a body.
@@ -332,95 +333,99 @@ contains
    end subroutine translational_report
 
    !> The contacts of the two corners of a long side at a surface: number q of the four of an item.
-   pure function corners_of(self, item, q) result(m)
-      class(clearance_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: item                           !! the item
-      integer, intent(in) :: q                              !! sides 1, 2 at the upper, 3, 4: at the lower surface
-      integer :: m(2)                                       !! (2) contacts of the set
+   pure function corners_of(q) result(c)
+      integer, intent(in) :: q  !! sides 1, 2 at the upper, 3, 4: at the lower surface
+      integer :: c(2)           !! (2) contacts of the item
 
       integer :: side
 
       side = modulo(q - 1, 2) + 1
-      m = (item - 1)*self%n_contact_item + (q - side)/2*n_corner + [side_1(side), side_2(side)]
+      c = (q - side)/2*n_corner + [side_1(side), side_2(side)]
    end function corners_of
 
-   !> Let faces take over from their corners.
-   subroutine translational_share_faces(self, work)
+   !> Let faces of an item take over from their corners.
+   subroutine translational_share_faces(self, item, contacts, f_n, f_elastic, f_rub)
       class(clearance_translational_t), intent(in) :: self  !! the set
-      type(flat_work_t), intent(inout) :: work              !! forces of the corners as the normal law gives them
+      integer, intent(in) :: item                           !! the item
+      type(flat_t), intent(in) :: contacts(:)               !! (8) penetrations and rates of its contacts
+      real(wp), intent(inout) :: f_n(:)                     !! (8) normal forces, as the normal law gives them [N]
+      real(wp), intent(inout) :: f_elastic(:)               !! (8) derivatives of the stored energy by the penetrations [N]
+      real(wp), intent(inout) :: f_rub(:)                   !! (8) normal forces that friction feels [N]
 
-      real(wp) :: d(2), f(2), f_elastic(2), impact_speed(2), rate(2)
-      integer :: k, m(2), q
+      real(wp) :: d(2), f(2), f_d(2), impact_speed(2), rate(2)
+      integer :: c(2), q
       logical :: is_touching(2)
 
-      do k = 1, self%n
-         if (self%faces(k) == faces_corners) cycle
-         do q = 1, n_corner
-            m = corners_of(self, k, q)
-            is_touching = self%contact(m)%is_touching
-            if (.not. any(is_touching) .or. (self%faces(k) /= faces_foundation .and. .not. all(is_touching))) cycle
-            d = work%kinematics(m)%delta
-            rate = work%kinematics(m)%rate
-            impact_speed = merge(self%contact(m)%impact_speed, 0.0_wp, is_touching)
-            if (.not. all(is_touching)) impact_speed = sum(impact_speed)
-            f = work%f_n(m)
-            f_elastic = work%f_elastic(m)
-            if (self%faces(k) == faces_blend) then
-               call find_blend(self%face_law, self%face_parameters(:, k), d, rate, impact_speed, corner_energy(self, m, d), &
-                               f, f_elastic)
-            else
-               call find_face(self%face_law, self%face_parameters(:, k), d, rate, impact_speed, f, f_elastic)
-            end if
-            work%f_n(m) = f
-            work%f_elastic(m) = f_elastic
-            work%f_rub(m) = merge(merge(f, sum(f), all(is_touching)), 0.0_wp, is_touching)
-         end do
+      f_rub = f_n
+      if (self%faces(item) == faces_corners) return
+      do q = 1, n_corner
+         c = corners_of(q)
+         associate (memory => self%contact((item - 1)*self%n_contact_item + c))
+            is_touching = memory%is_touching
+            impact_speed = merge(memory%impact_speed, 0.0_wp, is_touching)
+         end associate
+         if (.not. any(is_touching) .or. (self%faces(item) /= faces_foundation .and. .not. all(is_touching))) cycle
+         if (.not. all(is_touching)) impact_speed = sum(impact_speed)
+         d = contacts(c)%delta
+         rate = contacts(c)%rate
+         f = f_n(c)
+         f_d = f_elastic(c)
+         if (self%faces(item) == faces_blend) then
+            call find_blend(self%face_law, self%face_parameters(:, item), d, rate, impact_speed, corner_energy(self, item, c, d), &
+                            f, f_d)
+         else
+            call find_face(self%face_law, self%face_parameters(:, item), d, rate, impact_speed, f, f_d)
+         end if
+         f_n(c) = f
+         f_elastic(c) = f_d
+         f_rub(c) = merge(merge(f, sum(f), all(is_touching)), 0.0_wp, is_touching)
       end do
    end subroutine translational_share_faces
 
    !> Elastic energy of two corners.
-   function corner_energy(self, m, d) result(energy)
+   function corner_energy(self, item, c, d) result(energy)
       class(clearance_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: m(2)                           !! (2) contacts of the set
+      integer, intent(in) :: item                           !! the item
+      integer, intent(in) :: c(2)                           !! (2) contacts of the item
       real(wp), intent(in) :: d(2)                          !! (2) their penetrations [m]
       real(wp) :: energy                                    !! of those that touch [J]
 
-      integer :: c
+      integer :: k, m
 
       energy = 0.0_wp
-      do c = 1, 2
-         if (self%contact(m(c))%is_touching) energy = energy + self%law%potential(d(c), self%parameters(:, m(c)))
+      do k = 1, 2
+         m = (item - 1)*self%n_contact_item + c(k)
+         if (self%contact(m)%is_touching) energy = energy + self%law%potential(d(k), self%parameters(:, m))
       end do
    end function corner_energy
 
-   !> Elastic energy of all corners and faces.
-   function translational_face_energy(self, work) result(energy)
+   !> Elastic energy of the corners and faces of an item.
+   function translational_face_energy(self, item, contacts) result(energy)
       class(clearance_translational_t), intent(in) :: self  !! the set
-      type(flat_work_t), intent(in) :: work                 !! kinematics are set
+      integer, intent(in) :: item                           !! the item
+      type(flat_t), intent(in) :: contacts(:)               !! (8) penetrations and rates of its contacts
       real(wp) :: energy                                    !! energy stored [J]
 
       real(wp) :: d(2), of_corners
-      integer :: k, m(2), q
+      integer :: c(2), q
       logical :: is_touching(2)
 
       energy = 0.0_wp
-      do k = 1, self%n
-         do q = 1, n_corner
-            m = corners_of(self, k, q)
-            is_touching = self%contact(m)%is_touching
-            if (.not. any(is_touching)) cycle
-            d = work%kinematics(m)%delta
-            of_corners = corner_energy(self, m, d)
-            if (self%faces(k) == faces_foundation) then
-               energy = energy + bedding_energy(self%face_law, self%face_parameters(:, k), d)
-            else if (self%faces(k) == faces_corners .or. .not. all(is_touching)) then
-               energy = energy + of_corners
-            else if (self%faces(k) == faces_blend) then
-               energy = energy + blend_energy(self%face_law, self%face_parameters(:, k), d, of_corners)
-            else
-               energy = energy + bedding_energy(self%face_law, self%face_parameters(:, k), d)
-            end if
-         end do
+      do q = 1, n_corner
+         c = corners_of(q)
+         is_touching = self%contact((item - 1)*self%n_contact_item + c)%is_touching
+         if (.not. any(is_touching)) cycle
+         d = contacts(c)%delta
+         of_corners = corner_energy(self, item, c, d)
+         if (self%faces(item) == faces_foundation) then
+            energy = energy + bedding_energy(self%face_law, self%face_parameters(:, item), d)
+         else if (self%faces(item) == faces_corners .or. .not. all(is_touching)) then
+            energy = energy + of_corners
+         else if (self%faces(item) == faces_blend) then
+            energy = energy + blend_energy(self%face_law, self%face_parameters(:, item), d, of_corners)
+         else
+            energy = energy + bedding_energy(self%face_law, self%face_parameters(:, item), d)
+         end if
       end do
    end function translational_face_energy
 

@@ -22,6 +22,8 @@ module flat_contacts
    private
    public :: add_contact_channels, flat_contacts_t, flat_gaps, flat_report, flat_t, flat_work_t
 
+   integer, parameter :: most_sharing = 8  !! contacts of an item that may share faces
+
    !> Kinematics of one contact.
    type :: flat_t
       real(wp) :: normal(2) = 0.0_wp        !! (2) unit vector into the body of the plane, world frame [1]
@@ -197,10 +199,18 @@ contains
       class(flat_contacts_t), intent(in) :: self  !! the set
       type(flat_work_t), intent(inout) :: work    !! kinematics, penetrations and rates; normal forces are set
 
+      integer :: first, item, last
+
       call self%law%force(self%n_contact, work%delta, work%rate, work%impact_speed, self%parameters, &
                           work%f_n, work%df_ddelta, work%df_drate, work%f_elastic)
       work%f_rub = work%f_n
-      if (self%has_faces) call self%share_faces(work)
+      if (.not. self%has_faces) return
+      do item = 1, self%n
+         first = (item - 1)*self%n_contact_item + 1
+         last = item*self%n_contact_item
+         call self%share_faces(item, work%kinematics(first:last), work%f_n(first:last), work%f_elastic(first:last), &
+                               work%f_rub(first:last))
+      end do
    end subroutine find_normal_forces
 
    !> Add the contact forces of the touching contacts.
@@ -317,42 +327,61 @@ contains
    !> Normal force of a contact that may share a face, and its rate.
    subroutine watch_face(self, k, motion, force, force_rate)
       class(flat_contacts_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                    !! contact
+      integer, intent(in) :: k                    !! contact of the set
       type(motion_t), intent(in) :: motion        !! positions, velocities and accelerations
       real(wp), intent(out) :: force              !! normal force [N]
       real(wp), intent(out) :: force_rate         !! its rate [N/s]
 
       real(wp), parameter :: places(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
-      real(wp), parameter :: part = 1.0e-3_wp  ! of the time in which the penetration would be gone [1]
-      type(flat_work_t) :: work
-      real(wp) :: acceleration(self%n_contact), delta(self%n_contact), h, rate(self%n_contact)
-      integer :: m, place
+      real(wp), parameter :: part = 1.0e-3_wp    ! of the time in which the penetration would be gone [1]
+      real(wp), parameter :: least = 1.0e-15_wp  ! penetration that counts for that [m]
+      type(flat_t) :: contacts(most_sharing), later(most_sharing)
+      real(wp) :: acceleration(most_sharing), h
+      integer :: c, first, item, place
 
-      call new_work(self%n_contact, work)
-      call self%find_forces(motion, work)
-      force = work%f_n(k)
-      delta = work%kinematics%delta
-      rate = work%kinematics%rate
-      do m = 1, self%n_contact
-         acceleration(m) = penetration_acceleration(self, m, motion, work%kinematics(m))
+      item = self%item_of(k)
+      first = (item - 1)*self%n_contact_item
+      do c = 1, self%n_contact_item
+         call self%measure(first + c, motion, contacts(c))
+         acceleration(c) = penetration_acceleration(self, first + c, motion, contacts(c))
       end do
-      h = max(abs(delta(k)), tiny(1.0_wp))
-      h = part*min(h/max(abs(rate(k)), tiny(1.0_wp)), sqrt(h/max(abs(acceleration(k)), tiny(1.0_wp))))
+      force = force_in_faces(self, item, contacts, k - first)
+      h = max(abs(contacts(k - first)%delta), least)
+      h = part*min(h/max(abs(contacts(k - first)%rate), tiny(1.0_wp)), sqrt(h/max(abs(acceleration(k - first)), tiny(1.0_wp))))
       force_rate = 0.0_wp
       do place = 1, size(places)
-         do m = 1, self%n_contact
+         do c = 1, self%n_contact_item
             associate (t => places(place)*h)
-               work%kinematics(m)%delta = delta(m) + t*(rate(m) + 0.5_wp*t*acceleration(m))
-               work%kinematics(m)%rate = rate(m) + t*acceleration(m)
+               later(c)%delta = contacts(c)%delta + t*(contacts(c)%rate + 0.5_wp*t*acceleration(c))
+               later(c)%rate = contacts(c)%rate + t*acceleration(c)
             end associate
-            work%delta(m) = merge(work%kinematics(m)%delta, 0.0_wp, self%contact(m)%is_touching)
-            work%rate(m) = merge(work%kinematics(m)%rate, 0.0_wp, self%contact(m)%is_touching)
          end do
-         call self%find_normal_forces(work)
-         force_rate = force_rate + weights(place)*work%f_n(k)/h
+         force_rate = force_rate + weights(place)*force_in_faces(self, item, later, k - first)/h
       end do
    end subroutine watch_face
+
+   !> Normal force of a contact of an item that may share a face.
+   real(wp) function force_in_faces(self, item, contacts, c) result(force)
+      class(flat_contacts_t), intent(in) :: self            !! the set
+      integer, intent(in) :: item                           !! the item
+      type(flat_t), intent(in) :: contacts(most_sharing)    !! (most_sharing) penetrations and rates of its contacts
+      integer, intent(in) :: c                              !! contact of the item
+
+      real(wp), dimension(most_sharing) :: delta, f_elastic, f_n, f_rub, impact_speed, rate, slope_delta, slope_rate
+      integer :: first, n
+
+      n = self%n_contact_item
+      first = (item - 1)*n
+      delta(:n) = merge(contacts(:n)%delta, 0.0_wp, self%contact(first + 1:first + n)%is_touching)
+      rate(:n) = contacts(:n)%rate
+      impact_speed(:n) = merge(self%contact(first + 1:first + n)%impact_speed, 1.0_wp, &
+                               self%contact(first + 1:first + n)%is_touching)
+      call self%law%force(n, delta, rate, impact_speed, self%parameters(:, first + 1:first + n), f_n, slope_delta, slope_rate, &
+                          f_elastic)
+      call self%share_faces(item, contacts(:n), f_n(:n), f_elastic(:n), f_rub(:n))
+      force = f_n(c)
+   end function force_in_faces
 
    !> Values of a channel of the contacts, and force on j and moment about its point for all items.
    subroutine flat_report(self, channel, motion, values)
@@ -416,17 +445,17 @@ contains
       type(motion_t), intent(in) :: motion        !! positions
       real(wp) :: energy                          !! energy stored [J]
 
-      type(flat_t) :: contact
-      type(flat_work_t) :: work
-      integer :: m
+      type(flat_t) :: contact, contacts(most_sharing)
+      integer :: c, item, m
 
       energy = 0.0_wp
       if (self%has_faces) then
-         call new_work(self%n_contact, work)
-         do m = 1, self%n_contact
-            call self%measure(m, motion, work%kinematics(m))
+         do item = 1, self%n
+            do c = 1, self%n_contact_item
+               call self%measure((item - 1)*self%n_contact_item + c, motion, contacts(c))
+            end do
+            energy = energy + self%face_energy(item, contacts(:self%n_contact_item))
          end do
-         energy = self%face_energy(work)
          return
       end if
       do m = 1, self%n_contact
@@ -436,21 +465,26 @@ contains
       end do
    end function flat_elastic_energy
 
-   !> Let faces take over from contacts: a geometry without faces leaves the forces as they are.
-   subroutine flat_share_faces(self, work)
-      class(flat_contacts_t), intent(in) :: self  !! the set
-      type(flat_work_t), intent(inout) :: work    !! forces of the contacts as the normal law gives them
+   !> Let faces of an item take over from its contacts: a geometry without faces leaves the forces as they are.
+   subroutine flat_share_faces(self, item, contacts, f_n, f_elastic, f_rub)
+      class(flat_contacts_t), intent(in) :: self   !! the set
+      integer, intent(in) :: item                  !! the item
+      type(flat_t), intent(in) :: contacts(:)      !! (n_contact_item) penetrations and rates of its contacts
+      real(wp), intent(inout) :: f_n(:)            !! (n_contact_item) normal forces, as the normal law gives them [N]
+      real(wp), intent(inout) :: f_elastic(:)      !! (n_contact_item) derivatives of the stored energy by the penetrations [N]
+      real(wp), intent(inout) :: f_rub(:)          !! (n_contact_item) normal forces that friction feels [N]
 
-      work%f_rub(:self%n_contact) = work%f_n(:self%n_contact)
+      f_rub = f_n
    end subroutine flat_share_faces
 
-   !> Elastic energy with faces: a geometry without faces has none.
-   function flat_face_energy(self, work) result(energy)
-      class(flat_contacts_t), intent(in) :: self  !! the set
-      type(flat_work_t), intent(in) :: work       !! kinematics are set
-      real(wp) :: energy                          !! energy stored [J]
+   !> Elastic energy of an item with faces: a geometry without faces has none.
+   function flat_face_energy(self, item, contacts) result(energy)
+      class(flat_contacts_t), intent(in) :: self   !! the set
+      integer, intent(in) :: item                  !! the item
+      type(flat_t), intent(in) :: contacts(:)      !! (n_contact_item) penetrations and rates of its contacts
+      real(wp) :: energy                           !! energy stored [J]
 
-      energy = 0.0_wp*self%n*work%delta(1)
+      energy = 0.0_wp
    end function flat_face_energy
 
 end module flat_contacts

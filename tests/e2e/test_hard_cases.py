@@ -72,3 +72,17 @@ def test_generator_refuses_nonsense():
         )
         assert done.returncode == 2
         assert "make_chain" in done.stderr and done.stdout == ""
+
+
+@pytest.mark.parametrize("deck, law", (("pin_at_rest", "flores"), ("dropped_ball", "exact"), ("dropped_ball", "flores")))
+def test_steps_of_a_contact_at_rest_do_not_collapse(gudgeon, deck, law):
+    """A pin and a ball that came to rest: a late second takes no more steps than the one in which the bounces died out."""
+    steps = []
+    for end in (1, 2, 10):
+        directory = scratch()
+        text = changed((ROOT / "inputs" / "hard" / f"{deck}.deck").read_text(), "analysis.dynamic", end=f"{end} s")
+        text = changed(changed(text, "parameters", law=law), "output", figures=None)
+        call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
+        steps.append(Run(directory / "out").summary["steps"])
+    early, late = steps[0], (steps[2] - steps[1])/8
+    assert late <= 1.2*early, f"{late} steps per second late, {early} in the first"

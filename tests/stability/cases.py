@@ -14,6 +14,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "e2e"))
+import contact_measures as contact  # noqa: E402
 import references as ref  # noqa: E402
 from support import changed  # noqa: E402
 
@@ -244,6 +245,70 @@ def redundant(name, deck, body, omega, start, report):
     )
 
 
+BALL = f"{HARD}/dropped_ball.deck"
+BODIES = f"{HARD}/two_free_bodies.deck"
+PIN = f"{HARD}/pin_at_rest.deck"
+QUIET = ("output", "every", "10 ms")
+
+
+def with_parameters(**values):
+    """Settings of a deck's parameters."""
+    return tuple(("parameters", key, value) for key, value in values.items())
+
+
+def impact_of(name, restitution, fast=None, pin_mass=1.0, **parameters):
+    """Two free bodies: what the law delivers, and momentum."""
+    return Case(name, BODIES, contact.delivered(restitution, pin_mass), "restitution and momentum, relative",
+                must(1e-8, "1e-10", fast=fast),
+                settings=with_parameters(restitution=restitution, pin_mass=f"{pin_mass} kg", **parameters))
+
+
+def elastic(name, deck, **parameters):
+    """Elastic bounces: each changes the energy by less than ten times the tolerance, either way."""
+    return Case(name, deck, contact.energy_per_bounce, "energy per bounce, relative",
+                tuple(Way(tolerance, limit=10.0*float(tolerance), is_fast=tolerance == "1e-8")
+                      for tolerance in ("1e-6", "1e-8", "1e-10")), settings=with_parameters(**parameters))
+
+
+def bounded(steps, end):
+    """No more than so many steps until the end: the run fails beyond."""
+    return (("analysis.dynamic", "maximum_steps", str(steps)), ("analysis.dynamic", "end", end))
+
+
+TINY = with_parameters(c="1 um") + (("output", "channels", "slider.position energy.*"),)
+CONTACTS = (
+    impact_of("impact, ce = 0.1", 0.1, fast="1e-10"),
+    impact_of("heavy pin", 0.5, pin_mass=1.0e4, fast="1e-10"),
+    impact_of("light pin", 0.5, pin_mass=1.0e-4, fast="1e-10"),
+    elastic("elastic pin", BODIES, law="hertz"),
+    elastic("elastic ball", BALL),
+    elastic("elastic ball, fast", BALL, height="1 m"),
+    elastic("exact, ce = 1", BODIES, restitution="1"),
+    Case("10,000 bounces", BALL, contact.energy_of_10000_bounces, "energy of all bounces, relative", must(1e-4, "1e-10"),
+         settings=(("analysis.dynamic", "end", "660 s"), ("output", "every", "1 s"))),
+    Case("pin at rest", PIN, contact.at_rest(contact.PIN_REST), "depth, relative", must(1e-6, "1e-8", fast="1e-8"),
+         settings=bounded(60000, "100 s") + (QUIET,)),
+    Case("ball at rest", BALL, contact.at_rest(contact.BALL_REST), "depth, relative", must(1e-6, "1e-8", fast="1e-8"),
+         settings=with_parameters(law="exact") + bounded(60000, "100 s") + (QUIET,)),
+    Case("bounces that die out", BALL, contact.zeno_times(0.5), "onsets, of the time of all bounces",
+         must(1e-2, "1e-8", fast="1e-8"), settings=with_parameters(law="exact", height="1 m") + bounded(6000, "4 s")),
+    Case("overlap at the start", BALL, contact.overlap_told("floor", 2e-6), "depth in the message, relative",
+         must(1e-6, "1e-8", fast="1e-8"), ends_early=True, settings=with_parameters(height="-2 um")),
+    Case("preloaded", BALL, contact.at_rest(contact.BALL_REST), "depth, relative", must(1e-6, "1e-8", fast="1e-8"),
+         settings=with_parameters(law="exact", height=f"{-contact.BALL_REST} m") + (("analysis.dynamic", "overlap", "preload"),)),
+    Case("both faces at once", f"{HARD}/wedged_slider.deck", contact.wedge_angle, "angle beyond touch, relative",
+         must(1e-6, "1e-8", fast="1e-8"), settings=bounded(3000, "0.2 s")),
+    Case("clearance 1 um", "inputs/slider_crank_dry.deck", contact.distance_from_ideal, "slider off its ideal place [um]",
+         must(5.0, "1e-8", fast="1e-8"), settings=TINY + bounded(20000, "24 ms")),
+    Case("clearance 1 um, ledger", "inputs/slider_crank_dry.deck", contact.ledger, "residual, relative", must(1e-6, "1e-8"),
+         settings=TINY),
+    Case("grazed by 1 nm", f"{HARD}/grazed_plane.deck", contact.grazed(1e-9), "impact speed, relative",
+         must(1e-6, "1e-10", fast="1e-10")),
+    Case("missed by 1 nm", f"{HARD}/grazed_plane.deck", contact.grazed(-1e-9), "contacts", must(0.0, "1e-10", fast="1e-10"),
+         settings=with_parameters(overlap="-1 nm")),
+    Case("two contacts at once", f"{HARD}/two_contacts.deck", contact.both_at_once, "durations, peaks, turning, relative",
+         must(1e-8, "1e-10", fast="1e-10")),
+)
 CASES = (
     Case("A01 pendulum", f"{HARD}/a01_simple_pendulum.deck", bob_at_end, "bob at 10 s [m]",
          must(1e-8, "1e-10", fast="1e-10") + (Way("1e-6"), Way("1e-8"), Way("", method="rk4", step="1 ms")) + others("1e-10")),
@@ -280,4 +345,5 @@ CASES = (
     Case("dead point", f"{HARD}/dead_point.deck", dead_point_time, "time in the message [s]",
          must(1e-3, "1e-8", fast="1e-8") + tuple(Way("1e-8", stabilise=hold) for hold in HOLDS),
          ends_early=True, says=("top|crankpin|pivot|motor|main", "dead point|try")),
+    *CONTACTS,
 )

@@ -85,10 +85,13 @@ def solve(program, case, way, directory):
 
 def measure_run(case, result, run, output):
     """The numbers of a run that ended as it should."""
+    if case.ends_early:
+        result.error = case.measure(output)
+        if not (run.directory / "summary.json").exists():  # it did not even begin
+            return
     summary = run.summary
     result.cpu_seconds, result.steps = summary["cpu_seconds"], summary["steps"]
     if case.ends_early:
-        result.error = case.measure(output)
         return
     result.error = case.measure(run)
     result.violation = summary["violation_max"]
