@@ -1,6 +1,5 @@
 #!/bin/sh
-# Runs every deck of inputs/ and tells where the figures are; without decks also those of inputs/studies/, each with all its runs,
-# and draws what compares several runs.
+# Runs every deck of inputs/ and tells where the figures are; without decks also draws what compares several runs.
 # scripts/make_figures.sh PROGRAM [DECK...]
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -10,18 +9,14 @@ shift
 comparisons=""
 if [ $# -eq 0 ]; then
    comparisons="scripts/four_bar_figures scripts/law_figures scripts/slider_crank_figures"
-   set -- inputs/*.deck inputs/studies/*.deck
+   set -- inputs/*.deck
 fi
 [ -e "$1" ] || { echo "no decks in inputs/" >&2; exit 1; }
 
 failed=""
 for deck in "$@"; do
    name=$(basename "$deck" .deck)
-   case $deck in
-      */studies/*) verb=sweep ;;
-      *) verb=run ;;
-   esac
-   if "$program" "$verb" "$deck" --out "outputs/$name" --quiet; then
+   if "$program" run "$deck" --out "outputs/$name" --quiet; then
       n=$(find "outputs/$name/figures" -name '*.png' 2>/dev/null | wc -l)
       echo "$deck: $n figures in outputs/$name/figures"
    else
