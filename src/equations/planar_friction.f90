@@ -9,7 +9,7 @@
 !> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
 !>
 !> Events: slip s = +-1 ends where s v_T falls to zero; sticking ends where |x| = c_s F_N, its rate by a difference along the
-!> motion. A slip that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit:
+!> motion, or where a driver has torn the contact loose. A slip that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit:
 !> so a contact that can neither slip nor stick costs a bounded number of steps.
 !>
 !> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
@@ -28,6 +28,7 @@ submodule(planar_system) planar_friction
    real(wp), parameter :: shortest = 1.0e-7_wp      !! time between two decisions that is no chatter [s]
    real(wp), parameter :: least_band = 1.0e-12_wp   !! first speed the wrong way that is borne after a chatter [m/s]
    real(wp), parameter :: widest_band = 1.0e-5_wp   !! last one [m/s]
+   real(wp), parameter :: torn = 1.0e-4_wp          !! speed at which a contact that sticks has been torn loose by a driver [m/s]
 
 contains
 
@@ -216,7 +217,7 @@ contains
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
                associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
                   if (slip == sticks) then
-                     g(number) = abs(tangent%f_t) - set%friction%stick_limit(tangent%f_n)
+                     g(number) = short_of(tangent%f_t, tangent%v, set%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
                      g(number) = -slip*tangent%v - set%grip%band(k)
@@ -241,12 +242,22 @@ contains
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
                associate (tangent => set%grip%tangent(k))
-                  g(self%n_contact + set%first_contact + k) = abs(tangent%f_t) - set%friction%stick_limit(tangent%f_n)
+                  g(self%n_contact + set%first_contact + k) = short_of(tangent%f_t, tangent%v, &
+                                                                       set%friction%stick_limit(tangent%f_n))
                end associate
             end do
          end associate
       end do
    end subroutine note_holds
+
+   !> What a contact that sticks is beyond giving way: by its force, or by a speed that only a driver can have given it.
+   pure real(wp) function short_of(f_t, v, limit) result(g)
+      real(wp), intent(in) :: f_t     !! force that keeps it from sliding [N]
+      real(wp), intent(in) :: v       !! sliding velocity that is left [m/s]
+      real(wp), intent(in) :: limit   !! greatest force that it holds [N]
+
+      g = max(abs(f_t) - limit, limit*(abs(v)/torn - 1.0_wp))
+   end function short_of
 
    !> Whether any contact sticks.
    pure logical function any_sticks(self)
@@ -287,6 +298,10 @@ contains
          set%grip%slip(k) = sticks
          call self%evaluate(t, y, self%grips%ydot, status)
          associate (tangent => set%grip%tangent(k))
+            if (abs(tangent%v) > 0.5_wp*torn) then
+               set%grip%slip(k) = nint(sign(1.0_wp, tangent%v))
+               return
+            end if
             if (before /= sticks .and. abs(tangent%f_t) <= set%friction%stick_limit(tangent%f_n)) return
             set%grip%slip(k) = nint(-sign(1.0_wp, tangent%f_t))
          end associate
