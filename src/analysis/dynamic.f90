@@ -44,6 +44,7 @@ module dynamic
       real(wp) :: potential_0 = 0.0_wp           !! potential energy at the start [J]
       real(wp) :: residual = 0.0_wp              !! of the ledger at the last step [J]
       real(wp) :: aside = 0.0_wp                 !! CPU time spent on output [s]
+      real(wp) :: lost = 0.0_wp                  !! least that contacts had lost so far: negative, they made energy [J]
       real(wp) :: worst = 0.0_wp                 !! greatest violation so far, over the size of the bodies or one radian [1]
       integer :: worst_row = 0                   !! the row it belongs to
       logical :: is_lost = .false.               !! whether a violation is beyond all measure
@@ -191,6 +192,7 @@ contains
       if (.not. system%with_ledger) return
       energy = energy_of(system, method%step%y1)
       run%residual = energy%balance() - run%balance_0
+      run%lost = min(run%lost, energy%dissipated_contact)
       run%summary%energy_residual_max = max(run%summary%energy_residual_max, abs(run%residual))
       run%summary%energy_max = max(run%summary%energy_max, energy%kinetic + energy%elastic &
                                    + abs(energy%potential - run%potential_0))
@@ -343,6 +345,10 @@ contains
             call append_text(run%summary%warnings, "the energy ledger does not close: its residual reached "// &
                              real_text(run%summary%energy_residual_max/run%summary%energy_max, 3)// &
                              " of the largest energy; try a smaller tolerance")
+         end if
+         if (run%lost < -careful_energy*run%summary%energy_max) then
+            call append_text(run%summary%warnings, "contacts made up to "//real_text(-run%lost, 3)//" J out of nothing: a law "// &
+                             "without a potential, as faces = blend and book are; foundation has one")
          end if
       end if
       if (run%worst > careful_violation) then

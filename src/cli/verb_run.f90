@@ -204,6 +204,7 @@ contains
       real(wp), allocatable :: y(:)
 
       call new_system(loaded%scene, levels_ideal, system)
+      if (size(system%ideal) == 0) return  ! no joint is another without clearance
       call find_start(loaded%scene, system, y, assembly, error)
       if (allocated(error)) return
       call new_method(loaded%scene, method)

@@ -291,6 +291,7 @@ contains
       if (self%plan%show == show_json) call print_text(json, second)
       call join_errors(error, second)
       if (self%plan%show == show_summary .and. summary%status /= status_failed) return
+      if (.not. self%plan%with_summary) return
       do k = 1, size(outcome%warnings)
          write (error_unit, "(a)") "warning: "//outcome%warnings(k)%s
       end do
