@@ -73,8 +73,9 @@ contains
       character(:), allocatable :: message       !! one line, empty: all is well
 
       message = ""
-      if (self%static < self%coefficient) &
+      if (self%static < self%coefficient) then
          message = "static_coefficient must not be less than coefficient: the force falls beyond v_t"
+      end if
    end function brown_mcphee_mistake
 
    !> Magnitude of the friction force of n contacts.
