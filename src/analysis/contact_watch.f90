@@ -6,6 +6,7 @@ module contact_watch
    use planar_system, only: n_ledger, planar_system_t
    use recorder, only: event_t
    use slip_watch, only: handle_slip
+   use turn_watch, only: handle_turn
    implicit none (type, external)
    private
    public :: close_open, contact_watch_t, new_contact_watch
@@ -240,8 +241,8 @@ contains
       place = bracket%place_a + s*(bracket%place_b - bracket%place_a)
    end function maximum_in
 
-   !> A located event: a contact begins or ends, slips or sticks. Where the energy that the contacts store jumps with it, what
-   !> is gone counts as lost in this contact: it is negative where the energy grows.
+   !> A located event: a contact begins or ends, turns, slips or sticks. Where the energy that the contacts store jumps with it,
+   !> what is gone counts as lost in this contact: it is negative where the energy grows.
    subroutine handle_event(self, system, method, number, is_over, row, step_hint)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(planar_system_t), intent(inout) :: system    !! the system; the contact's state is changed
@@ -255,6 +256,15 @@ contains
       integer :: i, k
       type(trend_t) :: force, penetration
 
+      if (system%first_turn > 0 .and. number > system%first_turn) then
+         call system%find_contact(number - system%first_turn, k, i)
+         call handle_turn(system, method%t, method%step%y1, k, i)
+         is_over = .false.
+         associate (set => system%clearances(k)%set)
+            step_hint = first_step*set%contact_time(i, max(set%contact(i)%impact_speed, tiny(1.0_wp)), system%inverse_mass(1, :))
+         end associate
+         return
+      end if
       if (number > system%n_contact) then
          call system%find_contact(number - system%n_contact, k, i)
          call handle_slip(system, method%t, method%step%y1, k, i, row)

@@ -288,7 +288,7 @@ contains
             if (allocated(error)) return
             call cpu_time(cpu_1)
             run%aside = run%aside + (cpu_1 - cpu_0)
-         else
+         else if (method%happened(k) <= system%n_contact) then
             run%summary%contacts = run%summary%contacts + 1
          end if
       end do

@@ -254,8 +254,7 @@ contains
       df_ddelta = 0.0_wp
       df_drate = 0.0_wp
       if (.not. self%contact(k)%is_touching) return
-      call self%law%force(1, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], self%parameters(:, k), &
-                          f, slope_delta, slope_rate, elastic)
+      call self%press(k, k, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], f, slope_delta, slope_rate, elastic)
       f_n = f(1)
       df_ddelta = slope_delta(1)
       df_drate = slope_rate(1)
@@ -294,8 +293,7 @@ contains
          self%rate(k) = self%kinematics(k)%rate
          self%impact_speed(k) = self%contact(k)%impact_speed
       end do
-      call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%parameters, &
-                          self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)
+      call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)
       if (allocated(self%friction)) call evaluate_friction(self, motion, losses)
       do k = 1, self%n
          if (.not. self%contact(k)%is_touching) cycle

@@ -21,8 +21,12 @@ module clearance_set
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: clearance_fit_law, clearance_set_t, clearance_slot_t, contact_memory_t, loss_contact, loss_friction
+   public :: approaches, clearance_fit_law, clearance_set_t, clearance_slot_t, contact_memory_t, loss_contact, loss_friction, &
+      parts, rests
 
+   integer, parameter :: approaches = 1     !! course: the penetration grows
+   integer, parameter :: parts = -1         !! course: it falls
+   integer, parameter :: rests = 0          !! course: a load between both forces keeps it from either
    integer, parameter :: loss_contact = 1   !! power taken by contact damping
    integer, parameter :: loss_friction = 2  !! power taken by friction
 
@@ -34,6 +38,8 @@ module clearance_set
       real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
       real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
       real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
+      integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
+      real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
    end type contact_memory_t
 
    !> All items that share a geometry and its laws.
@@ -76,6 +82,7 @@ module clearance_set
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
       procedure :: item_of => clearance_item_of
+      procedure :: press => clearance_press
       procedure :: rub => clearance_rub
       procedure :: fit_law => clearance_fit_law
       procedure :: begin_contact => clearance_begin_contact
@@ -249,6 +256,58 @@ contains
       item = (contact - 1)/self%n_contact_item + 1
    end function clearance_item_of
 
+   !> Normal forces of some contacts. A law whose force jumps from F_a to F_p where the penetration turns follows the course of the
+   !> contact, which changes at located events only; one that rests has (F_a + F_p)/2 + (F_a - F_p)/2 rate/rest_speed.
+   pure subroutine clearance_press(self, first, last, delta, rate, impact_speed, f, df_ddelta, df_drate, f_elastic)
+      class(clearance_set_t), intent(in) :: self             !! the set
+      integer, intent(in) :: first                           !! first contact
+      integer, intent(in) :: last                            !! last contact
+      real(wp), intent(in) :: delta(first:last)              !! (first:last) penetration [m]
+      real(wp), intent(in) :: rate(first:last)               !! (first:last) its rate [m/s]
+      real(wp), intent(in) :: impact_speed(first:last)       !! (first:last) impact speed [m/s]
+      real(wp), intent(out) :: f(first:last)                 !! (first:last) normal force [N]
+      real(wp), intent(out) :: df_ddelta(first:last)         !! (first:last) its derivative by penetration [N/m]
+      real(wp), intent(out) :: df_drate(first:last)          !! (first:last) its derivative by rate [N.s/m]
+      real(wp), intent(out) :: f_elastic(first:last)         !! (first:last) its elastic part [N]
+
+      if (self%law%jumps_at_turn) then
+         call press_in_course(self, first, last, delta, rate, impact_speed, f, df_ddelta, df_drate, f_elastic)
+      else
+         call self%law%force(last - first + 1, delta, rate, impact_speed, self%parameters(:, first:last), f, df_ddelta, &
+                             df_drate, f_elastic)
+      end if
+   end subroutine clearance_press
+
+   !> The same with a law whose force jumps where the penetration turns.
+   pure subroutine press_in_course(self, first, last, delta, rate, impact_speed, f, df_ddelta, df_drate, f_elastic)
+      class(clearance_set_t), intent(in) :: self             !! the set
+      integer, intent(in) :: first                           !! first contact
+      integer, intent(in) :: last                            !! last contact
+      real(wp), intent(in) :: delta(first:last)              !! (first:last) penetration [m]
+      real(wp), intent(in) :: rate(first:last)               !! (first:last) its rate [m/s]
+      real(wp), intent(in) :: impact_speed(first:last)       !! (first:last) impact speed [m/s]
+      real(wp), intent(out) :: f(first:last)                 !! (first:last) normal force [N]
+      real(wp), intent(out) :: df_ddelta(first:last)         !! (first:last) its derivative by penetration [N/m]
+      real(wp), intent(out) :: df_drate(first:last)          !! (first:last) its derivative by rate [N.s/m]
+      real(wp), intent(out) :: f_elastic(first:last)         !! (first:last) its elastic part [N]
+
+      real(wp), dimension(first:last) :: parting, parting_ddelta, parting_drate, speed, weight
+
+      speed = max(abs(rate), tiny(1.0_wp))
+      call self%law%force(last - first + 1, delta, -speed, impact_speed, self%parameters(:, first:last), parting, parting_ddelta, &
+                          parting_drate, f_elastic)
+      call self%law%force(last - first + 1, delta, speed, impact_speed, self%parameters(:, first:last), f, df_ddelta, df_drate, &
+                          f_elastic)
+      associate (contact => self%contact(first:last))
+         weight = 0.5_wp*real(1 + contact%course, wp)
+         where (contact%course == rests) weight = 0.5_wp + 0.5_wp*rate/contact%rest_speed
+         df_drate = weight*df_drate + (1.0_wp - weight)*parting_drate
+         where (contact%course == rests) df_drate = df_drate + 0.5_wp*(f - parting)/contact%rest_speed
+      end associate
+      f = weight*f + (1.0_wp - weight)*parting
+      df_ddelta = weight*df_ddelta + (1.0_wp - weight)*parting_ddelta
+   end subroutine press_in_course
+
    !> Friction of the touching contacts by a law with a memory, and the power that it takes.
    subroutine clearance_rub(self, motion, f_n, f_t, losses)
       class(clearance_set_t), intent(inout) :: self  !! the set
@@ -360,7 +419,7 @@ contains
    integer function clearance_memory_size(self) result(n)
       class(clearance_set_t), intent(in) :: self  !! the set
 
-      n = 8*self%n_contact
+      n = 10*self%n_contact
       if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
    end function clearance_memory_size
 
@@ -377,7 +436,8 @@ contains
             call put(row, place, contact%is_touching)
             call put(row, place, [contact%onset, contact%impact_speed, contact%peak_force, &
                                   contact%peak_penetration, contact%loss_at_onset, self%greatest_speed(k), &
-                                  self%greatest_penetration(k)])
+                                  self%greatest_penetration(k), contact%rest_speed])
+            call put(row, place, contact%course)
          end associate
       end do
       call self%grip%save(row, place)
@@ -401,6 +461,8 @@ contains
             call get(row, place, contact%loss_at_onset)
             call get(row, place, self%greatest_speed(k))
             call get(row, place, self%greatest_penetration(k))
+            call get(row, place, contact%rest_speed)
+            call get(row, place, contact%course)
          end associate
       end do
       self%n_touching = count(self%contact%is_touching)

@@ -201,8 +201,8 @@ contains
 
       integer :: first, item, last
 
-      call self%law%force(self%n_contact, work%delta, work%rate, work%impact_speed, self%parameters, &
-                          work%f_n, work%df_ddelta, work%df_drate, work%f_elastic)
+      call self%press(1, self%n_contact, work%delta, work%rate, work%impact_speed, work%f_n, work%df_ddelta, work%df_drate, &
+                      work%f_elastic)
       work%f_rub = work%f_n
       if (.not. self%has_faces) return
       do item = 1, self%n
@@ -318,8 +318,7 @@ contains
          call watch_face(self, k, motion, force, force_rate)
          return
       end if
-      call self%law%force(1, [delta], [rate], [self%contact(k)%impact_speed], self%parameters(:, k:k), f, slope_delta, &
-                          slope_rate, elastic)
+      call self%press(k, k, [delta], [rate], [self%contact(k)%impact_speed], f, slope_delta, slope_rate, elastic)
       force = f(1)
       force_rate = slope_delta(1)*rate + slope_rate(1)*penetration_acceleration(self, k, motion, contact)
    end subroutine flat_watch

@@ -83,6 +83,10 @@ contains
       system%n = 2*system%n_position + system%n_quadrature
       system%n_event = system%n_contact
       call count_grips(system)
+      if (any([(system%clearances(k)%set%law%jumps_at_turn, k=1, size(system%clearances))])) then
+         system%first_turn = system%n_event
+         system%n_event = system%n_event + system%n_contact
+      end if
       allocate (system%held(2*system%n_position), source=0.0_wp)
    end subroutine new_system
 

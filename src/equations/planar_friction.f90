@@ -9,8 +9,8 @@
 !> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
 !>
 !> Events: slip s = +-1 ends where s v_T falls to zero; sticking ends where |x| = c_s F_N, its rate by a difference along the
-!> motion, or where a driver has torn the contact loose. A slip that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit:
-!> so a contact that can neither slip nor stick costs a bounded number of steps.
+!> motion, or where a driver has torn the contact loose. A slip that ends at once again and again ends at a small speed the wrong
+!> way, which doubles each time up to a limit: so a contact that can neither slip nor stick costs a bounded number of steps.
 !>
 !> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
 !> (1996), section 5.3. Limits: contacts change one after another, each for the others as they are.

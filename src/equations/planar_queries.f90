@@ -1,5 +1,6 @@
 !> What is asked of a planar scene beside its evaluation: error scales, event functions, names.
 submodule(planar_system) planar_queries
+   use clearance_set, only: rests
    implicit none (type, external)
 
 contains
@@ -52,14 +53,71 @@ contains
       else
          call self%set_motion(t, y)
       end if
+      if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
    end procedure planar_events
 
    !> The same at the present motion.
    module procedure planar_last_events
       if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) call self%friction_events(t, y, g, rate)
+      if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
    end procedure planar_last_events
+
+   !> Event functions of contacts whose law jumps where the penetration turns: the rate of the penetration falls to zero while they
+   !> approach, rises to zero while they part, and leaves its range where they rest.
+   subroutine turn_events(self, t, y, g, rate)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: y(:)                   !! (n) state [any]
+      real(wp), intent(inout) :: g(:)                !! (n_event) event functions, those of turns are set [m/s]
+      real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2]
+
+      real(wp) :: acceleration(self%n_contact), speed(self%n_contact)
+      integer :: i, k, number
+
+      g(self%first_turn + 1:) = -1.0_wp
+      rate(self%first_turn + 1:) = 0.0_wp
+      if (.not. any([(self%clearances(k)%set%law%jumps_at_turn .and. self%clearances(k)%set%n_touching > 0, &
+                      k=1, size(self%clearances))])) return
+      call self%turns(t, y, speed, acceleration)
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            if (.not. set%law%jumps_at_turn .or. set%n_touching == 0) cycle
+            do i = 1, set%n_contact
+               if (.not. set%contact(i)%is_touching) cycle
+               number = set%first_contact + i
+               if (set%contact(i)%course == rests) then
+                  g(self%first_turn + number) = abs(speed(number)) - set%contact(i)%rest_speed
+                  rate(self%first_turn + number) = sign(1.0_wp, speed(number))*acceleration(number)
+               else
+                  g(self%first_turn + number) = -set%contact(i)%course*speed(number)
+                  rate(self%first_turn + number) = -set%contact(i)%course*acceleration(number)
+               end if
+            end do
+         end associate
+      end do
+   end subroutine turn_events
+
+   !> Rates of all penetrations and their rates.
+   module procedure planar_turns
+      real(wp), parameter :: part = 1.0e-4_wp        ! of the step: distance of the difference [1]
+      real(wp), parameter :: least_step = 1.0e-6_wp  ! for that distance [s]
+      real(wp) :: delta(self%n_contact), moment, ydot(size(y))
+      integer :: k, status
+
+      moment = part*max(self%grips%h, least_step)
+      call self%evaluate(t, y, ydot, status)
+      call self%set_motion(t + moment, y + moment*ydot)
+      do k = 1, size(self%clearances)
+         call self%clearances(k)%set%gaps(self%motion, delta, acceleration)
+      end do
+      call self%evaluate(t, y, ydot, status)
+      do k = 1, size(self%clearances)
+         call self%clearances(k)%set%gaps(self%motion, delta, rate)
+      end do
+      acceleration = (acceleration - rate)/moment
+   end procedure planar_turns
 
    !> Event functions of the contacts at the present motion.
    subroutine contact_events(self, g, rate)

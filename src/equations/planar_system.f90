@@ -86,6 +86,7 @@ module planar_system
       real(wp), allocatable :: rest(:, :)                !! (3, 0:bodies) scratch of `find_reactions` [N, N, N.m]
       real(wp), allocatable :: losses(:, :)              !! (2, contacts) power lost by contact and friction [W]
       real(wp) :: load_power = 0.0_wp                    !! power of applied loads [W]
+      integer :: first_turn = 0                          !! event functions before those of turns; 0: no law jumps at a turn
       type(grip_forces_t) :: grips                       !! contacts whose friction remembers
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
@@ -114,6 +115,7 @@ module planar_system
       procedure :: bristle_rates => planar_bristle_rates
       procedure :: bristle_weights => planar_bristle_weights
       procedure :: friction_events => planar_friction_events
+      procedure :: turns => planar_turns
       procedure :: decide_slip => planar_decide_slip
       procedure :: memory_size => planar_memory_size
       procedure :: save => planar_save
@@ -183,6 +185,15 @@ module planar_system
          real(wp), intent(inout) :: g(:)                !! (n_event) event functions, the last n_contact set here [m/s or N]
          real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2 or N/s]
       end subroutine planar_friction_events
+
+      !> Rates of all penetrations and their rates, by a difference along the motion. The system is evaluated at the state.
+      module subroutine planar_turns(self, t, y, rate, acceleration)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
+         real(wp), intent(out) :: rate(:)               !! (n_contact) rates of the penetrations [m/s]
+         real(wp), intent(out) :: acceleration(:)       !! (n_contact) their rates [m/s^2]
+      end subroutine planar_turns
 
       !> Decide whether a contact slips, which way, or sticks, at a state.
       module subroutine planar_decide_slip(self, t, y, slot, k)

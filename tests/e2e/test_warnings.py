@@ -170,8 +170,9 @@ def test_jump_of_a_driver(gudgeon):
 
 
 def test_ledger_that_does_not_close(gudgeon):
-    """At tolerance 1e-2 the ledger does not close: a warning says by how much. At 1e-8 there is none."""
-    run = finished(gudgeon, "--tolerance", "1e-2", changes=(("analysis.dynamic", "end", "1 ms"),))
+    """In steps as long as an impact the ledger does not close: a warning says by how much. At tolerance 1e-8 there is none."""
+    run = finished(gudgeon, changes=tuple(("analysis.dynamic", key, value) for key, value in (
+        ("end", "1 ms"), ("method", "rk4"), ("step", "50 us"), ("tolerance", None))))
     words, validity = run.summary["warnings"]
     assert "ledger" in words and "quasi-static" in validity
     told = next(float(word) for word in words.split() if word[0].isdigit())

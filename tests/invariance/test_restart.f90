@@ -12,6 +12,8 @@ module test_restart
    use kinds, only: wp
    use memory, only: get, put
    use recorder, only: event_t, summary_t
+   use scratch_deck, only: remove_scratch, write_scratch
+   use slip_watch, only: decide_next
    implicit none (type, external)
    private
    public :: run_test_restart
@@ -25,6 +27,7 @@ module test_restart
       type(contact_watch_t) :: watch             !! contacts
       integer :: n_onset = 0                     !! contacts that began
       integer :: n_event = 0                     !! contacts that ended
+      real(wp) :: end = t_end                    !! no step goes beyond [s]
       real(wp) :: events(n_field, 50) = 0.0_wp   !! (n_field, contacts) what is told of each [any]
    end type run_t
 
@@ -34,19 +37,28 @@ contains
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
       call suite%test("goes_on_bitwise", test_goes_on)
+      call suite%test("goes_on_bitwise_where_the_penetration_turns", test_goes_on_turning)
+      call suite%test("goes_on_bitwise_with_friction_that_sticks", test_goes_on_sticking)
+      call suite%test("goes_on_bitwise_with_bristles", test_goes_on_bristling)
       call suite%test("memory_size_is_what_save_writes", test_memory_size)
       call suite%test("loading_what_was_saved", test_loading)
       call suite%test("repeated_run_is_bitwise_equal", test_repeated)
    end subroutine run_test_restart
 
-   !> Load the deck and begin.
-   subroutine begin(run, error)
+   !> Load a deck and begin: the dry slider-crank with friction, if none is given.
+   subroutine begin(run, error, deck, setting)
       type(run_t), intent(out) :: run                    !! the run, at t = 0
       type(error_t), allocatable, intent(out) :: error   !! a mistake
+      character(*), intent(in), optional :: deck         !! its path
+      character(*), intent(in), optional :: setting      !! a parameter, as name=value
 
       integer :: status
 
-      call load_file(dry_deck, run%loaded, error, "friction=0.03")
+      if (present(deck)) then
+         call load_file(deck, run%loaded, error, setting)
+      else
+         call load_file(dry_deck, run%loaded, error, "friction=0.03")
+      end if
       if (allocated(error)) return
       call new_contact_watch(run%loaded%system, run%watch)
       call run%loaded%method%start(run%loaded%system, 0.0_wp, run%loaded%y, t_end, status)
@@ -61,10 +73,10 @@ contains
       type(event_t) :: row
       real(wp) :: step_hint
       integer :: k, status
-      logical :: is_over
+      logical :: is_found, is_over
 
       associate (system => run%loaded%system, method => run%loaded%method)
-         call method%advance(system, t_end, status)
+         call method%advance(system, run%end, status)
          call check_true(error, status >= 0, "a step is made")
          if (allocated(error)) return
          call run%watch%after_step(system, method)
@@ -73,12 +85,16 @@ contains
          do k = 1, method%n_happened
             call run%watch%handle_event(system, method, method%happened(k), is_over, row, step_hint)
             if (.not. is_over) then
-               run%n_onset = run%n_onset + 1
+               if (method%happened(k) <= system%n_contact) run%n_onset = run%n_onset + 1
                cycle
             end if
             run%n_event = run%n_event + 1
             run%events(:, run%n_event) = [row%time, row%impact_speed, row%peak_force, row%peak_penetration, row%duration, &
                                           row%release_speed, row%energy_lost]
+         end do
+         do
+            call decide_next(system, method%t, method%step%y1, is_found, is_over, row)
+            if (.not. is_found) exit
          end do
          call method%restart(system, step_hint, status)
          call check_equal(error, status, 0, "restart")
@@ -187,6 +203,98 @@ contains
       end subroutine compare
 
    end subroutine test_goes_on
+
+   !> A law whose force jumps where the penetration turns: impacts, and a pin that comes to rest.
+   subroutine test_goes_on_turning(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call go_on_from_anywhere("inputs/slider_crank_dry.deck", "law=kelvin_voigt", 5.0e-4_wp, error)
+      if (.not. allocated(error)) call go_on_from_anywhere("inputs/hard/pin_at_rest.deck", "law=kelvin_voigt", 0.02_wp, error)
+   end subroutine test_goes_on_turning
+
+   !> A disc thrown along a floor slides until it rolls.
+   subroutine test_goes_on_sticking(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call go_on_thrown("coulomb", error)
+   end subroutine test_goes_on_sticking
+
+   !> The same with bristles.
+   subroutine test_goes_on_bristling(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call go_on_thrown("lugre", error)
+   end subroutine test_goes_on_bristling
+
+   !> A disc thrown along a floor, with a friction law that remembers.
+   subroutine go_on_thrown(friction, error)
+      character(*), intent(in) :: friction                 !! friction law
+      type(error_t), allocatable, intent(out) :: error     !! what failed
+
+      character(*), parameter :: nl = new_line("a")
+      character(:), allocatable :: path
+
+      call write_scratch("deck = 1"//nl//"[scene]"//nl//"gravity = 0 -9.81 m/s^2"//nl//"[parameters]"//nl//"law = none"//nl// &
+                         "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[mm] y[mm] angle[deg] vx[m/s]"//nl// &
+                         "disc 1 1.25e-3 0 50.01 0 0.1"//nl//"[points]"//nl//"name body xi[mm] eta[mm]"//nl// &
+                         "foot ground 0 0"//nl//"centre disc 0 0"//nl//"[material]"//nl//"name young[GPa] poisson"//nl// &
+                         "steel 207 0.3"//nl//"[clearance.plane]"//nl// &
+                         "name plane ball axis radius[mm] material law friction"//nl// &
+                         "floor foot centre y 50 steel spring {law}"//nl//"[contact.kelvin_voigt]"//nl// &
+                         "name stiffness[N/m] restitution form"//nl//"spring 1e5 0.2 dashpot"//nl//"[friction.coulomb]"//nl// &
+                         "name coefficient"//nl//"coulomb 0.3"//nl//"[friction.lugre]"//nl// &
+                         "name coefficient"//nl//"lugre 0.3"//nl// &
+                         "[analysis.dynamic]"//nl//"start = given"//nl//"end = 0.03 s"//nl// &
+                         "tolerance = 1e-8"//nl//"[output]"//nl//"every = 1 ms"//nl, path)
+      call go_on_from_anywhere(path, "law="//friction, 0.03_wp, error)
+      call remove_scratch(path)
+   end subroutine go_on_thrown
+
+   !> Saved after every fifth step, loaded, and run on to the end: state and memory are equal bit for bit.
+   subroutine go_on_from_anywhere(deck, setting, t_stop, error)
+      character(*), intent(in) :: deck                     !! path of the deck
+      character(*), intent(in) :: setting                  !! a parameter, as name=value
+      real(wp), intent(in) :: t_stop                       !! no checkpoint, and no step, after this time [s]
+      type(error_t), allocatable, intent(out) :: error     !! what failed
+
+      integer, parameter :: every = 5, most = 400  ! steps between checkpoints; checkpoints
+      type(run_t), allocatable :: second
+      type(run_t) :: first
+      real(wp), allocatable :: one(:), other(:), rows(:, :), row(:)
+      integer :: k, n, n_step
+
+      call begin(first, error, deck, setting)
+      first%end = t_stop
+      n = 0
+      n_step = 0
+      do while (.not. allocated(error) .and. first%loaded%method%t < t_stop .and. n < most)
+         if (modulo(n_step, every) == 0) then
+            call save_run(first, row)
+            if (n == 0) allocate (rows(size(row), most), source=0.0_wp)
+            n = n + 1
+            rows(:, n) = row
+         end if
+         call make_step(first, error)
+         n_step = n_step + 1
+      end do
+      call check_true(error, n > 5 .and. n < most .and. first%n_onset > 0, "checkpoints through a contact")
+      do k = 1, n
+         if (allocated(error)) return
+         allocate (second)
+         call begin(second, error, deck, setting)
+         second%end = t_stop
+         if (allocated(error)) return
+         call load_run(second, rows(:, k))
+         do while (second%loaded%method%t < t_stop .and. .not. allocated(error))
+            call make_step(second, error)
+         end do
+         call save_run(first, one)
+         call save_run(second, other)
+         call check_close(error, second%loaded%method%step%y1, first%loaded%method%step%y1, 0.0_wp, "state at the end")
+         call check_close(error, other, one, 0.0_wp, "all that is saved")
+         deallocate (second)
+      end do
+   end subroutine go_on_from_anywhere
 
    !> Each part writes as many numbers as it announces, and reads as many.
    subroutine test_memory_size(error)

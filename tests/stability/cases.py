@@ -256,9 +256,9 @@ def with_parameters(**values):
     return tuple(("parameters", key, value) for key, value in values.items())
 
 
-def impact_of(name, restitution, fast=None, pin_mass=1.0, **parameters):
-    """Two free bodies: what the law delivers, and momentum."""
-    return Case(name, BODIES, contact.delivered(restitution, pin_mass), "restitution and momentum, relative",
+def impact_of(name, restitution, fast=None, pin_mass=1.0, delivers=None, **parameters):
+    """Two free bodies: what the law delivers, the restitution unless said otherwise, and momentum."""
+    return Case(name, BODIES, contact.delivered(delivers or restitution, pin_mass), "restitution and momentum, relative",
                 must(1e-8, "1e-10", fast=fast),
                 settings=with_parameters(restitution=restitution, pin_mass=f"{pin_mass} kg", **parameters))
 
@@ -280,6 +280,8 @@ CONTACTS = (
     impact_of("impact, ce = 0.1", 0.1, fast="1e-10"),
     impact_of("heavy pin", 0.5, pin_mass=1.0e4, fast="1e-10"),
     impact_of("light pin", 0.5, pin_mass=1.0e-4, fast="1e-10"),
+    impact_of("Kelvin-Voigt", 0.5, law="kelvin_voigt", fast="1e-10"),
+    impact_of("Kelvin-Voigt, book", 0.5, law="kelvin_voigt", form="book", delivers=np.sqrt(0.5), fast="1e-10"),
     elastic("elastic pin", BODIES, law="hertz"),
     elastic("elastic ball", BALL),
     elastic("elastic ball, fast", BALL, height="1 m"),
@@ -288,6 +290,8 @@ CONTACTS = (
          settings=(("analysis.dynamic", "end", "660 s"), ("output", "every", "1 s"))),
     Case("pin at rest", PIN, contact.at_rest(contact.PIN_REST), "depth, relative", must(1e-6, "1e-8", fast="1e-8"),
          settings=bounded(60000, "100 s") + (QUIET,)),
+    Case("pin at rest, jump", PIN, contact.at_rest(2.0*ref.G/(0.5*1e7*(1.0 + 0.3**2))), "depth, relative",
+         must(1e-6, "1e-8", fast="1e-8"), settings=with_parameters(law="kelvin_voigt") + bounded(60000, "100 s") + (QUIET,)),
     Case("ball at rest", BALL, contact.at_rest(contact.BALL_REST), "depth, relative", must(1e-6, "1e-8", fast="1e-8"),
          settings=with_parameters(law="exact") + bounded(60000, "100 s") + (QUIET,)),
     Case("bounces that die out", BALL, contact.zeno_times(0.5), "onsets, of the time of all bounces",
