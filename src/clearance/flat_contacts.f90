@@ -378,8 +378,7 @@ contains
       rate(:n) = contacts(:n)%rate
       impact_speed(:n) = merge(self%contact(first + 1:first + n)%impact_speed, 1.0_wp, &
                                self%contact(first + 1:first + n)%is_touching)
-      call self%law%force(n, delta, rate, impact_speed, self%parameters(:, first + 1:first + n), f_n, slope_delta, slope_rate, &
-                          f_elastic)
+      call self%press(first + 1, first + n, delta, rate, impact_speed, f_n, slope_delta, slope_rate, f_elastic)
       call self%share_faces(item, contacts(:n), f_n(:n), f_elastic(:n), f_rub(:n))
       force = f_n(c)
    end function force_in_faces

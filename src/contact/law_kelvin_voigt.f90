@@ -6,9 +6,9 @@
 !> energy = K delta^2 / 2,   m the reduced mass of the two bodies
 !>
 !> Two free bodies part with ce in the form `squared`, with sqrt(ce) in the book's. These two jump where the penetration
-!> turns, which is located; where a load lies between both forces the contact rests (`turn_watch`). The dashpot would give ce if
-!> it pulled at the end; it does not, and for ce = 0.9 and 0.5 gives 0.902 and 0.550; its force jumps by C v0 at the onset, and
-!> what the spring still holds when the force is cut off is counted as lost.
+!> turns, which is located; where a load lies between both forces the contact rests (`turn_watch`). The dashpot would give
+!> ce if it pulled at the end; it does not, and for ce = 0.9 and 0.5 gives 0.902 and 0.550; its force jumps by C v0 at the
+!> onset, and what the spring still holds when the force is cut off is counted as lost.
 !>
 !> Source: Flores et al. (2008), eq. (3.1), corrected. Limits: the stiffness has no link to geometry or material and must be
 !> given; the reduced mass of the dashpot is that of free bodies; impact speeds below 1e-5 sqrt(E/rho).

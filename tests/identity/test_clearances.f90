@@ -3,7 +3,7 @@ module test_clearances
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
    use clearance_bench, only: bench_t, claim_all, evaluate_loads, get_gaps, move_to, n_all, n_before, n_body, n_item
-   use clearance_set, only: contact_memory_t, loss_contact, loss_friction
+   use clearance_set, only: approaches, contact_memory_t, loss_contact, loss_friction, parts
    use differences, only: five_point, places
    use errors, only: error_t
    use flat_contacts, only: flat_contacts_t, flat_t
@@ -111,6 +111,8 @@ contains
 
       call elastic_forces(bench, f, elastic)
       stored = face_energy_rate(bench)
+      call get_gaps(bench, 0.0_wp, delta, rate)
+      bench%set%contact%course = merge(approaches, parts, rate(bench%first:bench%last) >= 0.0_wp)
       call evaluate_loads(bench, loads, losses)
       call get_gaps(bench, 0.0_wp, delta, rate)
       associate (set => bench%set, first => bench%first, last => bench%last)
