@@ -1,7 +1,8 @@
 """The bouncing ball and the slider loose in its guide, against independent solutions."""
 
+import numpy as np
 import pytest
-from support import ROOT, Run, call, scratch
+from support import ROOT, Run, call, scratch, written
 
 # restitution: onset [s], impact speed [m/s], peak force [N], duration [s], rebound speed [m/s]; an independent integration
 BALL = {
@@ -42,3 +43,21 @@ def test_slider_corners(gudgeon):
         assert float(row["time"]) == pytest.approx(8.137930103836e-4, abs=1e-9)
         assert float(row["impact_speed"]) == pytest.approx(1.765145468, rel=1e-6)
         assert float(row["peak_force"]) == pytest.approx(4852.770823, rel=1e-6)
+
+
+def test_driver_tears_a_contact_loose(gudgeon):
+    """Coulomb: no force at the contact holds what a driver moves; it slips at once, the full force against the motion."""
+    text = (ROOT / "inputs/friction.deck").read_text()
+    springs, material = text.index("[force.spring]"), text.index("[material]")
+    text = (text[:springs] + "[driver.position]\nname i j axis position\ndrag rail seat x {5mm*sin(2*pi*t/1s)}\n\n"
+            + text[material:])
+    text = text.replace("pull    seat     {pull*sin(2*pi*t/1s)}   0N\n", "").replace("friction    = ambrosio", "friction = coulomb")
+    directory = scratch()
+    deck = written(directory, text)
+    run = Run(directory / "out", call(gudgeon, "run", deck, "--out", directory / "out", "--quiet"))
+    kinds = [(row["kind"], round(float(row["time"]), 2)) for row in first_rows(run, 5)]
+    assert kinds == [("contact", 0.0), ("stick", 0.25), ("slip", 0.25), ("stick", 0.75), ("slip", 0.75)]
+    force = run.read("clearances/contacts/friction_force")[:, 0]
+    velocity = run.item("bodies/velocity", "shoe")[:, 0]
+    moving = np.abs(velocity) > 2e-4
+    assert force[moving] == pytest.approx(-10.0*np.sign(velocity[moving]), rel=1e-6)
