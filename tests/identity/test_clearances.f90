@@ -387,7 +387,7 @@ contains
       type(contact_memory_t), allocatable :: kept(:)
       type(loads_t) :: again, loads
       type(event_t) :: event
-      real(wp) :: losses(2, n_all), row(300)
+      real(wp) :: losses(2, n_all), row(500)
       integer :: k, place
 
       associate (set => bench%set)
