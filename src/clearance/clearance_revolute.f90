@@ -293,7 +293,13 @@ contains
          self%rate(k) = self%kinematics(k)%rate
          self%impact_speed(k) = self%contact(k)%impact_speed
       end do
-      call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)
+      if (self%law%jumps_at_turn) then
+         call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, &
+                         self%f_elastic)
+      else
+         call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%parameters, self%f_n, self%df_ddelta, &
+                             self%df_drate, self%f_elastic)
+      end if
       if (allocated(self%friction)) call evaluate_friction(self, motion, losses)
       do k = 1, self%n
          if (.not. self%contact(k)%is_touching) cycle

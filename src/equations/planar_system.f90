@@ -323,9 +323,11 @@ contains
       end if
       call evaluate_terms(self, t, status)
       if (status /= 0) return
-      call self%find_accelerations(self%g, .true., status)
-      if (status == 0 .and. self%grips%n_slip > 0) call self%stick(status)
-      if (status /= 0) return
+      if (self%rows%n_unknown > 0 .or. self%grips%n_slip > 0) then
+         call self%find_accelerations(self%g, .true., status)
+         if (status == 0 .and. self%grips%n_slip > 0) call self%stick(status)
+         if (status /= 0) return
+      end if
       associate (n => 3*self%rows%n_unknown, nq => self%n_position, guided => self%guided)
          if (n > 0) then
             call state_rates(self%rows%n_unknown, self%rows%unknown, self%n_body, self%motion%v, self%motion%omega, self%a, &
