@@ -14,7 +14,8 @@ module event_location
 
    integer, parameter :: n_sample = 8      !! places of a step looked at
    integer, parameter :: n_bisect = 30     !! halvings in search of a maximum on the interpolant
-   integer, parameter :: n_narrow = 18     !! halvings of the bracket of an event: re-stepping does the rest
+   integer, parameter :: n_narrow = 72     !! places looked at to narrow the bracket of an event, at most
+   real(wp), parameter :: narrow_enough = 2.0_wp**(-18)  !! width of that bracket: re-stepping does the rest [1]
 
 contains
 
@@ -52,7 +53,7 @@ contains
       real(wp), intent(out) :: high                 !! place in the step after it [1]
 
       real(wp), allocatable :: g(:), rate(:), y(:)
-      real(wp) :: a, b, middle
+      real(wp) :: a, b
       integer :: i, k
 
       ! the room of the integrator, while it itself is asked for states
@@ -84,20 +85,9 @@ contains
       if (event == 0) then
          call values_at(1.0_wp)  ! the system is left at the end of the step
       else
-         ! narrow the bracket; where several functions are positive, the first to become so decides
          low = a
          high = b
-         do i = 1, n_narrow
-            middle = 0.5_wp*(low + high)
-            call values_at(middle)
-            k = maxloc(g, dim=1)
-            if (g(k) > 0.0_wp) then
-               high = middle
-               event = k
-            else
-               low = middle
-            end if
-         end do
+         call narrow(low, high)
       end if
       call move_alloc(y, method%scratch)
       call move_alloc(g, method%g)
@@ -149,6 +139,32 @@ contains
          ! values at b again, for the other functions
          call values_at(b)
       end subroutine climb
+
+      !> Narrow the bracket of an event; the event functions are at its upper end. Where several are positive, the first to become
+      !> so decides. By Newton's method, a little beyond the root so that the next place is on its other side, and by halves.
+      subroutine narrow(low, high)
+         real(wp), intent(inout) :: low   !! place before the event [1]
+         real(wp), intent(inout) :: high  !! place after it [1]
+
+         real(wp) :: beyond, place
+         integer :: i, k
+
+         place = high
+         do i = 1, n_narrow
+            if (high - low <= narrow_enough) exit
+            k = maxloc(g, dim=1)
+            beyond = sign(0.4_wp*narrow_enough, -g(k))
+            if (mod(i, 4) > 0 .and. rate(k) > 0.0_wp) place = place - g(k)/(method%step%h*rate(k)) + beyond
+            if (mod(i, 4) == 0 .or. .not. (place > low .and. place < high)) place = 0.5_wp*(low + high)
+            call values_at(place)
+            if (any(g > 0.0_wp)) then
+               high = place
+               event = maxloc(g, dim=1)
+            else
+               low = place
+            end if
+         end do
+      end subroutine narrow
 
    end subroutine search
 

@@ -100,15 +100,17 @@ contains
          end do
          call system%evaluate(t + c5*h, y, k(:, 5), status)
          if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
-         end do
-         call system%evaluate(t + h, y, k(:, 6), status)
-         if (status /= 0) return
+         ! stage 7 does not need stage 6; evaluated before it, all stages at the end of the step follow one another, and what
+         ! is a function of time alone is found once
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a71*k1(i) + a72*k(i, 2) + a73*k(i, 3) + a74*k(i, 4) + a75*k(i, 5))
          end do
          call system%evaluate(t + c7*h, y, k(:, 7), status)
+         if (status /= 0) return
+         do concurrent(i=1:n)
+            y(i) = y0(i) + h*(a61*k1(i) + a62*k(i, 2) + a63*k(i, 3) + a64*k(i, 4) + a65*k(i, 5))
+         end do
+         call system%evaluate(t + h, y, k(:, 6), status)
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*(a81*k1(i) + a82*k(i, 2) + a83*k(i, 3) + a84*k(i, 4) + a85*k(i, 5) + a87*k(i, 7))
