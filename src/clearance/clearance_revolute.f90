@@ -14,8 +14,7 @@
 !> book prints. Limits: both surfaces round; one contact per joint.
 module clearance_revolute
    use bodies, only: material_t
-   use catalogue, only: state_contact, state_free
-   use clearance_set, only: clearance_set_t, loss_contact, loss_friction
+   use clearance_set, only: clearance_set_t, contact_memory_t, loss_contact, loss_friction
    use contact_grip, only: tangent_t
    use friction_law, only: memory_none
    use item, only: item_t
@@ -26,7 +25,7 @@ module clearance_revolute
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: clearance_revolute_t
+   public :: clearance_revolute_t, contact_t, measure, measure_sliding
 
    integer, parameter :: column_radius = 3            !! column of bearing_radius
    integer, parameter :: column_clearance = 4         !! column of clearance
@@ -34,6 +33,14 @@ module clearance_revolute
    integer, parameter :: column_journal_material = 6  !! column of journal_material
    integer, parameter :: column_form = 10             !! column of form
    integer, parameter :: column_length = 11           !! column of length
+
+   !> The surfaces of one joint.
+   type :: journal_t
+      real(wp) :: radius_i = 0.0_wp         !! radius of the bearing [m]
+      real(wp) :: radius_j = 0.0_wp         !! radius of the journal [m]
+      real(wp) :: share = 0.5_wp            !! part of the penetration from a surface to where the forces act [1]
+      logical :: is_book = .false.          !! formulas as the book prints them
+   end type journal_t
 
    !> Kinematics of one contact.
    type :: contact_t
@@ -49,9 +56,7 @@ module clearance_revolute
 
    !> Journals in bearings, in the plane.
    type, extends(clearance_set_t) :: clearance_revolute_t
-      real(wp), allocatable :: radius_i(:)     !! (n) radius of the bearing [m]
-      real(wp), allocatable :: radius_j(:)     !! (n) radius of the journal [m]
-      logical, allocatable :: is_book(:)       !! (n) formulas as the book prints them
+      type(journal_t), allocatable :: journal(:)       !! (n) the surfaces
       ! scratch of one evaluation
       type(contact_t), allocatable :: kinematics(:)    !! (n) kinematics
       real(wp), allocatable :: delta(:)                !! (n) penetration [m]
@@ -76,6 +81,57 @@ module clearance_revolute
       procedure :: report => revolute_report
       procedure :: elastic_energy => revolute_elastic_energy
    end type clearance_revolute_t
+
+   interface
+      !> How a contact lies. The normal turns with e' . t / |e|, and the point of contact goes along with it: of its velocity only
+      !> the part along the normal counts, that of the centre P_k and the rate at which it comes nearer to it.
+      module subroutine revolute_lie(self, k, motion, tangent)
+         implicit none (type, external)
+         class(clearance_revolute_t), intent(in) :: self  !! the set
+         integer, intent(in) :: k                         !! item
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         type(tangent_t), intent(inout) :: tangent        !! how it lies
+      end subroutine revolute_lie
+
+      !> Penetration and its rate for all items.
+      module subroutine revolute_gaps(self, motion, delta, rate)
+         implicit none (type, external)
+         class(clearance_revolute_t), intent(in) :: self  !! the set
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         real(wp), intent(inout) :: delta(:)              !! (all contacts) penetration [m]
+         real(wp), intent(inout) :: rate(:)               !! (all contacts) its rate [m/s]
+      end subroutine revolute_gaps
+
+      !> Normal force of a touching item and its rate:
+      !> F' = dF/ddelta delta' + dF/drate delta'',  delta'' = n . e'' + (|e'|^2 - delta'^2) / |e|.
+      module subroutine revolute_watch(self, k, motion, delta, rate, force, force_rate)
+         implicit none (type, external)
+         class(clearance_revolute_t), intent(in) :: self  !! the set
+         integer, intent(in) :: k                         !! item
+         type(motion_t), intent(in) :: motion             !! positions, velocities and accelerations
+         real(wp), intent(out) :: delta                   !! penetration [m]
+         real(wp), intent(out) :: rate                    !! its rate [m/s]
+         real(wp), intent(out) :: force                   !! normal force [N]
+         real(wp), intent(out) :: force_rate              !! its rate [N/s]
+      end subroutine revolute_watch
+
+      !> Values of a channel for all items.
+      module subroutine revolute_report(self, channel, motion, values)
+         implicit none (type, external)
+         class(clearance_revolute_t), intent(in) :: self  !! the set
+         character(*), intent(in) :: channel              !! name of the channel
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         real(wp), intent(inout) :: values(:, :)          !! (components, all items or contacts) values [any]
+      end subroutine revolute_report
+
+      !> Elastic energy that the touching items store.
+      module function revolute_elastic_energy(self, motion) result(energy)
+         implicit none (type, external)
+         class(clearance_revolute_t), intent(in) :: self  !! the set
+         type(motion_t), intent(in) :: motion             !! positions
+         real(wp) :: energy                               !! energy stored [J]
+      end function revolute_elastic_energy
+   end interface
 
 contains
 
@@ -125,16 +181,16 @@ contains
       integer :: k
 
       self%is_round = .true.
-      allocate (self%radius_i(self%n), self%radius_j(self%n), self%is_book(self%n))
-      allocate (self%kinematics(self%n))
+      allocate (self%journal(self%n), self%kinematics(self%n))
       allocate (self%delta(self%n), self%rate(self%n), self%impact_speed(self%n), self%speed(self%n), self%f_n(self%n), &
                 self%f_elastic(self%n), self%df_ddelta(self%n), self%df_drate(self%n), self%f_t(self%n), source=0.0_wp)
       do k = 1, self%n
-         associate (values => items(k)%values)
-            self%radius_i(k) = values(column_radius)%number
+         associate (values => items(k)%values, journal => self%journal(k))
             self%clearance(k) = values(column_clearance)%number
-            self%radius_j(k) = self%radius_i(k) - self%clearance(k)
-            self%is_book(k) = values(column_form)%text == "book"
+            journal%radius_i = values(column_radius)%number
+            journal%radius_j = journal%radius_i - self%clearance(k)
+            journal%is_book = values(column_form)%text == "book"
+            if (journal%is_book) journal%share = 0.0_wp
          end associate
       end do
    end subroutine revolute_prepare
@@ -182,34 +238,129 @@ contains
       type(motion_t), intent(in) :: motion             !! positions and velocities
       type(contact_t), intent(inout) :: contact        !! kinematics; v_t is left alone
 
-      real(wp) :: e, e_dot(2), s_i(2), s_j(2), speed
+      call measure_journal(self%body(:, k), self%s_i(:, k), self%s_j(:, k), self%clearance(k), self%journal(k), &
+                           ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, contact)
+   end subroutine measure
+
+   !> Eccentricity, normal, penetration, rate and arms of one contact.
+   pure subroutine measure_journal(body, s_bearing, s_journal, clearance, journal, n_body, r, rot, v, omega, contact)
+      integer, intent(in) :: body(2)                 !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3)           !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3)           !! (3) centre of the journal, frame of its body [m]
+      real(wp), intent(in) :: clearance              !! radial clearance [m]
+      type(journal_t), intent(in) :: journal         !! the surfaces
+      integer, intent(in) :: n_body                  !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)         !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)    !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)         !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)     !! (3, 0:bodies) angular velocities [rad/s]
+      type(contact_t), intent(inout) :: contact      !! kinematics; v_t is left alone
+
+      real(wp) :: distance, e(2), e_dot(2), normal(2), s_i(2), s_j(2), speed
       integer :: i, j
 
-      i = self%body(1, k)
-      j = self%body(2, k)
-      s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
-      s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
-      contact%e = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
-      e_dot(1) = motion%v(1, j) - motion%omega(3, j)*s_j(2) - motion%v(1, i) + motion%omega(3, i)*s_i(2)
-      e_dot(2) = motion%v(2, j) + motion%omega(3, j)*s_j(1) - motion%v(2, i) - motion%omega(3, i)*s_i(1)
-      e = sqrt(contact%e(1)**2 + contact%e(2)**2)
-      if (e > tiny(1.0_wp)) then
-         contact%normal = contact%e/e
+      i = body(1)
+      j = body(2)
+      s_i(1) = rot(1, 1, i)*s_bearing(1) + rot(1, 2, i)*s_bearing(2)
+      s_i(2) = rot(2, 1, i)*s_bearing(1) + rot(2, 2, i)*s_bearing(2)
+      s_j(1) = rot(1, 1, j)*s_journal(1) + rot(1, 2, j)*s_journal(2)
+      s_j(2) = rot(2, 1, j)*s_journal(1) + rot(2, 2, j)*s_journal(2)
+      e(1) = r(1, j) + s_j(1) - r(1, i) - s_i(1)
+      e(2) = r(2, j) + s_j(2) - r(2, i) - s_i(2)
+      e_dot(1) = v(1, j) - omega(3, j)*s_j(2) - v(1, i) + omega(3, i)*s_i(2)
+      e_dot(2) = v(2, j) + omega(3, j)*s_j(1) - v(2, i) - omega(3, i)*s_i(1)
+      distance = sqrt(e(1)**2 + e(2)**2)
+      if (distance > tiny(1.0_wp)) then
+         normal(1) = e(1)/distance
+         normal(2) = e(2)/distance
       else
          speed = sqrt(e_dot(1)**2 + e_dot(2)**2)
-         contact%normal = [1.0_wp, 0.0_wp]
-         if (speed > tiny(1.0_wp)) contact%normal = e_dot/speed
+         normal = [1.0_wp, 0.0_wp]
+         if (speed > tiny(1.0_wp)) normal = e_dot/speed
       end if
-      contact%delta = e - self%clearance(k)
-      contact%rate = e_dot(1)*contact%normal(1) + e_dot(2)*contact%normal(2)
-      if (self%is_book(k)) then
-         contact%arm_i = s_i + self%radius_i(k)*contact%normal
-         contact%arm_j = s_j + self%radius_j(k)*contact%normal
-      else
-         contact%arm_i = s_i + (self%radius_i(k) + 0.5_wp*contact%delta)*contact%normal
-         contact%arm_j = s_j + (self%radius_j(k) - 0.5_wp*contact%delta)*contact%normal
-      end if
-   end subroutine measure
+      contact%e(1) = e(1)
+      contact%e(2) = e(2)
+      contact%normal(1) = normal(1)
+      contact%normal(2) = normal(2)
+      contact%delta = distance - clearance
+      contact%rate = e_dot(1)*normal(1) + e_dot(2)*normal(2)
+      contact%arm_i(1) = s_i(1) + (journal%radius_i + journal%share*contact%delta)*normal(1)
+      contact%arm_i(2) = s_i(2) + (journal%radius_i + journal%share*contact%delta)*normal(2)
+      contact%arm_j(1) = s_j(1) + (journal%radius_j - journal%share*contact%delta)*normal(1)
+      contact%arm_j(2) = s_j(2) + (journal%radius_j - journal%share*contact%delta)*normal(2)
+   end subroutine measure_journal
+
+   !> Kinematics of the touching items; at the others the law is to find no penetration.
+   pure subroutine measure_touching(n, memory, body, s_i, s_j, clearance, journal, n_body, r, rot, v, omega, contact, delta, &
+                                    rate, impact_speed, losses)
+      integer, intent(in) :: n                         !! number of items
+      type(contact_memory_t), intent(in) :: memory(n)  !! (n) state of the contacts
+      integer, intent(in) :: body(2, n)                !! (2, n) bodies of bearing and journal
+      real(wp), intent(in) :: s_i(3, n)                !! (3, n) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_j(3, n)                !! (3, n) centre of the journal, frame of its body [m]
+      real(wp), intent(in) :: clearance(n)             !! (n) radial clearance [m]
+      type(journal_t), intent(in) :: journal(n)        !! (n) the surfaces
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)           !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)      !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)           !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)       !! (3, 0:bodies) angular velocities [rad/s]
+      type(contact_t), intent(inout) :: contact(n)     !! (n) kinematics of the touching items
+      real(wp), intent(inout) :: delta(n)              !! (n) penetration, 0 where nothing touches [m]
+      real(wp), intent(inout) :: rate(n)               !! (n) its rate [m/s]
+      real(wp), intent(inout) :: impact_speed(n)       !! (n) impact speed [m/s]
+      real(wp), intent(inout) :: losses(2, n)          !! (2, n) power lost, set to zero [W]
+
+      integer :: k
+
+      do k = 1, n
+         losses(loss_contact, k) = 0.0_wp
+         losses(loss_friction, k) = 0.0_wp
+         if (.not. memory(k)%is_touching) then
+            delta(k) = 0.0_wp
+            rate(k) = 0.0_wp
+            impact_speed(k) = 1.0_wp
+            cycle
+         end if
+         call measure_journal(body(:, k), s_i(:, k), s_j(:, k), clearance(k), journal(k), n_body, r, rot, v, omega, contact(k))
+         delta(k) = contact(k)%delta
+         rate(k) = contact(k)%rate
+         impact_speed(k) = memory(k)%impact_speed
+      end do
+   end subroutine measure_touching
+
+   !> Add the forces of the touching items to the loads, and what damping takes to the losses.
+   pure subroutine add_forces(n, memory, body, contact, f_n, f_elastic, f_t, n_body, force, moment, losses)
+      integer, intent(in) :: n                         !! number of items
+      type(contact_memory_t), intent(in) :: memory(n)  !! (n) state of the contacts
+      integer, intent(in) :: body(2, n)                !! (2, n) bodies of bearing and journal
+      type(contact_t), intent(in) :: contact(n)        !! (n) kinematics of the touching items
+      real(wp), intent(in) :: f_n(n)                   !! (n) normal forces [N]
+      real(wp), intent(in) :: f_elastic(n)             !! (n) their elastic parts [N]
+      real(wp), intent(in) :: f_t(n)                   !! (n) friction forces on the journals along t [N]
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(inout) :: force(3, 0:n_body)    !! (3, 0:bodies) forces [N]
+      real(wp), intent(inout) :: moment(3, 0:n_body)   !! (3, 0:bodies) moments about the centres of mass [N.m]
+      real(wp), intent(inout) :: losses(2, n)          !! (2, n) power lost [W]
+
+      real(wp) :: f(2)
+      integer :: i, j, k
+
+      do k = 1, n
+         if (.not. memory(k)%is_touching) cycle
+         i = body(1, k)
+         j = body(2, k)
+         f(1) = -f_n(k)*contact(k)%normal(1) - f_t(k)*contact(k)%normal(2)
+         f(2) = -f_n(k)*contact(k)%normal(2) + f_t(k)*contact(k)%normal(1)
+         force(1, i) = force(1, i) - f(1)
+         force(2, i) = force(2, i) - f(2)
+         force(1, j) = force(1, j) + f(1)
+         force(2, j) = force(2, j) + f(2)
+         moment(3, i) = moment(3, i) - (contact(k)%arm_i(1)*f(2) - contact(k)%arm_i(2)*f(1))
+         moment(3, j) = moment(3, j) + (contact(k)%arm_j(1)*f(2) - contact(k)%arm_j(2)*f(1))
+         losses(loss_contact, k) = (f_n(k) - f_elastic(k))*contact(k)%rate
+      end do
+   end subroutine add_forces
 
    !> Sliding velocities, after `measure`.
    pure subroutine measure_sliding(self, k, motion, contact)
@@ -228,71 +379,30 @@ contains
       v_j = motion%v(1:2, j) + motion%omega(3, j)*[-contact%arm_j(2), contact%arm_j(1)]
       contact%v_t_work = dot_product(v_j - v_i, tangent)
       contact%v_t = contact%v_t_work
-      if (self%is_book(k)) then
+      if (self%journal(k)%is_book) then
          ! of the geometric contact points: delta times the rate of the normal's direction
-         contact%v_t = contact%v_t_work - self%radius_j(k)*motion%omega(3, j) + self%radius_i(k)*motion%omega(3, i)
+         contact%v_t = contact%v_t_work - self%journal(k)%radius_j*motion%omega(3, j) + self%journal(k)%radius_i*motion%omega(3, i)
          contact%v_t = contact%v_t*contact%delta/max(contact%delta + self%clearance(k), tiny(1.0_wp))
       end if
    end subroutine measure_sliding
-
-   !> Normal force and signed friction force of one item from the set's laws.
-   subroutine evaluate_item(self, k, motion, contact, f_n, df_ddelta, df_drate, f_t)
-      class(clearance_revolute_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                         !! item
-      type(motion_t), intent(in) :: motion             !! positions and velocities
-      type(contact_t), intent(out) :: contact          !! kinematics
-      real(wp), intent(out) :: f_n                     !! normal force [N]
-      real(wp), intent(out) :: df_ddelta               !! its derivative by penetration [N/m]
-      real(wp), intent(out) :: df_drate                !! its derivative by rate [N.s/m]
-      real(wp), intent(out) :: f_t                     !! friction force on the journal along t [N]
-
-      real(wp) :: elastic(1), f(1), slope_delta(1), slope_rate(1)
-
-      call measure(self, k, motion, contact)
-      f_n = 0.0_wp
-      f_t = 0.0_wp
-      df_ddelta = 0.0_wp
-      df_drate = 0.0_wp
-      if (.not. self%contact(k)%is_touching) return
-      call self%press(k, k, [contact%delta], [contact%rate], [self%contact(k)%impact_speed], f, slope_delta, slope_rate, elastic)
-      f_n = f(1)
-      df_ddelta = slope_delta(1)
-      df_drate = slope_rate(1)
-      if (.not. allocated(self%friction)) return
-      if (self%grip%memory /= memory_none) then
-         f_t = self%grip%tangent(k)%f_t  ! of the last evaluation: it is no function of the motion alone
-         return
-      end if
-      call measure_sliding(self, k, motion, contact)
-      call self%friction%force(1, [f_n], [abs(contact%v_t)], f)
-      f_t = -sign(f(1), contact%v_t)
-   end subroutine evaluate_item
 
    !> Add the contact forces of the touching items.
    subroutine revolute_evaluate(self, motion, loads, losses)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(loads_t), intent(inout) :: loads               !! loads on the bodies
-      real(wp), intent(inout) :: losses(:, :)             !! (2, all contacts) power lost [W]
+      real(wp), intent(inout), contiguous :: losses(:, :) !! (2, all contacts) power lost [W]
 
-      real(wp) :: f(2)
-      integer :: i, j, k
+      integer :: n_body
 
-      do k = 1, self%n
-         losses(loss_contact, self%first_contact + k) = 0.0_wp
-         losses(loss_friction, self%first_contact + k) = 0.0_wp
-      end do
-      if (self%n_touching == 0) return
-      do k = 1, self%n
-         self%delta(k) = 0.0_wp
-         self%rate(k) = 0.0_wp
-         self%impact_speed(k) = 1.0_wp
-         if (.not. self%contact(k)%is_touching) cycle
-         call measure(self, k, motion, self%kinematics(k))
-         self%delta(k) = self%kinematics(k)%delta
-         self%rate(k) = self%kinematics(k)%rate
-         self%impact_speed(k) = self%contact(k)%impact_speed
-      end do
+      if (self%n_touching == 0) then
+         losses(:, self%first_contact + 1:self%first_contact + self%n) = 0.0_wp
+         return
+      end if
+      n_body = ubound(motion%angle, 1)
+      call measure_touching(self%n, self%contact, self%body, self%s_i, self%s_j, self%clearance, self%journal, n_body, motion%r, &
+                            motion%rot, motion%v, motion%omega, self%kinematics, self%delta, self%rate, self%impact_speed, &
+                            losses(:, self%first_contact + 1:))
       if (self%law%jumps_at_turn) then
          call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, &
                          self%f_elastic)
@@ -301,27 +411,15 @@ contains
                              self%df_drate, self%f_elastic)
       end if
       if (allocated(self%friction)) call evaluate_friction(self, motion, losses)
-      do k = 1, self%n
-         if (.not. self%contact(k)%is_touching) cycle
-         associate (contact => self%kinematics(k))
-            f(1) = -self%f_n(k)*contact%normal(1) - self%f_t(k)*contact%normal(2)
-            f(2) = -self%f_n(k)*contact%normal(2) + self%f_t(k)*contact%normal(1)
-            losses(loss_contact, self%first_contact + k) = (self%f_n(k) - self%f_elastic(k))*contact%rate
-            i = self%body(1, k)
-            j = self%body(2, k)
-            loads%force(1:2, i) = loads%force(1:2, i) - f
-            loads%force(1:2, j) = loads%force(1:2, j) + f
-            loads%moment(3, i) = loads%moment(3, i) - (contact%arm_i(1)*f(2) - contact%arm_i(2)*f(1))
-            loads%moment(3, j) = loads%moment(3, j) + (contact%arm_j(1)*f(2) - contact%arm_j(2)*f(1))
-         end associate
-      end do
+      call add_forces(self%n, self%contact, self%body, self%kinematics, self%f_n, self%f_elastic, self%f_t, n_body, &
+                      loads%force, loads%moment, losses(:, self%first_contact + 1:))
    end subroutine revolute_evaluate
 
    !> Friction of the touching items from their normal forces: signed along t, on the journal.
    subroutine evaluate_friction(self, motion, losses)
       class(clearance_revolute_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      real(wp), intent(inout) :: losses(:, :)             !! (2, all contacts) power lost [W]
+      real(wp), intent(inout), contiguous :: losses(:, :) !! (2, all contacts) power lost [W]
 
       integer :: k
 
@@ -342,135 +440,5 @@ contains
          losses(loss_friction, self%first_contact + k) = -self%f_t(k)*self%kinematics(k)%v_t_work
       end do
    end subroutine evaluate_friction
-
-   !> How a contact lies. The normal turns with e' . t / |e|, and the point of contact goes along with it: of its velocity only
-   !> the part along the normal counts, that of the centre P_k and the rate at which it comes nearer to it.
-   subroutine revolute_lie(self, k, motion, tangent)
-      class(clearance_revolute_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                         !! item
-      type(motion_t), intent(in) :: motion             !! positions and velocities
-      type(tangent_t), intent(inout) :: tangent        !! how it lies
-
-      type(contact_t) :: contact
-      real(wp) :: longer, p_i(2), p_j(2), s_i(2), s_j(2), turn
-      integer :: i, j
-
-      i = self%body(1, k)
-      j = self%body(2, k)
-      call measure(self, k, motion, contact)
-      call measure_sliding(self, k, motion, contact)
-      tangent%t = [-contact%normal(2), contact%normal(1)]
-      tangent%arm_i = contact%arm_i
-      tangent%arm_j = contact%arm_j
-      tangent%v = contact%v_t_work
-      longer = merge(0.0_wp, 0.5_wp*contact%rate, self%is_book(k))  ! rate of the distance from the bearing's centre
-      s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
-      s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
-      p_i = motion%omega(3, i)*[-s_i(2), s_i(1)]  ! of the centres, from those of mass
-      p_j = motion%omega(3, j)*[-s_j(2), s_j(1)]
-      turn = dot_product(motion%v(1:2, j) + p_j - motion%v(1:2, i) - p_i, tangent%t)/max(contact%delta + self%clearance(k), &
-                                                                                          tiny(1.0_wp))
-      tangent%drift = -turn*contact%rate + motion%omega(3, j)*(dot_product(contact%normal, p_j) - longer) &
-                      - motion%omega(3, i)*(dot_product(contact%normal, p_i) + longer)
-   end subroutine revolute_lie
-
-   !> Penetration and its rate for all items.
-   subroutine revolute_gaps(self, motion, delta, rate)
-      class(clearance_revolute_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion             !! positions and velocities
-      real(wp), intent(inout) :: delta(:)              !! (all contacts) penetration [m]
-      real(wp), intent(inout) :: rate(:)               !! (all contacts) its rate [m/s]
-
-      type(contact_t) :: contact
-      integer :: k
-
-      do k = 1, self%n
-         call measure(self, k, motion, contact)
-         delta(self%first_contact + k) = contact%delta
-         rate(self%first_contact + k) = contact%rate
-      end do
-   end subroutine revolute_gaps
-
-   !> Normal force of a touching item and its rate:
-   !> F' = dF/ddelta delta' + dF/drate delta'',  delta'' = n . e'' + (|e'|^2 - delta'^2) / |e|.
-   subroutine revolute_watch(self, k, motion, delta, rate, force, force_rate)
-      class(clearance_revolute_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                         !! item
-      type(motion_t), intent(in) :: motion             !! positions, velocities and accelerations
-      real(wp), intent(out) :: delta                   !! penetration [m]
-      real(wp), intent(out) :: rate                    !! its rate [m/s]
-      real(wp), intent(out) :: force                   !! normal force [N]
-      real(wp), intent(out) :: force_rate              !! its rate [N/s]
-
-      type(contact_t) :: contact
-      real(wp) :: acceleration(2), arm_i(2), arm_j(2), df_ddelta, df_drate, e_dot(2), f_t
-      integer :: i, j
-
-      i = self%body(1, k)
-      j = self%body(2, k)
-      call evaluate_item(self, k, motion, contact, force, df_ddelta, df_drate, f_t)
-      delta = contact%delta
-      rate = contact%rate
-      arm_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
-      arm_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
-      e_dot = motion%v(1:2, j) - motion%v(1:2, i) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
-              - motion%omega(3, i)*[-arm_i(2), arm_i(1)]
-      acceleration = motion%a(1:2, j) - motion%a(1:2, i) &
-                     + motion%alpha(3, j)*[-arm_j(2), arm_j(1)] - motion%omega(3, j)**2*arm_j &
-                     - motion%alpha(3, i)*[-arm_i(2), arm_i(1)] + motion%omega(3, i)**2*arm_i
-      force_rate = df_ddelta*rate + df_drate*(contact%normal(1)*acceleration(1) + contact%normal(2)*acceleration(2) &
-                   + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/max(delta + self%clearance(k), tiny(1.0_wp)))
-   end subroutine revolute_watch
-
-   !> Values of a channel for all items.
-   subroutine revolute_report(self, channel, motion, values)
-      class(clearance_revolute_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel              !! name of the channel
-      type(motion_t), intent(in) :: motion             !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)          !! (components, all items or contacts) values [any]
-
-      type(contact_t) :: contact
-      real(wp) :: df_ddelta, df_drate, f_n, f_t
-      integer :: column, contact_column, k
-
-      do k = 1, self%n
-         column = self%first + k
-         contact_column = self%first_contact + k
-         call evaluate_item(self, k, motion, contact, f_n, df_ddelta, df_drate, f_t)
-         select case (channel)
-         case ("eccentricity")
-            values(:, column) = contact%e
-         case ("force")
-            values(:, column) = -f_n*contact%normal + f_t*[-contact%normal(2), contact%normal(1)]
-         case ("penetration")
-            values(1, contact_column) = max(contact%delta, 0.0_wp)
-         case ("penetration_rate")
-            values(1, contact_column) = merge(contact%rate, 0.0_wp, self%contact(k)%is_touching)
-         case ("normal_force")
-            values(1, contact_column) = f_n
-         case ("friction_force")
-            values(1, contact_column) = f_t
-         case ("state")
-            values(1, contact_column) = real(merge(state_contact, state_free, self%contact(k)%is_touching), wp)
-         end select
-      end do
-   end subroutine revolute_report
-
-   !> Elastic energy that the touching items store.
-   function revolute_elastic_energy(self, motion) result(energy)
-      class(clearance_revolute_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion             !! positions
-      real(wp) :: energy                               !! energy stored [J]
-
-      type(contact_t) :: contact
-      integer :: k
-
-      energy = 0.0_wp
-      do k = 1, self%n
-         if (.not. self%contact(k)%is_touching) cycle
-         call measure(self, k, motion, contact)
-         energy = energy + self%law%potential(contact%delta, self%parameters(:, k))
-      end do
-   end function revolute_elastic_energy
 
 end module clearance_revolute

@@ -146,7 +146,7 @@ module clearance_set
          class(clearance_set_t), intent(inout) :: self   !! the set
          type(motion_t), intent(in) :: motion            !! positions and velocities
          type(loads_t), intent(inout) :: loads           !! loads on the bodies, added to
-         real(wp), intent(inout) :: losses(:, :)         !! (2, all contacts) power lost by damping and friction, set here [W]
+         real(wp), intent(inout), contiguous :: losses(:, :)  !! (2, all contacts) power lost by damping and friction, set here [W]
       end subroutine evaluate_interface
 
       !> Penetration and its rate for all contacts, touching or not. No allocation.

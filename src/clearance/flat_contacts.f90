@@ -218,7 +218,7 @@ contains
       class(flat_contacts_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion           !! positions and velocities
       type(loads_t), intent(inout) :: loads          !! loads on the bodies
-      real(wp), intent(inout) :: losses(:, :)        !! (2, all contacts) power lost [W]
+      real(wp), intent(inout), contiguous :: losses(:, :)  !! (2, all contacts) power lost [W]
 
       type(flat_work_t), allocatable :: work
       real(wp) :: f(2)
