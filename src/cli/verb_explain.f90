@@ -163,11 +163,11 @@ contains
       call say("model")
       call say(counted(system%n_body, "planar body", "planar bodies")//", "//to_text(3*system%n_body)//" coordinates", 2)
       do k = 1, system%known%n
-         call say("'"//system%bodies%names(system%known%body(k))%s//"' moves as a known function of time", 2)
+         call say("'"//system%bodies%names(system%known%item(k)%body)%s//"' moves as a known function of time", 2)
       end do
       do k = 1, system%guided%n
-         call say("'"//system%bodies%names(system%guided%body(k))%s//"' keeps one coordinate, that of '"// &
-                  system%row_name(system%guided%row(1, k))//"'", 2)
+         call say("'"//system%bodies%names(system%guided%item(k)%body)%s//"' keeps one coordinate, that of '"// &
+                  system%row_name(system%guided%item(k)%row(1))//"'", 2)
       end do
       if (system%rows%n > system%rows%n_solve) then
          call say(counted(system%n_position, "coordinate", "coordinates")//" unknown, "// &

@@ -89,38 +89,34 @@ contains
 
       n = size(links)
       angle = start_angles(scene)
-      associate (known => system%known)
-         known%n = n
-         allocate (known%body(n), known%base(n), known%slot(n), known%item(n), known%row(3, n), known%side(3, n), source=0)
-         allocate (known%s_body(3, n), known%s_base(3, n), known%sign(n), known%offset(n), source=0.0_wp)
-         do k = 1, n
-            associate (link => links(k))
-               call joint_points(scene, link%kind, link%item, point(1), point(2))
-               body = scene%points%body(point)
-               side = merge(1, 2, body(1) == link%body)
-               known%body(k) = body(side)
-               known%base(k) = body(3 - side)
-               known%s_body(:, k) = scene%points%s(:, point(side))
-               known%s_base(:, k) = scene%points%s(:, point(3 - side))
-               known%side(:, k) = side
-               call find_fixing(scene, choices, system, link%kind, link%item, slot, item)
-               call take_rows(system%joints(slot)%set, item, known%row(:, k))
-               if (link%driver == 0) then
-                  known%offset(k) = angle(body(side)) - angle(body(3 - side))
-               else
-                  call find_fixing(scene, choices, system, link%driver, link%driving, known%slot(k), known%item(k))
-                  call take_rows(system%joints(known%slot(k))%set, known%item(k), known%row(3:3, k))
-                  known%sign(k) = merge(1.0_wp, -1.0_wp, side == 2)
-               end if
-            end associate
-         end do
-      end associate
+      system%known%n = n
+      allocate (system%known%item(n))
+      do k = 1, n
+         associate (link => links(k), known => system%known%item(k))
+            call joint_points(scene, link%kind, link%item, point(1), point(2))
+            body = scene%points%body(point)
+            side = merge(1, 2, body(1) == link%body)
+            known%body = body(side)
+            known%base = body(3 - side)
+            known%s_body = scene%points%s(1:2, point(side))
+            known%s_base = scene%points%s(1:2, point(3 - side))
+            known%side = side
+            call find_fixing(scene, choices, system, link%kind, link%item, slot, item)
+            call take_rows(system%joints(slot)%set, item, known%row)
+            if (link%driver == 0) then
+               known%offset = angle(known%body) - angle(known%base)
+            else
+               call find_fixing(scene, choices, system, link%driver, link%driving, known%slot, known%item)
+               call take_rows(system%joints(known%slot)%set, known%item, known%row(3:3))
+               known%sign = merge(1.0_wp, -1.0_wp, side == 2)
+            end if
+         end associate
+      end do
       allocate (system%is_known(system%n_body), source=.false.)
-      system%is_known(system%known%body) = .true.
+      system%is_known(system%known%item%body) = .true.
       do k = 1, system%n_body
          if (.not. system%is_known(k)) system%inverse_mass(:, k) = 1.0_wp/system%mass(:, k)
       end do
-
    end subroutine set_known
 
    !> How the guided bodies move, and which rows hold them.
@@ -135,40 +131,37 @@ contains
 
       n = size(guides)
       angle = start_angles(scene)
-      associate (guided => system%guided)
-         guided%n = n
-         guided%n_turning = count([(scene%joints(guides(k)%kind)%info%name /= kind_sliding, k=1, n)])
-         allocate (guided%body(n), guided%base(n), guided%row(2, n), guided%side(n), source=0)
-         allocate (guided%arm(2, n), guided%s_base(2, n), guided%turned(2, n), guided%along(2, n), guided%a_0(2, n), &
-                   guided%offset(n), guided%mass(n), guided%ease(n), source=0.0_wp)
-         do k = 1, n
-            call joint_points(scene, guides(k)%kind, guides(k)%item, point(1), point(2))
+      system%guided%n = n
+      system%guided%n_turning = count([(scene%joints(guides(k)%kind)%info%name /= kind_sliding, k=1, n)])
+      allocate (system%guided%item(n))
+      do k = 1, n
+         associate (guide => guides(k), guided => system%guided%item(k))
+            call joint_points(scene, guide%kind, guide%item, point(1), point(2))
             body = scene%points%body(point)
-            guided%side(k) = merge(1, 2, body(1) == guides(k)%body)
-            if (guided%side(k) == 1) point = point([2, 1])
-            guided%body(k) = guides(k)%body
-            guided%base(k) = scene%points%body(point(1))
-            guided%mass(k) = scene%bodies%mass(guided%body(k))
-            guided%s_base(:, k) = scene%points%s(1:2, point(1))
-            call find_fixing(scene, choices, system, guides(k)%kind, guides(k)%item, slot, item)
+            guided%side = merge(1, 2, body(1) == guide%body)
+            if (guided%side == 1) point = point([2, 1])
+            guided%body = guide%body
+            guided%base = scene%points%body(point(1))
+            guided%mass = scene%bodies%mass(guided%body)
+            guided%s_base = scene%points%s(1:2, point(1))
+            call find_fixing(scene, choices, system, guide%kind, guide%item, slot, item)
             associate (set => system%joints(slot)%set, s_body => scene%points%s(1:2, point(2)))
-               call take_rows(set, item, guided%row(:, k))
+               call take_rows(set, item, guided%row)
                select type (set)
                class is (joint_translational_t)
-                  guided%offset(k) = angle(guided%body(k)) - angle(guided%base(k))
-                  guided%turned(:, k) = [cos(guided%offset(k)), sin(guided%offset(k))]
-                  guided%arm(:, k) = set%axis(:, item)
-                  if (guided%side(k) == 1) guided%arm(:, k) = turn(guided%turned(:, k), guided%arm(:, k))
-                  guided%s_base(:, k) = guided%s_base(:, k) - turn(guided%turned(:, k), s_body)
-                  guided%ease(k) = 1.0_wp/guided%mass(k)
+                  guided%offset = angle(guided%body) - angle(guided%base)
+                  guided%turned = [cos(guided%offset), sin(guided%offset)]
+                  guided%arm = set%axis(:, item)
+                  if (guided%side == 1) guided%arm = turn(guided%turned, guided%arm)
+                  guided%s_base = guided%s_base - turn(guided%turned, s_body)
+                  guided%ease = 1.0_wp/guided%mass
                class default
-                  guided%arm(:, k) = -s_body
-                  guided%ease(k) = 1.0_wp/(scene%bodies%inertia(guided%body(k)) &
-                                             + guided%mass(k)*dot_product(s_body, s_body))
+                  guided%arm = -s_body
+                  guided%ease = 1.0_wp/(scene%bodies%inertia(guided%body) + guided%mass*dot_product(s_body, s_body))
                end select
             end associate
-         end do
-      end associate
+         end associate
+      end do
    end subroutine set_guided
 
    !> What acts on known bodies besides the rows that fix them, and the bodies that move with them.
@@ -177,18 +170,18 @@ contains
 
       integer :: i, k, n, place, row
 
-      associate (guided => system%guided, rows => system%rows)
-         system%driven = [system%known%body, pack(guided%body, guided%base > 0)]
+      associate (guided => system%guided%item, rows => system%rows)
+         system%driven = [system%known%item%body, pack(guided%body, guided%base > 0)]
          allocate (system%carried(3, rows%n_known + 2*count(guided%base > 0)), source=0)
          system%carried(:, :rows%n_known) = rows%known
          n = rows%n_known
-         do k = 1, guided%n
-            if (guided%base(k) == 0) cycle
+         do k = 1, size(guided)
+            if (guided(k)%base == 0) cycle
             do i = 1, 2
-               row = guided%row(i, k)
-               place = 6*(row - 1) + 3*(2 - guided%side(k))
+               row = guided(k)%row(i)
+               place = 6*(row - 1) + 3*(2 - guided(k)%side)
                n = n + 1
-               system%carried(:, n) = [row, place, guided%base(k)]
+               system%carried(:, n) = [row, place, guided(k)%base]
             end do
          end do
       end associate

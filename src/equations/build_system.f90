@@ -216,7 +216,7 @@ contains
          call system%ideal(k)%set%declare_rows(system%rows)
       end do
       is_reduced = system%is_known
-      is_reduced(system%guided%body) = .true.
+      is_reduced(system%guided%item%body) = .true.
       call list_sides(is_reduced, system%rows)
       call list_carried(system)
       system%n_row = system%rows%n_solve

@@ -25,23 +25,28 @@ module guided_motion
    public :: find_guided_multipliers, guided_coordinates, guided_rates, guided_response, guided_t, move_guided
    public :: set_guided_acceleration
 
+   !> One guided body.
+   type :: guided_body_t
+      integer :: body = 0                  !! the body
+      integer :: base = 0                  !! what it is tied to, 0: the ground
+      integer :: row(2) = 0                !! (2) rows of the joint
+      integer :: side = 0                  !! side of the body in them, 1: i, 2: j
+      real(wp) :: arm(2) = 0.0_wp          !! (2) d in the frame of the body; sliding: u in that of the base [m or 1]
+      real(wp) :: s_base(2) = 0.0_wp       !! (2) P, sliding: centre of mass at x = 0; frame of the base [m]
+      real(wp) :: turned(2) = 0.0_wp       !! (2) sliding: cosine and sine of the next [1]
+      real(wp) :: offset = 0.0_wp          !! sliding: angle of the body less that of its base [rad]
+      real(wp) :: mass = 0.0_wp            !! mass of the body [kg]
+      real(wp) :: ease = 0.0_wp            !! one over what the freedom moves: I + m |d|^2, or m [1/(kg.m^2) or 1/kg]
+      ! of the motion that is set
+      real(wp) :: along(2) = 0.0_wp        !! (2) change of the centre of mass per coordinate, world frame [m or 1]
+      real(wp) :: a_0(2) = 0.0_wp          !! (2) acceleration of the centre of mass at x'' = 0 [m/s^2]
+   end type guided_body_t
+
    !> The guided bodies: those that turn, then those that slide.
    type :: guided_t
-      integer :: n = 0                          !! number of guided bodies
-      integer :: n_turning = 0                  !! those of them that turn, the first ones
-      integer, allocatable :: body(:)           !! (n) the bodies
-      integer, allocatable :: base(:)           !! (n) what each is tied to, 0: the ground
-      real(wp), allocatable :: arm(:, :)        !! (2, n) d in the frame of the body; sliding: u in that of the base [m or 1]
-      real(wp), allocatable :: s_base(:, :)     !! (2, n) P, sliding: centre of mass at x = 0; frame of the base [m]
-      real(wp), allocatable :: turned(:, :)     !! (2, n) sliding: cosine and sine of the next [1]
-      real(wp), allocatable :: offset(:)        !! (n) sliding: angle of the body less that of its base [rad]
-      real(wp), allocatable :: mass(:)          !! (n) mass of the body [kg]
-      real(wp), allocatable :: ease(:)          !! (n) one over what the freedom moves: I + m |d|^2, or m [1/(kg.m^2) or 1/kg]
-      integer, allocatable :: row(:, :)         !! (2, n) rows of the joint
-      integer, allocatable :: side(:)           !! (n) side of the body in them, 1: i, 2: j
-      ! of the motion that is set
-      real(wp), allocatable :: along(:, :)      !! (2, n) change of the centre of mass per coordinate, world frame [m or 1]
-      real(wp), allocatable :: a_0(:, :)        !! (2, n) acceleration of the centre of mass at x'' = 0 [m/s^2]
+      integer :: n = 0                                !! number of guided bodies
+      integer :: n_turning = 0                        !! those of them that turn, the first ones
+      type(guided_body_t), allocatable :: item(:)     !! (n) the bodies
    end type guided_t
 
 contains
@@ -53,22 +58,15 @@ contains
       real(wp), intent(in) :: x_dot(guided%n)    !! (n) their rates [rad/s or m/s]
       type(motion_t), intent(inout) :: motion    !! the motion of the guided bodies is set
 
-      call place_guided(guided%n, guided%n_turning, guided%body, guided%base, guided%arm, guided%s_base, guided%turned, &
-                        guided%offset, x, x_dot, ubound(motion%angle, 1), motion%a, motion%alpha, motion%r, motion%rot, &
-                        motion%v, motion%omega, motion%angle, guided%along, guided%a_0)
+      call place_guided(guided%n, guided%n_turning, guided%item, x, x_dot, ubound(motion%angle, 1), motion%a, motion%alpha, &
+                        motion%r, motion%rot, motion%v, motion%omega, motion%angle)
    end subroutine move_guided
 
    !> The same on plain arrays.
-   pure subroutine place_guided(n, n_turning, body, base, arm, s_base, turned, offset, x, x_dot, n_body, acceleration, alpha, &
-                                r, rot, v, omega, angle, along, a_0)
+   pure subroutine place_guided(n, n_turning, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
       integer, intent(in) :: n                              !! number of guided bodies
       integer, intent(in) :: n_turning                      !! those that turn
-      integer, intent(in) :: body(n)                        !! (n) the bodies
-      integer, intent(in) :: base(n)                        !! (n) what they are tied to
-      real(wp), intent(in) :: arm(2, n)                     !! (2, n) arms of those that turn, axes of those that slide [m or 1]
-      real(wp), intent(in) :: s_base(2, n)                  !! (2, n) points in the frames of the bases [m]
-      real(wp), intent(in) :: turned(2, n)                  !! (2, n) cosine and sine of the angle to the base, sliding [1]
-      real(wp), intent(in) :: offset(n)                     !! (n) that angle [rad]
+      type(guided_body_t), intent(inout) :: item(n)         !! (n) the bodies, moved
       real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad or m]
       real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [rad/s or m/s]
       integer, intent(in) :: n_body                         !! number of bodies
@@ -79,98 +77,92 @@ contains
       real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
       real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
       real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
-      real(wp), intent(inout) :: along(2, n)                !! (2, n) change of the centre of mass per coordinate [m or 1]
-      real(wp), intent(inout) :: a_0(2, n)                  !! (2, n) acceleration of the centre of mass at x'' = 0 [m/s^2]
 
       real(wp) :: c, d(2), e, p(2), q(2), s, w
       integer :: a, b, k
 
       do k = 1, n_turning
-         b = body(k)
+         b = item(k)%body
          w = x_dot(k)
          c = cos(x(k))
          s = sin(x(k))
-         d(1) = c*arm(1, k) - s*arm(2, k)
-         d(2) = s*arm(1, k) + c*arm(2, k)
+         d(1) = c*item(k)%arm(1) - s*item(k)%arm(2)
+         d(2) = s*item(k)%arm(1) + c*item(k)%arm(2)
          angle(b) = x(k)
          rot(1, 1, b) = c
          rot(2, 1, b) = s
          rot(1, 2, b) = -s
          rot(2, 2, b) = c
          omega(3, b) = w
-         along(1, k) = -d(2)
-         along(2, k) = d(1)
-         r(1, b) = s_base(1, k) + d(1)
-         r(2, b) = s_base(2, k) + d(2)
+         item(k)%along(1) = -d(2)
+         item(k)%along(2) = d(1)
+         r(1, b) = item(k)%s_base(1) + d(1)
+         r(2, b) = item(k)%s_base(2) + d(2)
          v(1, b) = -w*d(2)
          v(2, b) = w*d(1)
-         a_0(1, k) = -w*w*d(1)
-         a_0(2, k) = -w*w*d(2)
-         if (base(k) == 0) cycle
+         item(k)%a_0(1) = -w*w*d(1)
+         item(k)%a_0(2) = -w*w*d(2)
+         if (item(k)%base == 0) cycle
          ! what the motion of the base adds
-         a = base(k)
+         a = item(k)%base
          w = omega(3, a)
          e = alpha(3, a)
-         p(1) = rot(1, 1, a)*s_base(1, k) + rot(1, 2, a)*s_base(2, k)
-         p(2) = rot(2, 1, a)*s_base(1, k) + rot(2, 2, a)*s_base(2, k)
+         p(1) = rot(1, 1, a)*item(k)%s_base(1) + rot(1, 2, a)*item(k)%s_base(2)
+         p(2) = rot(2, 1, a)*item(k)%s_base(1) + rot(2, 2, a)*item(k)%s_base(2)
          r(1, b) = r(1, a) + p(1) + d(1)
          r(2, b) = r(2, a) + p(2) + d(2)
          v(1, b) = v(1, b) + v(1, a) - w*p(2)
          v(2, b) = v(2, b) + v(2, a) + w*p(1)
-         a_0(1, k) = a_0(1, k) + acceleration(1, a) - e*p(2) - w*w*p(1)
-         a_0(2, k) = a_0(2, k) + acceleration(2, a) + e*p(1) - w*w*p(2)
+         item(k)%a_0(1) = item(k)%a_0(1) + acceleration(1, a) - e*p(2) - w*w*p(1)
+         item(k)%a_0(2) = item(k)%a_0(2) + acceleration(2, a) + e*p(1) - w*w*p(2)
       end do
       do k = n_turning + 1, n
-         b = body(k)
-         p(1) = s_base(1, k) + x(k)*arm(1, k)
-         p(2) = s_base(2, k) + x(k)*arm(2, k)
-         if (base(k) == 0) then
-            angle(b) = offset(k)
-            rot(1, 1, b) = turned(1, k)
-            rot(2, 1, b) = turned(2, k)
-            rot(1, 2, b) = -turned(2, k)
-            rot(2, 2, b) = turned(1, k)
-            along(1, k) = arm(1, k)
-            along(2, k) = arm(2, k)
+         b = item(k)%body
+         p(1) = item(k)%s_base(1) + x(k)*item(k)%arm(1)
+         p(2) = item(k)%s_base(2) + x(k)*item(k)%arm(2)
+         if (item(k)%base == 0) then
+            angle(b) = item(k)%offset
+            rot(1, 1, b) = item(k)%turned(1)
+            rot(2, 1, b) = item(k)%turned(2)
+            rot(1, 2, b) = -item(k)%turned(2)
+            rot(2, 2, b) = item(k)%turned(1)
+            item(k)%along(1) = item(k)%arm(1)
+            item(k)%along(2) = item(k)%arm(2)
             r(1, b) = p(1)
             r(2, b) = p(2)
-            v(1, b) = x_dot(k)*arm(1, k)
-            v(2, b) = x_dot(k)*arm(2, k)
+            v(1, b) = x_dot(k)*item(k)%arm(1)
+            v(2, b) = x_dot(k)*item(k)%arm(2)
             cycle
          end if
-         a = base(k)
+         a = item(k)%base
          w = omega(3, a)
          e = alpha(3, a)
-         d(1) = rot(1, 1, a)*arm(1, k) + rot(1, 2, a)*arm(2, k)
-         d(2) = rot(2, 1, a)*arm(1, k) + rot(2, 2, a)*arm(2, k)
+         d(1) = rot(1, 1, a)*item(k)%arm(1) + rot(1, 2, a)*item(k)%arm(2)
+         d(2) = rot(2, 1, a)*item(k)%arm(1) + rot(2, 2, a)*item(k)%arm(2)
          q(1) = rot(1, 1, a)*p(1) + rot(1, 2, a)*p(2)
          q(2) = rot(2, 1, a)*p(1) + rot(2, 2, a)*p(2)
-         angle(b) = angle(a) + offset(k)
-         rot(1, 1, b) = rot(1, 1, a)*turned(1, k) + rot(1, 2, a)*turned(2, k)
-         rot(2, 1, b) = rot(2, 1, a)*turned(1, k) + rot(2, 2, a)*turned(2, k)
+         angle(b) = angle(a) + item(k)%offset
+         rot(1, 1, b) = rot(1, 1, a)*item(k)%turned(1) + rot(1, 2, a)*item(k)%turned(2)
+         rot(2, 1, b) = rot(2, 1, a)*item(k)%turned(1) + rot(2, 2, a)*item(k)%turned(2)
          rot(1, 2, b) = -rot(2, 1, b)
          rot(2, 2, b) = rot(1, 1, b)
          omega(3, b) = w
-         along(1, k) = d(1)
-         along(2, k) = d(2)
+         item(k)%along(1) = d(1)
+         item(k)%along(2) = d(2)
          r(1, b) = r(1, a) + q(1)
          r(2, b) = r(2, a) + q(2)
          v(1, b) = v(1, a) - w*q(2) + x_dot(k)*d(1)
          v(2, b) = v(2, a) + w*q(1) + x_dot(k)*d(2)
-         a_0(1, k) = acceleration(1, a) - e*q(2) - w*w*q(1) - 2.0_wp*w*x_dot(k)*d(2)
-         a_0(2, k) = acceleration(2, a) + e*q(1) - w*w*q(2) + 2.0_wp*w*x_dot(k)*d(1)
+         item(k)%a_0(1) = acceleration(1, a) - e*q(2) - w*w*q(1) - 2.0_wp*w*x_dot(k)*d(2)
+         item(k)%a_0(2) = acceleration(2, a) + e*q(1) - w*w*q(2) + 2.0_wp*w*x_dot(k)*d(1)
       end do
    end subroutine place_guided
 
    !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
-   pure subroutine guided_rates(n, n_turning, body, mass, ease, along, a_0, n_body, g, x_dot, rate, x_ddot, status)
+   pure subroutine guided_rates(n, n_turning, item, n_body, g, x_dot, rate, x_ddot, status)
       integer, intent(in) :: n                         !! number of guided bodies
       integer, intent(in) :: n_turning                 !! those that turn
-      integer, intent(in) :: body(n)                   !! (n) the bodies
-      real(wp), intent(in) :: mass(n)                  !! (n) their masses [kg]
-      real(wp), intent(in) :: ease(n)                  !! (n) one over what the freedoms move [1/(kg.m^2) or 1/kg]
-      real(wp), intent(in) :: along(2, n)              !! (2, n) change of the centre of mass per coordinate [m or 1]
-      real(wp), intent(in) :: a_0(2, n)                !! (2, n) acceleration of the centre of mass at x'' = 0 [m/s^2]
+      type(guided_body_t), intent(in) :: item(n)       !! (n) the bodies, moved
       integer, intent(in) :: n_body                    !! number of bodies
       real(wp), intent(in) :: g(3, 0:n_body)           !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: x_dot(n)                 !! (n) rates of the coordinates [rad/s or m/s]
@@ -184,11 +176,11 @@ contains
       sum = 0.0_wp
       !GCC$ novector
       do k = 1, n
-         b = body(k)
+         b = item(k)%body
          rate(k) = x_dot(k)
-         load = along(1, k)*(g(1, b) - mass(k)*a_0(1, k)) + along(2, k)*(g(2, b) - mass(k)*a_0(2, k))
+         load = item(k)%along(1)*(g(1, b) - item(k)%mass*item(k)%a_0(1)) + item(k)%along(2)*(g(2, b) - item(k)%mass*item(k)%a_0(2))
          if (k <= n_turning) load = load + g(3, b)
-         x_ddot(k) = load*ease(k)
+         x_ddot(k) = load*item(k)%ease
          sum = sum + abs(x_ddot(k))
       end do
       status = merge(0, 1, ieee_is_finite(sum))
@@ -207,13 +199,13 @@ contains
       integer :: b, k
 
       do k = 1, guided%n
-         b = guided%body(k)
-         a_0 = merge(guided%a_0(:, k), 0.0_wp, with_own)
-         x_ddot = dot_product(guided%along(:, k), g(1:2, b) - guided%mass(k)*a_0)
+         b = guided%item(k)%body
+         a_0 = merge(guided%item(k)%a_0, 0.0_wp, with_own)
+         x_ddot = dot_product(guided%item(k)%along, g(1:2, b) - guided%item(k)%mass*a_0)
          if (k <= guided%n_turning) x_ddot = x_ddot + g(3, b)
-         x_ddot = guided%ease(k)*x_ddot
-         a(1:2, b) = a_0 + x_ddot*guided%along(:, k)
-         a(3, b) = merge(x_ddot, merge(alpha(3, guided%base(k)), 0.0_wp, with_own), k <= guided%n_turning)
+         x_ddot = guided%item(k)%ease*x_ddot
+         a(1:2, b) = a_0 + x_ddot*guided%item(k)%along
+         a(3, b) = merge(x_ddot, merge(alpha(3, guided%item(k)%base), 0.0_wp, with_own), k <= guided%n_turning)
       end do
    end subroutine guided_response
 
@@ -226,10 +218,10 @@ contains
       integer :: b, k
 
       do k = 1, guided%n
-         b = guided%body(k)
-         motion%a(1, b) = guided%a_0(1, k) + x_ddot(k)*guided%along(1, k)
-         motion%a(2, b) = guided%a_0(2, k) + x_ddot(k)*guided%along(2, k)
-         motion%alpha(3, b) = motion%alpha(3, guided%base(k))
+         b = guided%item(k)%body
+         motion%a(1, b) = guided%item(k)%a_0(1) + x_ddot(k)*guided%item(k)%along(1)
+         motion%a(2, b) = guided%item(k)%a_0(2) + x_ddot(k)*guided%item(k)%along(2)
+         motion%alpha(3, b) = motion%alpha(3, guided%item(k)%base)
          if (k <= guided%n_turning) motion%alpha(3, b) = x_ddot(k)
       end do
    end subroutine set_guided_acceleration
@@ -245,15 +237,15 @@ contains
       integer :: a, b, k
 
       do k = 1, guided%n
-         a = guided%base(k)
-         b = guided%body(k)
+         a = guided%item(k)%base
+         b = guided%item(k)%body
          if (k <= guided%n_turning) then
             x(k) = motion%angle(b)
             x_dot(k) = motion%omega(3, b)
             cycle
          end if
-         u = matmul(motion%rot(1:2, 1:2, a), guided%arm(:, k))
-         start = matmul(motion%rot(1:2, 1:2, a), guided%s_base(:, k))
+         u = matmul(motion%rot(1:2, 1:2, a), guided%item(k)%arm)
+         start = matmul(motion%rot(1:2, 1:2, a), guided%item(k)%s_base)
          from_base = motion%r(1:2, b) - motion%r(1:2, a)
          x(k) = dot_product(u, from_base - start)
          x_dot(k) = dot_product(u, motion%v(1:2, b) - motion%v(1:2, a) - motion%omega(3, a)*[-from_base(2), from_base(1)])
@@ -273,16 +265,16 @@ contains
       integer :: b, k, place
 
       do k = 1, guided%n
-         b = guided%body(k)
-         place = 3*(guided%side(k) - 1)
-         p = rows%jac(place + 1:place + 3, guided%row(1, k))
-         q = rows%jac(place + 1:place + 3, guided%row(2, k))
+         b = guided%item(k)%body
+         place = 3*(guided%item(k)%side - 1)
+         p = rows%jac(place + 1:place + 3, guided%item(k)%row(1))
+         q = rows%jac(place + 1:place + 3, guided%item(k)%row(2))
          rest = g(:, b)/mass(:, b) - a(:, b)
          x = [dot_product(p, rest), dot_product(q, rest)]
          s = [dot_product(p, p/mass(:, b)), dot_product(p, q/mass(:, b)), dot_product(q, q/mass(:, b))]
          determinant = s(1)*s(3) - s(2)**2
-         lambda(guided%row(1, k)) = (s(3)*x(1) - s(2)*x(2))/determinant
-         lambda(guided%row(2, k)) = (s(1)*x(2) - s(2)*x(1))/determinant
+         lambda(guided%item(k)%row(1)) = (s(3)*x(1) - s(2)*x(2))/determinant
+         lambda(guided%item(k)%row(2)) = (s(1)*x(2) - s(2)*x(1))/determinant
       end do
    end subroutine find_guided_multipliers
 

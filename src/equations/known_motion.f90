@@ -20,21 +20,26 @@ module known_motion
    private
    public :: find_multipliers, known_t, move_known, power_of_known
 
+   !> One known body.
+   type :: known_body_t
+      integer :: body = 0                 !! the body
+      integer :: base = 0                 !! what it is tied to, 0: the ground
+      integer :: slot = 0                 !! set of the driver, 0: rigid
+      integer :: item = 0                 !! its item
+      integer :: row(3) = 0               !! (3) rows that fix the body
+      integer :: side(3) = 0              !! (3) side of the body in each of them, 1: i, 2: j
+      real(wp) :: s_body(2) = 0.0_wp      !! (2) common point in the frame of the body [m]
+      real(wp) :: s_base(2) = 0.0_wp      !! (2) the same in the frame of its base [m]
+      real(wp) :: sign = 0.0_wp           !! of the driver's angle in that of the body; 0: rigid [1]
+      real(wp) :: offset = 0.0_wp         !! angle of the body less that of its base, less sign times f [rad]
+   end type known_body_t
+
    !> The known bodies, each after the body that it is tied to.
    type :: known_t
-      integer :: n = 0                        !! number of known bodies
-      integer, allocatable :: body(:)         !! (n) the bodies
-      integer, allocatable :: base(:)         !! (n) what each is tied to, 0: the ground
-      real(wp), allocatable :: s_body(:, :)   !! (3, n) common point in the frame of the body [m]
-      real(wp), allocatable :: s_base(:, :)   !! (3, n) the same in the frame of its base [m]
-      real(wp), allocatable :: sign(:)        !! (n) of the driver's angle in that of the body; 0: rigid [1]
-      real(wp), allocatable :: offset(:)      !! (n) angle of the body less that of its base, less sign times f [rad]
-      integer, allocatable :: slot(:)         !! (n) set of the driver
-      integer, allocatable :: item(:)         !! (n) its item
-      integer, allocatable :: row(:, :)       !! (3, n) rows that fix the body
-      integer, allocatable :: side(:, :)      !! (3, n) side of the body in each of them, 1: i, 2: j
-      real(wp) :: t = -huge(1.0_wp)           !! time of the motion that is set [s]
-      logical :: is_finite = .true.           !! whether that motion is finite numbers
+      integer :: n = 0                               !! number of known bodies
+      type(known_body_t), allocatable :: item(:)     !! (n) the bodies
+      real(wp) :: t = -huge(1.0_wp)                  !! time of the motion that is set [s]
+      logical :: is_finite = .true.                  !! whether that motion is finite numbers
    end type known_t
 
 contains
@@ -53,29 +58,22 @@ contains
       known%t = t
       known%is_finite = .true.
       do k = 1, known%n
-         f = 0.0_wp
-         f_dot = 0.0_wp
-         f_dot_dot = 0.0_wp
-         if (known%slot(k) > 0) call joints(known%slot(k))%set%prescription(known%item(k), t, f, f_dot, f_dot_dot)
-         known%is_finite = known%is_finite .and. ieee_is_finite(f + f_dot + f_dot_dot)
-         call place_body(known%n, k, known%body, known%base, known%s_body, known%s_base, known%sign, known%offset, f, f_dot, &
-                         f_dot_dot, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, &
-                         motion%a, motion%alpha)
-         if (known%base(k) > 0) call add_base(motion, known%base(k), known%body(k), known%s_base(:, k))
+         associate (item => known%item(k))
+            f = 0.0_wp
+            f_dot = 0.0_wp
+            f_dot_dot = 0.0_wp
+            if (item%slot > 0) call joints(item%slot)%set%prescription(item%item, t, f, f_dot, f_dot_dot)
+            known%is_finite = known%is_finite .and. ieee_is_finite(f + f_dot + f_dot_dot)
+            call place_body(item, f, f_dot, f_dot_dot, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
+                            motion%angle, motion%a, motion%alpha)
+            if (item%base > 0) call add_base(motion, item%base, item%body, item%s_base)
+         end associate
       end do
    end subroutine move_known
 
    !> Motion of one body, its common point at rest.
-   pure subroutine place_body(n, k, body, base, s_body, s_base, sign, offset, f, f_dot, f_dot_dot, n_body, r, rot, v, omega, &
-                              angle, acceleration, alpha)
-      integer, intent(in) :: n                              !! number of known bodies
-      integer, intent(in) :: k                              !! which of them
-      integer, intent(in) :: body(n)                        !! (n) their numbers
-      integer, intent(in) :: base(n)                        !! (n) what they are tied to
-      real(wp), intent(in) :: s_body(3, n)                  !! (3, n) common point in the frame of the body [m]
-      real(wp), intent(in) :: s_base(3, n)                  !! (3, n) the same in the frame of its base [m]
-      real(wp), intent(in) :: sign(n)                       !! (n) of the driver's angle in that of the body [1]
-      real(wp), intent(in) :: offset(n)                     !! (n) angle of the body less that of its base, less sign times f [rad]
+   pure subroutine place_body(item, f, f_dot, f_dot_dot, n_body, r, rot, v, omega, angle, acceleration, alpha)
+      type(known_body_t), intent(in) :: item                !! the body
       real(wp), intent(in) :: f                             !! angle of the driver [rad]
       real(wp), intent(in) :: f_dot                         !! its first time derivative [rad/s]
       real(wp), intent(in) :: f_dot_dot                     !! its second time derivative [rad/s^2]
@@ -91,16 +89,16 @@ contains
       real(wp) :: c, e, s, theta, w, x, y
       integer :: a, b
 
-      a = base(k)
-      b = body(k)
-      theta = angle(a) + offset(k) + sign(k)*f
-      w = omega(3, a) + sign(k)*f_dot
-      e = alpha(3, a) + sign(k)*f_dot_dot
+      a = item%base
+      b = item%body
+      theta = angle(a) + item%offset + item%sign*f
+      w = omega(3, a) + item%sign*f_dot
+      e = alpha(3, a) + item%sign*f_dot_dot
       c = cos(theta)
       s = sin(theta)
       ! from the common point to the centre of mass
-      x = s*s_body(2, k) - c*s_body(1, k)
-      y = -s*s_body(1, k) - c*s_body(2, k)
+      x = s*item%s_body(2) - c*item%s_body(1)
+      y = -s*item%s_body(1) - c*item%s_body(2)
       angle(b) = theta
       omega(3, b) = w
       alpha(3, b) = e
@@ -108,8 +106,8 @@ contains
       rot(2, 1, b) = s
       rot(1, 2, b) = -s
       rot(2, 2, b) = c
-      r(1, b) = s_base(1, k) + x
-      r(2, b) = s_base(2, k) + y
+      r(1, b) = item%s_base(1) + x
+      r(2, b) = item%s_base(2) + y
       v(1, b) = -w*y
       v(2, b) = w*x
       acceleration(1, b) = -e*y - w*w*x
@@ -121,13 +119,13 @@ contains
       type(motion_t), intent(inout) :: motion   !! the motion; that of body b is added to
       integer, intent(in) :: a                  !! the body that carries
       integer, intent(in) :: b                  !! the body that is carried
-      real(wp), intent(in) :: s_base(3)         !! (3) common point in the frame of a; in the position of b already [m]
+      real(wp), intent(in) :: s_base(2)         !! (2) common point in the frame of a; in the position of b already [m]
 
       real(wp) :: s(2), w
 
       s = motion%rot(1:2, 1, a)*s_base(1) + motion%rot(1:2, 2, a)*s_base(2)
       w = motion%omega(3, a)
-      motion%r(1:2, b) = motion%r(1:2, b) + (motion%r(1:2, a) + s - s_base(1:2))
+      motion%r(1:2, b) = motion%r(1:2, b) + (motion%r(1:2, a) + s - s_base)
       motion%v(1:2, b) = motion%v(1:2, b) + motion%v(1:2, a) + w*[-s(2), s(1)]
       motion%a(1:2, b) = motion%a(1:2, b) + motion%a(1:2, a) + motion%alpha(3, a)*[-s(2), s(1)] - w*w*s
    end subroutine add_base
@@ -182,7 +180,7 @@ contains
       integer :: b, i, k, place, row
 
       do k = 1, known%n
-         b = known%body(k)
+         b = known%item(k)%body
          rest(:, b) = g(:, b) - mass(:, b)*a(:, b)
       end do
       do k = 1, size(carried, 2)
@@ -192,17 +190,17 @@ contains
          rest(:, b) = rest(:, b) - rows%jac(place + 1:place + 3, row)*lambda(row)
       end do
       do k = known%n, 1, -1
-         b = known%body(k)
+         b = known%item(k)%body
          do i = 1, 3
-            place = 3*(known%side(i, k) - 1)
-            matrix(:, i) = rows%jac(place + 1:place + 3, known%row(i, k))
+            place = 3*(known%item(k)%side(i) - 1)
+            matrix(:, i) = rows%jac(place + 1:place + 3, known%item(k)%row(i))
          end do
          x = solve_three(matrix, rest(:, b))
          do i = 1, 3
-            row = known%row(i, k)
+            row = known%item(k)%row(i)
             lambda(row) = x(i)
-            place = 3*(2 - known%side(i, k))
-            rest(:, known%base(k)) = rest(:, known%base(k)) - rows%jac(place + 1:place + 3, row)*x(i)
+            place = 3*(2 - known%item(k)%side(i))
+            rest(:, known%item(k)%base) = rest(:, known%item(k)%base) - rows%jac(place + 1:place + 3, row)*x(i)
          end do
       end do
    end subroutine find_multipliers

@@ -22,7 +22,7 @@ contains
          rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
       end do
       do k = 1, self%known%n
-         body = self%known%body(k)
+         body = self%known%item(k)%body
          rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
       end do
       do k = 1, self%guided%n

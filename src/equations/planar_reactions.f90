@@ -14,10 +14,10 @@ contains
          call self%joints(k)%set%evaluate(t, self%motion, self%rows)
       end do
       do k = 1, self%known%n
-         call copy(self%known%body(k))
+         call copy(self%known%item(k)%body)
       end do
       do k = 1, self%guided%n
-         call copy(self%guided%body(k))
+         call copy(self%guided%item(k)%body)
       end do
       call find_guided_multipliers(self%guided, self%rows, self%mass, self%g, self%a, self%lambda)
       call find_multipliers(self%known, self%rows, self%carried, self%mass, self%g, self%a, self%rest, self%lambda)

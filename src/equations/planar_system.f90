@@ -335,8 +335,8 @@ contains
             if (status /= 0) return
          end if
          if (guided%n > 0) then
-            call guided_rates(guided%n, guided%n_turning, guided%body, guided%mass, guided%ease, guided%along, guided%a_0, &
-                              self%n_body, self%g, y(nq + n + 1:), ydot(n + 1:), ydot(nq + n + 1:), status)
+            call guided_rates(guided%n, guided%n_turning, guided%item, self%n_body, self%g, y(nq + n + 1:), ydot(n + 1:), &
+                              ydot(nq + n + 1:), status)
             if (self%with_ledger) call set_guided_acceleration(guided, ydot(nq + n + 1:), self%motion)
          end if
       end associate

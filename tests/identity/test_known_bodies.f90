@@ -212,7 +212,7 @@ contains
          call compare_at(full, small, 0.0_wp, y, error)
          if (allocated(error)) return
          call check_true(error, maxval(abs(small%losses)) > 0.0_wp, "the contact loses energy")
-         call check_true(error, abs(small%lambda(small%known%row(3, 1))) > 0.1_wp, "the driver carries it")
+         call check_true(error, abs(small%lambda(small%known%item(1)%row(3))) > 0.1_wp, "the driver carries it")
       end do
    end subroutine test_contact_on_a_known_body
 
@@ -327,7 +327,7 @@ contains
          a = [one%motion%a(1:2, 1), one%motion%alpha(3, 1), one%motion%a(1:2, 2), one%motion%alpha(3, 2)]
          call check_close(error, ydot_two(7:12), a, 1.0e-9_wp, "accelerations with two drivers, "//solver%name(), relative=.true.)
          call one%find_reactions(0.3_wp)
-         associate (moment => one%lambda(one%known%row(3, 1)), shares => two%lambda(size(two%lambda) - 1:))
+         associate (moment => one%lambda(one%known%item(1)%row(3)), shares => two%lambda(size(two%lambda) - 1:))
             call check_close(error, shares, 0.5_wp*[moment, moment], 1.0e-6_wp, "halves of the moment, "//solver%name(), &
                              relative=.true.)
             call check_true(error, abs(moment) > 1.0_wp, "there is a moment")
