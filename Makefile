@@ -191,6 +191,7 @@ LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(SUITESPAR
 WARNINGS := -Wall -Wextra -Wimplicit-interface -Wno-unused-dummy-argument -Wno-compare-reals \
             -Wno-maybe-uninitialized -Wno-uninitialized -Wno-function-elimination
 ifeq ($(MODE),release)
+# Loops here are short: as calls of memcpy and memset (loop-distribute-patterns) they take longer.
 OPTIMISE := -O3 -fno-tree-loop-distribute-patterns -g $(ARCH:%=-march=%)
 else
 OPTIMISE := -Og -g -fcheck=all,no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan \

@@ -308,8 +308,8 @@ contains
    subroutine planar_evaluate(self, t, y, ydot, status)
       class(planar_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       self%n_evaluations = self%n_evaluations + 1
@@ -462,7 +462,7 @@ contains
    subroutine planar_set_motion(self, t, y)
       class(planar_system_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
+      real(wp), intent(in) :: y(2*self%n_position)   !! (2 positions) coordinates and rates, the first of a state [any]
 
       if (self%known%n > 0) call move_known(self%known, self%joints, t, self%motion)
       associate (n => 3*self%rows%n_unknown, nq => self%n_position)

@@ -43,8 +43,8 @@ module ode_system
          implicit none (type, external)
          class(ode_system_t), intent(inout) :: self   !! the system
          real(wp), intent(in) :: t                    !! time [s]
-         real(wp), intent(in), contiguous :: y(:)     !! (n) state [any]
-         real(wp), intent(out), contiguous :: ydot(:) !! (n) its derivative [any]
+         real(wp), intent(in) :: y(self%n)            !! (n) state [any]
+         real(wp), intent(out) :: ydot(self%n)        !! (n) its derivative [any]
          integer, intent(out) :: status               !! outcome
       end subroutine evaluate_interface
 

@@ -123,8 +123,8 @@ contains
    subroutine kepler_evaluate(self, t, y, ydot, status)
       class(kepler_t), intent(inout) :: self         !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       ydot(1:2) = y(3:4)
@@ -169,8 +169,8 @@ contains
    subroutine pendulum_evaluate(self, t, y, ydot, status)
       class(pendulum_t), intent(inout) :: self       !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       ydot(1) = y(2)
@@ -209,8 +209,8 @@ contains
    subroutine power_evaluate(self, t, y, ydot, status)
       class(power_t), intent(inout) :: self          !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       ydot(1) = y(2)
@@ -223,8 +223,8 @@ contains
    subroutine growth_evaluate(self, t, y, ydot, status)
       class(growth_t), intent(inout) :: self         !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       self%n_call = self%n_call + 1
@@ -262,8 +262,8 @@ contains
    subroutine particles_evaluate(self, t, y, ydot, status)
       class(particles_t), intent(inout) :: self      !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       integer :: n

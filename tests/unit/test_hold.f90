@@ -46,8 +46,8 @@ contains
    subroutine circle_evaluate(self, t, y, ydot, status)
       class(circle_t), intent(inout) :: self         !! the system
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-      real(wp), intent(out), contiguous :: ydot(:)   !! (n) its derivative [any]
+      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
+      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
       real(wp) :: speed
