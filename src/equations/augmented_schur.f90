@@ -17,7 +17,7 @@ module augmented_schur
    implicit none (type, external)
    private
    public :: augmented_schur_t, schur_is_cheap
-   public :: multiply_pairs, part_t, prepare_part, weigh_rows
+   public :: assemble, part_t, prepare_part
 
    real(wp), parameter :: threshold = 1.0e-5_wp  !! least pivot, as a part of its diagonal: below, rows are nearly dependent [1]
 
@@ -29,9 +29,12 @@ module augmented_schur
       type(envelope_t) :: s                       !! Schur complement, then its factors
       integer, allocatable :: order(:)            !! (its rows) rows in the order of the envelope
       integer :: n_side = 0                       !! their sides that are unknown bodies
-      integer, allocatable :: side(:, :)          !! (3, sides) place in the envelope's order, place in the Jacobian, body
+      integer, allocatable :: side(:, :)          !! (2, sides) place in the envelope's order, place in the Jacobian; body by body
       integer :: n_pair = 0                       !! pairs of sides that share a body
-      integer, allocatable :: pair(:, :)          !! (3, pairs) entry of Phi_q M^-1, entry of Phi_q, place in S
+      integer, allocatable :: pair(:, :)          !! (3, pairs) entry of Phi_q M^-1 of the body, entry of Phi_q, place in S
+      integer :: n_body = 0                       !! bodies with sides
+      integer, allocatable :: body(:, :)          !! (3, these bodies) body, its last side, its last pair
+      real(wp), allocatable :: jac_m(:)           !! (3 most sides of a body) Phi_q M^-1 of one body [any]
       real(wp), allocatable :: x(:)               !! (its rows) right-hand side and solution, in the order of the envelope [any]
    end type part_t
 
@@ -41,7 +44,6 @@ module augmented_schur
       type(part_t) :: rest                        !! the other rows
       type(part_t) :: all                         !! all rows
       integer, allocatable :: unknown(:)          !! (bodies) unknown bodies that are not lone
-      real(wp), allocatable :: jac_m(:)           !! (6 rows) Phi_q M^-1 [any]
    contains
       procedure, nopass :: name => schur_name
       procedure :: prepare => schur_prepare
@@ -169,7 +171,7 @@ contains
       call prepare_part(rows, is_taken, self%rest)
       is_taken = .true.
       call prepare_part(rows, is_taken, self%all)
-      allocate (self%jac_m(6*rows%n), self%residual(rows%n_solve), source=0.0_wp)
+      allocate (self%residual(rows%n_solve), source=0.0_wp)
    end subroutine schur_prepare
 
    !> Order, envelope, sides and pairs of some of the rows.
@@ -180,35 +182,40 @@ contains
 
       integer, allocatable :: first(:), place(:)
       real :: cost
-      integer :: body, column, i, j, k, line, pass
+      integer :: body, column, first_side, i, j, k, line, most, pass
 
       call choose_order(rows, is_taken, part%order, first, cost)
       allocate (place(rows%n_solve), source=0)
       place(part%order) = [(k, k=1, size(part%order))]
       call new_envelope(first, part%s)
-      part%n_side = count(is_taken(rows%side(1, :)))
-      allocate (part%side(3, part%n_side), source=0)
-      part%n_side = 0
       do pass = 1, 2
+         part%n_side = 0
          part%n_pair = 0
+         part%n_body = 0
+         most = 0
          do body = 1, ubound(rows%last_side, 1)
+            first_side = part%n_side
             do i = rows%last_side(body - 1) + 1, rows%last_side(body)
                line = place(rows%side(1, i))
                if (line == 0) cycle
-               if (pass == 2) then
-                  part%n_side = part%n_side + 1
-                  part%side(:, part%n_side) = [line, rows%side(2, i), body]
-               end if
+               part%n_side = part%n_side + 1
+               if (pass == 2) part%side(:, part%n_side) = [line, rows%side(2, i)]
                do j = rows%last_side(body - 1) + 1, rows%last_side(body)
                   column = place(rows%side(1, j))
                   if (column > line .or. column == 0) cycle
                   part%n_pair = part%n_pair + 1
-                  if (pass == 2) part%pair(:, part%n_pair) = [rows%side(2, i) + 1, rows%side(2, j) + 1, part%s%start(line) + column]
+                  if (pass == 2) part%pair(:, part%n_pair) = [3*(part%n_side - first_side) - 2, rows%side(2, j) + 1, &
+                                                              part%s%start(line) + column]
                end do
             end do
+            if (part%n_side == first_side) cycle
+            most = max(most, part%n_side - first_side)
+            part%n_body = part%n_body + 1
+            if (pass == 2) part%body(:, part%n_body) = [body, part%n_side, part%n_pair]
          end do
-         if (pass == 1) allocate (part%pair(3, part%n_pair), source=0)
+         if (pass == 1) allocate (part%side(2, part%n_side), part%pair(3, part%n_pair), part%body(3, part%n_body), source=0)
       end do
+      allocate (part%jac_m(3*most), source=0.0_wp)
       allocate (part%x(size(part%order)), source=0.0_wp)
    end subroutine prepare_part
 
@@ -232,9 +239,7 @@ contains
       if (bad_row > 0 .or. size(self%unknown) == 0) return
       associate (part => self%rest)
          if (size(part%order) > 0) then
-            call weigh_rows(n_body, rows%n, size(part%order), part%order, part%n_side, part%side, inverse_mass, rows%jac, g, b, &
-                            self%jac_m, part%x)
-            call multiply_pairs(6*rows%n, part%n_pair, size(part%s%a), part%pair, self%jac_m, rows%jac, part%s%a)
+            call assemble(part, n_body, rows%n, inverse_mass, rows%jac, g, b)
             call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, threshold, part%s%a, &
                                      part%s%inverse, part%s%row, part%x, bad_row)
             if (bad_row > 0) then
@@ -260,9 +265,7 @@ contains
 
       associate (part => self%all)
          self%residual = 0.0_wp
-         call weigh_rows(ubound(inverse_mass, 2), rows%n, size(part%order), part%order, part%n_side, part%side, inverse_mass, &
-                         rows%jac, 0.0_wp*inverse_mass, self%residual, self%jac_m, part%x)
-         call multiply_pairs(6*rows%n, part%n_pair, size(part%s%a), part%pair, self%jac_m, rows%jac, part%s%a)
+         call assemble(part, ubound(inverse_mass, 2), rows%n, inverse_mass, rows%jac, 0.0_wp*inverse_mass, self%residual)
          do k = 1, size(part%order)
             associate (diagonal => part%s%a(part%s%start(k) + k))
                diagonal = diagonal*(1.0_wp + damping)
@@ -308,62 +311,84 @@ contains
       end do
    end subroutine in_given_order
 
-   !> Phi_q M^-1, and the right-hand side of the multipliers.
-   pure subroutine weigh_rows(n_body, n_row, n, order, n_side, side, inverse_mass, jac, g, b, jac_m, x)
+   !> The Schur complement of a part, and the right-hand side of its multipliers.
+   pure subroutine assemble(part, n_body, n_row, inverse_mass, jac, g, b)
+      type(part_t), intent(inout) :: part                  !! the part; S and x are set
       integer, intent(in) :: n_body                        !! number of bodies
       integer, intent(in) :: n_row                         !! number of rows
-      integer, intent(in) :: n                             !! rows of the envelope
-      integer, intent(in) :: order(n)                      !! (n) rows in its order
-      integer, intent(in) :: n_side                        !! sides of these rows that are unknown bodies
-      integer, intent(in) :: side(3, n_side)               !! (3, sides) place in the envelope's order, place in the Jacobian, body
       real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
       real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
       real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(inout) :: jac_m(6*n_row)            !! (6 rows) Phi_q M^-1, row by row [any]
+
+      call multiply_sides(n_body, n_row, size(part%order), part%order, part%n_body, part%body, part%n_side, part%side, &
+                          part%n_pair, part%pair, size(part%s%a), inverse_mass, jac, g, b, size(part%jac_m), part%jac_m, &
+                          part%s%a, part%x)
+   end subroutine assemble
+
+   !> The same on plain arrays, body by body: its sides in Phi_q M^-1, then their pairs from the list.
+   pure subroutine multiply_sides(n_body, n_row, n, order, n_own, own, n_side, side, n_pair, pair, n_entry, inverse_mass, jac, &
+                                  g, b, n_scratch, jac_m, s, x)
+      integer, intent(in) :: n_body                        !! number of bodies
+      integer, intent(in) :: n_row                         !! number of rows
+      integer, intent(in) :: n                             !! rows of the envelope
+      integer, intent(in) :: order(n)                      !! (n) rows in its order
+      integer, intent(in) :: n_own                         !! bodies with sides
+      integer, intent(in) :: own(3, n_own)                 !! (3, these bodies) body, its last side, its last pair
+      integer, intent(in) :: n_side                        !! sides of these rows that are unknown bodies
+      integer, intent(in) :: side(2, n_side)               !! (2, sides) place in the envelope's order, place in the Jacobian
+      integer, intent(in) :: n_pair                        !! pairs of row sides that share a body
+      integer, intent(in) :: pair(3, n_pair)               !! (3, pairs) entry of Phi_q M^-1, entry of Phi_q, place in S
+      integer, intent(in) :: n_entry                       !! entries of the envelope
+      real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
+      integer, intent(in) :: n_scratch                     !! entries of the next
+      real(wp), intent(inout) :: jac_m(n_scratch)          !! (3 most sides of a body) scratch: Phi_q M^-1 of one body [any]
+      real(wp), intent(out) :: s(n_entry)                  !! (entries) Schur complement [any]
       real(wp), intent(out) :: x(n)                        !! (n) right-hand side, envelope's order [m/s^2 or rad/s^2]
 
-      integer :: body, k, place, row
+      real(wp) :: g_1, g_2, g_3, m_1, m_2, m_3
+      integer :: body, c, d, from, i, k, place, row
 
       !GCC$ novector
       do k = 1, n
          x(k) = -b(order(k))
       end do
       !GCC$ novector
-      do k = 1, n_side
-         row = side(1, k)
-         place = side(2, k)
-         body = side(3, k)
-         jac_m(place + 1) = jac(place + 1)*inverse_mass(1, body)
-         jac_m(place + 2) = jac(place + 2)*inverse_mass(2, body)
-         jac_m(place + 3) = jac(place + 3)*inverse_mass(3, body)
-         x(row) = x(row) + (jac_m(place + 1)*g(1, body) + jac_m(place + 2)*g(2, body) + jac_m(place + 3)*g(3, body))
-      end do
-   end subroutine weigh_rows
-
-   !> The Schur complement from the list of pairs.
-   pure subroutine multiply_pairs(n, n_pair, n_entry, pair, jac_m, jac, s)
-      integer, intent(in) :: n                   !! entries of the Jacobian, six per row
-      integer, intent(in) :: n_pair              !! pairs of row sides that share a body
-      integer, intent(in) :: n_entry             !! entries of the envelope
-      integer, intent(in) :: pair(3, n_pair)     !! (3, pairs) entry of Phi_q M^-1, entry of Phi_q, place in S
-      real(wp), intent(in) :: jac_m(n)           !! (n) Phi_q M^-1, row by row [any]
-      real(wp), intent(in) :: jac(n)             !! (n) Phi_q, row by row [1 or m]
-      real(wp), intent(out) :: s(n_entry)        !! (entries) Schur complement [any]
-
-      integer :: c, d, k, place
-
-      !GCC$ novector
       do k = 1, n_entry
          s(k) = 0.0_wp
       end do
-      !GCC$ novector
-      do k = 1, n_pair
-         c = pair(1, k)
-         d = pair(2, k)
-         place = pair(3, k)
-         s(place) = s(place) + (jac_m(c)*jac(d) + jac_m(c + 1)*jac(d + 1) + jac_m(c + 2)*jac(d + 2))
+      i = 0
+      k = 0
+      do from = 1, n_own
+         body = own(1, from)
+         m_1 = inverse_mass(1, body)
+         m_2 = inverse_mass(2, body)
+         m_3 = inverse_mass(3, body)
+         g_1 = g(1, body)
+         g_2 = g(2, body)
+         g_3 = g(3, body)
+         c = 1
+         do while (i < own(2, from))
+            i = i + 1
+            row = side(1, i)
+            place = side(2, i)
+            jac_m(c) = jac(place + 1)*m_1
+            jac_m(c + 1) = jac(place + 2)*m_2
+            jac_m(c + 2) = jac(place + 3)*m_3
+            x(row) = x(row) + (jac_m(c)*g_1 + jac_m(c + 1)*g_2 + jac_m(c + 2)*g_3)
+            c = c + 3
+         end do
+         do while (k < own(3, from))
+            k = k + 1
+            c = pair(1, k)
+            d = pair(2, k)
+            place = pair(3, k)
+            s(place) = s(place) + (jac_m(c)*jac(d) + jac_m(c + 1)*jac(d + 1) + jac_m(c + 2)*jac(d + 2))
+         end do
       end do
-   end subroutine multiply_pairs
+   end subroutine multiply_sides
 
 end module augmented_schur

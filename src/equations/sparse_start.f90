@@ -13,7 +13,7 @@
 !> is dependent below a pivot of `threshold`, a ratio of lengths of its square root.
 module sparse_start
    use augmented, only: body_accelerations, row_residuals
-   use augmented_schur, only: multiply_pairs, part_t, prepare_part, weigh_rows
+   use augmented_schur, only: assemble, part_t, prepare_part
    use envelope, only: factorise_semidefinite, solve_factored, vanishing_vector
    use joint_set, only: list_sides, new_rows, rows_t
    use kinds, only: wp
@@ -34,7 +34,6 @@ module sparse_start
       type(rows_t) :: rows                         !! sides of all rows; their values are elsewhere
       type(part_t) :: part                         !! S, its order and its pairs
       logical, allocatable :: is_dependent(:)      !! (rows) rows set aside, in the order of the envelope
-      real(wp), allocatable :: weighted(:)         !! (6 rows) Phi_q W [any]
    contains
       procedure, private :: factorise => start_factorise
       procedure :: correct => start_correct
@@ -55,7 +54,6 @@ contains
       call list_sides(spread(.false., 1, n_body), start%rows)
       call prepare_part(start%rows, spread(.true., 1, rows%n), start%part)
       allocate (start%is_dependent(rows%n), source=.false.)
-      allocate (start%weighted(6*rows%n), source=0.0_wp)
    end subroutine new_sparse_start
 
    !> Factors of S at the present Jacobian.
@@ -69,9 +67,7 @@ contains
       none = 0.0_wp
       zero = 0.0_wp
       associate (part => self%part)
-         call weigh_rows(self%n_body, self%rows%n, self%rows%n, part%order, part%n_side, part%side, weight, jac, none, zero, &
-                         self%weighted, part%x)
-         call multiply_pairs(6*self%rows%n, part%n_pair, size(part%s%a), part%pair, self%weighted, jac, part%s%a)
+         call assemble(part, self%n_body, self%rows%n, weight, jac, none, zero)
          call factorise_semidefinite(threshold, part%s, self%is_dependent)
       end associate
    end subroutine start_factorise

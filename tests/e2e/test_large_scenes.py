@@ -51,6 +51,16 @@ def test_long_chain_begins_as_newton_says(gudgeon):
     assert np.max(np.abs(bodies["angular_acceleration"][0] - expected[n : 2*n])) <= 1e-9*G
 
 
+def test_what_fades_along_a_chain_ends_at_zero(gudgeon):
+    """From pin to pin the released rods turn 2 + sqrt(3) times less: beyond the least normal number, where arithmetic is slow on
+    some processors, they do not turn at all."""
+    run = run_chain(gudgeon, 700, "--end", "1e-6", "--channels", "*.angular_acceleration")
+    turning = np.abs(run.group("bodies")["angular_acceleration"])
+    assert np.max(turning) > 1
+    assert np.any(turning == 0)
+    assert np.min(turning[turning > 0]) >= np.finfo(float).tiny
+
+
 @pytest.mark.parametrize("solver", ("schur", "sparse"))
 def test_chain_moves_as_with_full_matrices(gudgeon, solver):
     """A chain of 60: the same motion from sparse factors as from the full matrix."""
