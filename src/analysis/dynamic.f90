@@ -1,11 +1,9 @@
 !> Motion in time: drives an integrator from event to event and hands everything to a recorder.
 module dynamic
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use catalogue, only: catalogue_t
    use contact_watch, only: close_open, contact_watch_t, new_contact_watch
-   use errors, only: error_t, exit_audit, exit_integration, set_error
-   use integrator, only: advance_event, advance_failed_evaluation, advance_too_many_evaluations, advance_too_many_steps, &
-      integrator_t
+   use errors, only: error_t, exit_audit, set_error
+   use integrator, only: advance_event, advance_failed_evaluation, integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
    use law_validity, only: warn_of_laws
@@ -13,17 +11,19 @@ module dynamic
    use planar_report, only: build_catalogue, report_state
    use planar_system, only: planar_system_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
+   use run_failure, only: constraints_lost, describe_failure, events_without_end
    use slip_watch, only: decide_next
-   use text, only: append_text, real_text, to_text
+   use text, only: append_text, real_text
    use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
    private
    public :: limits_t, run_dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
-   integer, parameter :: constraints_lost = -100   !! failure: a violation beyond the next two
-   real(wp), parameter :: lost_length = 0.1_wp     !! violation of a length, of the size of the bodies [1]
-   real(wp), parameter :: lost_angle = 1.0_wp      !! violation of an angle [rad]
+   integer, parameter :: most_idle = 1000          !! events that may follow one another while hardly any time passes
+   real(wp), parameter :: idle = 1.0e-12_wp        !! hardly any time: part of the present time [1]
+   real(wp), parameter :: lost_length = 0.1_wp     !! violation beyond all measure: a length, of the size of the bodies [1]
+   real(wp), parameter :: lost_angle = 1.0_wp      !! an angle [rad]
    real(wp), parameter :: careful_energy = 1.0e-3_wp     !! residual of the largest energy that is worth a warning [1]
    real(wp), parameter :: careful_violation = 1.0e-4_wp  !! violation, of the size of the bodies or a radian, that is [1]
 
@@ -48,6 +48,8 @@ module dynamic
       real(wp) :: worst = 0.0_wp                 !! greatest violation so far, over the size of the bodies or one radian [1]
       integer :: worst_row = 0                   !! the row it belongs to
       logical :: is_lost = .false.               !! whether a violation is beyond all measure
+      real(wp) :: t_event = 0.0_wp               !! time of the last event [s]
+      integer :: n_idle = 0                      !! events since the last time that time passed
       integer(i8) :: n_sample = 0                !! output instants done
       integer(i8) :: n_last_sample = 0           !! the last of them
       integer :: n_strobe = 0                    !! stroboscopic instants done
@@ -277,6 +279,12 @@ contains
       integer :: k, status
       logical :: is_over
 
+      run%n_idle = merge(run%n_idle + 1, 0, method%t - run%t_event <= idle*method%t)
+      run%t_event = method%t
+      if (run%n_idle > most_idle) then
+         call describe_failure(system, method, events_without_end, error)
+         return
+      end if
       step_hint = 0.0_wp
       do k = 1, method%n_happened
          call run%watch%handle_event(system, method, method%happened(k), is_over, row, hint)
@@ -382,112 +390,5 @@ contains
                         "  = everything was saved; try a smaller tolerance or greater gains of the stabilisation")
       end if
    end subroutine audit
-
-   !> Say when, where and why the integration cannot go on, and what to try.
-   subroutine describe_failure(system, method, status, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
-      class(integrator_t), intent(in) :: method           !! the integrator
-      integer, intent(in) :: status                       !! how it failed
-      type(error_t), allocatable, intent(out) :: error    !! the message
-
-      real(wp), allocatable :: ydot(:)
-      character(:), allocatable :: message, where_singular
-      integer :: code, row
-
-      where_singular = ""
-      if (system%bad_row > 0) where_singular = ": they are singular at joint or driver '"//system%row_name(system%bad_row)//"'"
-      if (system%rows%n > system%rows%n_solve) call system%find_reactions(system%known%t)
-      if (system%bad_row == 0) where_singular = not_finite(system)
-      select case (status)
-      case (advance_too_many_steps)
-         message = "the number of steps allowed (maximum_steps, MXSTEP) is used up"
-      case (advance_too_many_evaluations)
-         message = "the number of evaluations allowed (maximum_evaluations, MXFCN) is used up"
-      case (advance_failed_evaluation)
-         message = "the equations of motion cannot be solved"//where_singular
-      case (constraints_lost)
-         message = "the constraints are lost: a joint is open by a tenth of the size of the bodies, or an angle is off by a radian"
-      case default
-         message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
-         if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular
-      end select
-      message = message//new_line("a")//"  = at t = "//real_text(method%t, 9)//" s, after "//to_text(method%n_steps)// &
-                " steps, the last of "//real_text(method%step%h, 3)//" s"
-      allocate (ydot(system%n), source=0.0_wp)
-      call system%evaluate(method%t, method%step%y1, ydot, code)
-      if (system%rows%n_solve > 0) then
-         row = maxloc(abs(system%rows%phi(:system%rows%n_solve)), dim=1)
-         message = message//new_line("a")//"  = worst constraint there: '"//system%row_name(row)//"', violated by "// &
-                   real_text(abs(system%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%rows%is_angle(row)))
-      end if
-      message = message//deepest_contact(system, method)//new_line("a")// &
-                "  = everything up to the last output instant was saved; "//advice(status)
-      call set_error(error, exit_integration, message)
-   end subroutine describe_failure
-
-   !> What is not a finite number after an evaluation that failed: a driver, or a load.
-   function not_finite(system) result(words)
-      type(planar_system_t), intent(in) :: system   !! the system, evaluated
-      character(:), allocatable :: words            !! to follow "cannot be solved", blank if all is finite
-
-      integer :: k, pass
-
-      words = ""
-      do pass = 1, 2  ! first the rows that are functions of time themselves
-         do k = 1, system%rows%n
-            if (ieee_is_finite(system%rows%phi_t(k)) .and. (pass == 1 .or. (ieee_is_finite(system%rows%phi(k)) &
-                                                                            .and. ieee_is_finite(system%rows%gam(k))))) cycle
-            words = ": '"//system%row_name(k)//"' or a derivative of it is not a finite number"
-            return
-         end do
-      end do
-      do k = 1, system%n_body
-         if (all(ieee_is_finite(system%g(:, k)))) cycle
-         words = ": a load on body '"//system%bodies%names(k)%s//"' is not a finite number"
-         return
-      end do
-   end function not_finite
-
-   !> The touching contact with the greatest penetration.
-   function deepest_contact(system, method) result(words)
-      type(planar_system_t), intent(inout) :: system   !! the system
-      class(integrator_t), intent(in) :: method        !! the integrator
-      character(:), allocatable :: words               !! a line of the message, blank if nothing touches
-
-      real(wp) :: delta(system%n_contact), deepest, rate(system%n_contact)
-      integer :: i, k
-
-      words = ""
-      if (system%n_loose == 0) return
-      deepest = -1.0_wp
-      call system%events(method%t, method%step%y1, delta, rate)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
-            do i = 1, set%n_contact
-               if (.not. set%contact(i)%is_touching .or. -delta(set%first_contact + i) <= deepest) cycle
-               deepest = -delta(set%first_contact + i)
-               words = new_line("a")//"  = deepest contact there: '"//set%names(set%item_of(i))%s//"', penetration "// &
-                       real_text(deepest, 3)//" m"
-            end do
-         end associate
-      end do
-   end function deepest_contact
-
-   !> What to try after a failure.
-   pure function advice(status) result(words)
-      integer, intent(in) :: status         !! how the integration failed
-      character(:), allocatable :: words    !! what to try
-
-      select case (status)
-      case (advance_too_many_steps, advance_too_many_evaluations)
-         words = "allow more, or a larger tolerance"
-      case (constraints_lost)
-         words = "try a smaller tolerance"
-      case (advance_failed_evaluation)
-         words = "look for a dead point, or for a load or driver that does not exist at that time"
-      case default
-         words = "try a larger tolerance or a smaller minimum_step, or look for a dead point or a jump in a load or driver"
-      end select
-   end function advice
 
 end module dynamic

@@ -45,6 +45,8 @@ contains
 
       allocate (library)
       call move_alloc(library, self%library)
+      ! off the constraints by more than the local error allowed, the first step after an event fails however short it is
+      self%mends = .true.
    end subroutine ida_make_library
 
 end module ida

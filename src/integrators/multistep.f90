@@ -35,6 +35,7 @@ module multistep
       real(wp) :: first_step = 0.0_wp            !! first step to try when it does, 0: it chooses [s]
       real(wp) :: h_whole = 0.0_wp               !! length of the library's last step, before an event cut it short [s]
       integer :: n_rejected_before = 0           !! steps rejected before the library began anew
+      logical :: mends = .false.                 !! the library cannot begin off the constraints: states between steps are mended
       real(wp), allocatable :: gap_0(:)          !! (n) state given out less polynomial, at the start of the step [any]
       real(wp), allocatable :: gap_1(:)          !! (n) the same at its end [any]
    contains
@@ -217,7 +218,9 @@ contains
       if (event > 0) call go_to_event(self, system, low, high, status)
    end subroutine accept
 
-   !> Shorten the step so that it ends at an event: halve between "none positive" and "one positive".
+   !> Shorten the step so that it ends at an event: halve between "none positive" and "one positive". A function that falls
+   !> there is at no event: the first step after one has an error that may be more than the way from it, and the function is
+   !> above zero where it should be below. The whole step stands then; an event of another function is met in the next.
    subroutine go_to_event(self, system, low, high, status)
       class(multistep_t), intent(inout) :: self     !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -226,7 +229,7 @@ contains
       integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
 
       real(wp) :: left, middle, right
-      integer :: i
+      integer :: event, i
 
       left = low
       right = high
@@ -236,8 +239,7 @@ contains
          left = right
          right = 1.0_wp
          if (all(self%g1 <= 0.0_wp)) then
-            call evaluate_end(self, system, status)
-            status = merge(advance_step, advance_failed_evaluation, status == 0)
+            call stay
             return
          end if
       end if
@@ -253,15 +255,26 @@ contains
       end do
       if (status == 0) call look(right)
       if (status == 0) then
+         event = maxloc(self%g, dim=1)
+         if (self%rate(event) < 0.0_wp) then
+            call stay
+            return
+         end if
          self%step%h = right*self%h_whole
          self%t = self%step%t0 + self%step%h
          self%step%y1 = self%trial
-         call self%note_events(maxloc(self%g, dim=1), self%h_whole)
+         call self%note_events(event, self%h_whole)
          call evaluate_end(self, system, status)
       end if
       status = merge(advance_event, advance_failed_evaluation, status == 0)
 
    contains
+
+      !> No event: the whole step stands.
+      subroutine stay()
+         call evaluate_end(self, system, status)
+         status = merge(advance_step, advance_failed_evaluation, status == 0)
+      end subroutine stay
 
       !> The state at a place of the step, held, into `trial`, and its event functions.
       subroutine look(s)
@@ -273,7 +286,7 @@ contains
 
    end subroutine go_to_event
 
-   !> State at a place of the last step, held.
+   !> State at a place of the last step, held or mended.
    subroutine held_state(self, system, s, y, status)
       class(multistep_t), intent(in) :: self        !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -283,7 +296,11 @@ contains
 
       status = 0
       call self%within(system, s, y)
-      if (system%holds) call system%hold(self%step%t0 + s*self%step%h, y, status)
+      if (self%mends) then
+         call system%mend(self%step%t0 + s*self%step%h, y, status)
+      else if (system%holds) then
+         call system%hold(self%step%t0 + s*self%step%h, y, status)
+      end if
    end subroutine held_state
 
    !> State at a place of the last step, by the polynomial of the method.

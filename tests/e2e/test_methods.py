@@ -38,6 +38,22 @@ def test_impacts(gudgeon, method, tolerance):
     assert run.summary["energy_residual_max"] < 20 * float(tolerance) ** 0.9 * run.summary["energy_max"]
 
 
+@pytest.mark.parametrize("method, tolerance", [("adams", "1e-4"), ("bdf", "1e-4"), ("ida", "1e-5"), ("ida", "1e-6")])
+def test_loose_tolerances(gudgeon, method, tolerance):
+    """The first step in contact may be wrong by more than the penetration by then; that ends no contact."""
+    run = finished(gudgeon, "--method", method, "--tolerance", tolerance, changes=(SHORT,))
+    assert_close(run.contacts["time"][0], REFERENCE["time"][0], absolute=1e-6, what="first onset")
+    assert_close(run.contacts["impact_speed"][:2], REFERENCE["impact_speed"][:2], relative=0.05, what="impact speeds")
+    assert len(run.contacts["time"]) <= 14
+
+
+def test_ida_begins_after_every_event(gudgeon):
+    """The state of an event is on the constraints to much less than the error allowed, so that a short step from it passes."""
+    run = finished(gudgeon, "--method", "ida", "--tolerance", "1e-10", changes=(("analysis.dynamic", "end", "12 ms"),))
+    assert len(run.contacts["time"]) > 20
+    assert run.summary["energy_residual_max"] < 1e-7 * run.summary["energy_max"]
+
+
 @pytest.mark.parametrize("step, onsets, relative", [("2 us", 2e-7, 1e-3), ("1 us", 2e-8, 1e-4)])
 def test_fixed_steps(gudgeon, step, onsets, relative):
     """RK4 at the step of the deck; its steps are as many as the time holds, and one more for each event."""

@@ -6,8 +6,11 @@ module test_dynamic
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use dynamic, only: limits_t
    use errors, only: error_t, exit_audit, exit_file, exit_integration
+   use integrator, only: advance_event
    use kinds, only: i8, pi, wp
+   use ode_system, only: ode_system_t
    use recorder, only: status_complete, status_failed, summary_t
+   use rk4, only: rk4_t
    implicit none (type, external)
    private
    public :: run_test_dynamic
@@ -32,6 +35,12 @@ module test_dynamic
       "ring hole centre 10 0.5 steel hertz"//nl//"[contact.hertz]"//nl//"name"//nl//"hertz"//nl
    real(wp), parameter :: mass = 0.3_wp, speed = 2.0_wp, clearance = 0.5e-3_wp  !! of the pin [kg, m/s, m]
 
+   !> An integrator that finds the first event again and again.
+   type, extends(rk4_t) :: stuck_t
+   contains
+      procedure :: advance => stuck_advance
+   end type stuck_t
+
 contains
 
    subroutine run_test_dynamic(suite)
@@ -52,6 +61,7 @@ contains
       call suite%test("energy_limit", test_energy_limit)
       call suite%test("violation_limit", test_violation_limit)
       call suite%test("recorder_fails", test_recorder_fails)
+      call suite%test("events_without_end", test_events_without_end)
    end subroutine run_test_dynamic
 
    !> Run a deck to its end.
@@ -383,5 +393,36 @@ contains
       call check_failure(error, mistake, keeper, summary, exit_file, "disk")
       call check_equal(error, keeper%n_sample, 41, "samples before")
    end subroutine test_recorder_fails
+
+   !> A contact that begins and ends and no time passes: said so, not for ever.
+   subroutine test_events_without_end(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(error_t), allocatable :: mistake
+      type(keeper_t) :: keeper
+      type(loaded_t) :: loaded
+      type(stuck_t) :: stuck
+      type(summary_t) :: summary
+
+      call load_text(pin//settings//"end = 2.3 ms"//nl, loaded, error)
+      if (allocated(error)) return
+      deallocate (loaded%method)
+      allocate (loaded%method, source=stuck)
+      call run_to_end(loaded, keeper, summary, mistake)
+      call check_failure(error, mistake, keeper, summary, exit_integration, "one event follows another at 'ring'")
+      call check_true(error, keeper%n_event > 100, "events were told before")
+   end subroutine test_events_without_end
+
+   !> No step: the first event function, now.
+   subroutine stuck_advance(self, system, t_stop, status)
+      class(stuck_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! always advance_event
+
+      self%n_happened = 1
+      self%happened(1) = 1
+      status = advance_event
+   end subroutine stuck_advance
 
 end module test_dynamic
