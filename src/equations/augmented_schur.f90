@@ -233,7 +233,7 @@ contains
       integer :: n_body
 
       n_body = size(g, 2) - 1
-      self%n_factorisations = self%n_factorisations + 1
+      if (rows%n_solve > 0) self%n_factorisations = self%n_factorisations + 1
       call solve_lone_bodies(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, &
                              rows%jac, g, b, threshold, a, lambda, bad_row)
       if (bad_row > 0 .or. size(self%unknown) == 0) return

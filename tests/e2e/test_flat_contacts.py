@@ -32,6 +32,7 @@ def test_ball(gudgeon, restitution):
     (row,) = first_rows(run, 1)
     keys = ("time", "impact_speed", "peak_force", "duration", "release_speed")
     assert [float(row[key]) for key in keys] == pytest.approx(BALL[restitution], rel=1e-9)
+    assert run.summary["factorisations"] == 0  # no joint, no matrix
 
 
 def test_slider_corners(gudgeon):
