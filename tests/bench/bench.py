@@ -203,7 +203,8 @@ def main():
     off = sorted((row for row in rows if row["ledger"] == "off"), key=lambda row: row["ns_per_rhs"])
     word = "met" if off[-1]["ns_per_rhs"] <= BOUND else "NOT met"
     ends = ", greatest ".join(f"{row['ns_per_rhs']:.0f} ns at tolerance {row['tolerance']}" for row in (off[0], off[-1]))
-    print(f"\nBound: at most {BOUND:.0f} ns per right-hand side with the ledger off. Least {ends}: {word}.")
+    shortest = f"{min(row['ns_least'] for row in off):.0f} to {max(row['ns_least'] for row in off):.0f} ns"
+    print(f"\nBound: at most {BOUND:.0f} ns per right-hand side with the ledger off. Least {ends}: {word}. Shortest runs: {shortest}.")
 
 
 if __name__ == "__main__":
