@@ -21,6 +21,7 @@ module dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
    integer, parameter :: most_idle = 1000          !! events that may follow one another while hardly any time passes
+   integer, parameter :: idle_each = 10            !! and so many more for each event function
    real(wp), parameter :: idle = 1.0e-12_wp        !! hardly any time: part of the present time [1]
    real(wp), parameter :: lost_length = 0.1_wp     !! violation beyond all measure: a length, of the size of the bodies [1]
    real(wp), parameter :: lost_angle = 1.0_wp      !! an angle [rad]
@@ -281,7 +282,7 @@ contains
 
       run%n_idle = merge(run%n_idle + 1, 0, method%t - run%t_event <= idle*method%t)
       run%t_event = method%t
-      if (run%n_idle > most_idle) then
+      if (run%n_idle > most_idle + idle_each*system%n_event) then
          call describe_failure(system, method, events_without_end, error)
          return
       end if
