@@ -256,25 +256,17 @@ contains
       integer :: i, k
       type(trend_t) :: force, penetration
 
-      if (system%first_turn > 0 .and. number > system%first_turn) then
-         call system%find_contact(number - system%first_turn, k, i)
-         call handle_turn(system, method%t, method%step%y1, k, i)
-         is_over = .false.
-         associate (set => system%clearances(k)%set)
-            step_hint = first_step*set%contact_time(i, max(set%contact(i)%impact_speed, tiny(1.0_wp)), system%inverse_mass(1, :))
-         end associate
-         return
-      end if
-      if (number > system%n_contact) then
-         call system%find_contact(number - system%n_contact, k, i)
-         call handle_slip(system, method%t, method%step%y1, k, i, row)
-         is_over = .true.
-         associate (set => system%clearances(k)%set)
-            step_hint = first_step*set%contact_time(i, max(set%contact(i)%impact_speed, tiny(1.0_wp)), system%inverse_mass(1, :))
-         end associate
-         return
-      end if
       call system%find_contact(number, k, i)
+      if (number > system%n_contact) then
+         is_over = .not. (system%first_turn > 0 .and. number > system%first_turn)
+         if (is_over) then
+            call handle_slip(system, method%t, method%step%y1, k, i, row)
+         else
+            call handle_turn(system, method%t, method%step%y1, k, i)
+         end if
+         step_hint = step_in_contact(system%clearances(k)%set%contact(i)%impact_speed)
+         return
+      end if
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
       call look(system, k, i, force, penetration)
       rate = penetration%rate  ! the normal one: at an end of a guide that of the event is axial
@@ -290,8 +282,7 @@ contains
             call set%begin_contact(i, method%t, rate, loss_of(system, method%step%y1, number))
             self%force(number) = trend_t(0.0_wp, 0.0_wp)
             self%penetration(number) = trend_t(0.0_wp, rate)
-            step_hint = first_step*set%contact_time(i, max(rate, tiny(1.0_wp)), &
-                                                    system%inverse_mass(1, :))
+            step_hint = step_in_contact(rate)
          end if
          if (.not. (set%energy_jumps .and. system%with_ledger)) return
          lost = stored - set%elastic_energy(system%motion)
@@ -300,6 +291,16 @@ contains
          end associate
          if (is_over) row%energy_lost = row%energy_lost + lost
       end associate
+
+   contains
+
+      !> Step that suits the contact.
+      real(wp) function step_in_contact(speed) result(step)
+         real(wp), intent(in) :: speed  !! its impact speed [m/s]
+
+         step = first_step*system%clearances(k)%set%contact_time(i, max(speed, tiny(1.0_wp)), system%inverse_mass(1, :))
+      end function step_in_contact
+
    end subroutine handle_event
 
    !> The run ends within a contact: tell of the first open one, and take it off the list.

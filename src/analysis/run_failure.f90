@@ -114,12 +114,9 @@ contains
       class(integrator_t), intent(in) :: method     !! the integrator, at an event
       character(:), allocatable :: name             !! name of the joint
 
-      integer :: contact, number, slot
+      integer :: contact, slot
 
-      number = method%happened(1)
-      if (system%first_turn > 0 .and. number > system%first_turn) number = number - system%first_turn
-      if (number > system%n_contact) number = number - system%n_contact
-      call system%find_contact(number, slot, contact)
+      call system%find_contact(method%happened(1), slot, contact)
       associate (set => system%clearances(slot)%set)
          name = set%names(set%item_of(contact))%s
       end associate

@@ -242,7 +242,7 @@ contains
                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, contact)
    end subroutine measure
 
-   !> Eccentricity, normal, penetration, rate and arms of one contact.
+   !> The same on plain arrays.
    pure subroutine measure_journal(body, s_bearing, s_journal, clearance, journal, n_body, r, rot, v, omega, contact)
       integer, intent(in) :: body(2)                 !! (2) bodies of bearing and journal
       real(wp), intent(in) :: s_bearing(3)           !! (3) centre of the bearing, frame of its body [m]
@@ -403,13 +403,7 @@ contains
       call measure_touching(self%n, self%contact, self%body, self%s_i, self%s_j, self%clearance, self%journal, n_body, motion%r, &
                             motion%rot, motion%v, motion%omega, self%kinematics, self%delta, self%rate, self%impact_speed, &
                             losses(:, self%first_contact + 1:))
-      if (self%law%jumps_at_turn) then
-         call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, &
-                         self%f_elastic)
-      else
-         call self%law%force(self%n, self%delta, self%rate, self%impact_speed, self%parameters, self%f_n, self%df_ddelta, &
-                             self%df_drate, self%f_elastic)
-      end if
+      call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)
       if (allocated(self%friction)) call evaluate_friction(self, motion, losses)
       call add_forces(self%n, self%contact, self%body, self%kinematics, self%f_n, self%f_elastic, self%f_t, n_body, &
                       loads%force, loads%moment, losses(:, self%first_contact + 1:))

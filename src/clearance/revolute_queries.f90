@@ -21,8 +21,7 @@ contains
       tangent%arm_j = contact%arm_j
       tangent%v = contact%v_t_work
       longer = merge(0.0_wp, 0.5_wp*contact%rate, self%journal(k)%is_book)  ! rate of the distance from the bearing's centre
-      s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
-      s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      call find_centres(self, k, motion, s_i, s_j)
       p_i = motion%omega(3, i)*[-s_i(2), s_i(1)]  ! of the centres, from those of mass
       p_j = motion%omega(3, j)*[-s_j(2), s_j(1)]
       turn = dot_product(motion%v(1:2, j) + p_j - motion%v(1:2, i) - p_i, tangent%t)/max(contact%delta + self%clearance(k), &
@@ -55,8 +54,7 @@ contains
       call evaluate_item(self, k, motion, contact, force, df_ddelta, df_drate, f_t)
       delta = contact%delta
       rate = contact%rate
-      arm_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
-      arm_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      call find_centres(self, k, motion, arm_i, arm_j)
       e_dot = motion%v(1:2, j) - motion%v(1:2, i) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
               - motion%omega(3, i)*[-arm_i(2), arm_i(1)]
       acceleration = motion%a(1:2, j) - motion%a(1:2, i) &
@@ -140,5 +138,19 @@ contains
       call self%friction%force(1, [f_n], [abs(contact%v_t)], f)
       f_t = -sign(f(1), contact%v_t)
    end subroutine evaluate_item
+
+   !> Centres of bearing and journal, from the centres of mass of their bodies.
+   pure subroutine find_centres(self, k, motion, s_i, s_j)
+      class(clearance_revolute_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                         !! item
+      type(motion_t), intent(in) :: motion             !! positions
+      real(wp), intent(out) :: s_i(2)                  !! (2) centre of the bearing, world frame [m]
+      real(wp), intent(out) :: s_j(2)                  !! (2) centre of the journal, world frame [m]
+
+      associate (i => self%body(1, k), j => self%body(2, k))
+         s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
+         s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      end associate
+   end subroutine find_centres
 
 end submodule revolute_queries

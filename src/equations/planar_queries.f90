@@ -154,7 +154,7 @@ contains
    !> Set of a contact and its place there by its number.
    module procedure planar_find_contact
       do slot = 1, size(self%clearances)
-         contact = number - self%clearances(slot)%set%first_contact
+         contact = mod(number - 1, self%n_contact) + 1 - self%clearances(slot)%set%first_contact
          if (contact <= self%clearances(slot)%set%n_contact) return
       end do
    end procedure planar_find_contact

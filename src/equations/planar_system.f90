@@ -284,11 +284,11 @@ module planar_system
          real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
       end subroutine planar_last_events
 
-      !> Set of a contact and its place there by its number.
+      !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.
       module subroutine planar_find_contact(self, number, slot, contact)
          implicit none (type, external)
          class(planar_system_t), intent(in) :: self  !! the system
-         integer, intent(in) :: number               !! contact, in the order of the sets
+         integer, intent(in) :: number               !! event function: a block in the order of the sets for each kind
          integer, intent(out) :: slot                !! its set
          integer, intent(out) :: contact             !! its number in the set
       end subroutine planar_find_contact

@@ -69,12 +69,12 @@ def chosen(only):
 
 def run_all(program, cases, required_only):
     """Every way of every case; prints each line as it is known."""
-    todo = [(case, way) for case in cases for way in case.ways if way.is_required or not required_only]
+    planned = [(case, way) for case in cases for way in case.ways if way.is_required or not required_only]
     scratch = pathlib.Path(tempfile.mkdtemp(prefix="gudgeon_stability_"))
-    progress, results, last = Progress(len(todo)), [], None
+    progress, results, last = Progress(len(planned)), [], None
     print(line([TITLES.get(name, name) for name, _ in COLUMNS]))
     try:
-        for number, (case, way) in enumerate(todo):
+        for number, (case, way) in enumerate(planned):
             progress.tell(number, f"{case.name}, {way.label}")
             directory = scratch / str(number)
             directory.mkdir()
