@@ -1,20 +1,19 @@
 !> Motion in time: drives an integrator from event to event and hands everything to a recorder.
 module dynamic
-   use catalogue, only: catalogue_t
    use contact_watch, only: close_open, contact_watch_t, new_contact_watch
    use errors, only: error_t, exit_audit, set_error
-   use integrator, only: advance_event, advance_failed_evaluation, integrator_t
+   use integrator, only: advance_event, integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
    use law_validity, only: warn_of_laws
    use planar_energy, only: energy_of, energy_t
-   use planar_report, only: build_catalogue, report_state
    use planar_system, only: planar_system_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
    use run_failure, only: constraints_lost, describe_failure, events_without_end
+   use sampling, only: new_sampler, sampler_t
    use slip_watch, only: decide_next
    use text, only: append_text, real_text
-   use time_plan, only: instant, last_instant, time_plan_t
+   use time_plan, only: time_plan_t
    implicit none (type, external)
    private
    public :: limits_t, run_dynamic
@@ -36,24 +35,19 @@ module dynamic
 
    !> The state of a run.
    type :: run_t
-      type(catalogue_t) :: catalogue             !! what is reported
+      type(sampler_t) :: sampler                 !! what is reported, and when
       type(contact_watch_t) :: watch             !! contacts
       type(summary_t) :: summary                 !! cost and errors so far
-      real(wp), allocatable :: y(:)              !! (n) state of a sample [any]
-      real(wp), allocatable :: ydot(:)           !! (n) its derivative [any]
       real(wp) :: balance_0 = 0.0_wp             !! balance of the ledger at the start [J]
       real(wp) :: potential_0 = 0.0_wp           !! potential energy at the start [J]
       real(wp) :: residual = 0.0_wp              !! of the ledger at the last step [J]
-      real(wp) :: aside = 0.0_wp                 !! CPU time spent on output [s]
+      real(wp) :: aside = 0.0_wp                 !! CPU time spent on writing events [s]
       real(wp) :: lost = 0.0_wp                  !! least that contacts had lost so far: negative, they made energy [J]
       real(wp) :: worst = 0.0_wp                 !! greatest violation so far, over the size of the bodies or one radian [1]
       integer :: worst_row = 0                   !! the row it belongs to
       logical :: is_lost = .false.               !! whether a violation is beyond all measure
       real(wp) :: t_event = 0.0_wp               !! time of the last event [s]
       integer :: n_idle = 0                      !! events since the last time that time passed
-      integer(i8) :: n_sample = 0                !! output instants done
-      integer(i8) :: n_last_sample = 0           !! the last of them
-      integer :: n_strobe = 0                    !! stroboscopic instants done
    end type run_t
 
 contains
@@ -77,17 +71,15 @@ contains
       logical :: is_open
 
       call system_clock(clock_0, ticks)
-      call build_catalogue(system, run%catalogue)
+      call new_sampler(system, plan, run%sampler)
       call new_contact_watch(system, run%watch)
-      allocate (run%y(system%n), run%ydot(system%n), source=0.0_wp)
       run%summary%method = method_name(method)
       run%summary%solver = system%solver%name()
       run%summary%stabilisation = system%way%words()
       run%summary%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
       run%summary%ledger = system%with_ledger
-      run%n_last_sample = last_instant(plan)
       allocate (run%summary%warnings(0))
-      call recorder%start(run%catalogue, error)
+      call recorder%start(run%sampler%catalogue, error)
       call cpu_time(cpu_0)
       if (.not. allocated(error)) call integrate(system, method, y, plan, recorder, run, error)
       call cpu_time(cpu_1)
@@ -98,15 +90,15 @@ contains
       end do
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
       call system_clock(clock_1)
-      run%summary%cpu_seconds = cpu_1 - cpu_0 - run%aside
+      run%summary%cpu_seconds = cpu_1 - cpu_0 - run%aside - run%sampler%aside
       run%summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
       run%summary%time_end = method%t
       run%summary%steps = method%n_steps
       run%summary%rejected_steps = method%n_rejected
       run%summary%rhs_evaluations = system%n_evaluations
-      run%summary%output_evaluations = method%n_output_evaluations + run%n_sample + int(run%n_strobe, i8)
+      run%summary%output_evaluations = method%n_output_evaluations + run%sampler%n_sample + int(run%sampler%n_strobe, i8)
       run%summary%factorisations = system%solver%n_factorisations
-      run%summary%samples = int(run%n_sample)
+      run%summary%samples = int(run%sampler%n_sample)
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
       if (.not. allocated(error)) call audit(run%summary, limits, error)
       call warn(system, run)
@@ -146,7 +138,7 @@ contains
       run%balance_0 = energy%balance()
       run%potential_0 = energy%potential
       call look_at_step(system, method, run)
-      call take_samples(system, method, plan, recorder, run, error)
+      call run%sampler%take(system, method, plan, run%residual, recorder, error)
       n_since_progress = 0
       do while (method%t < plan%end .and. .not. allocated(error))
          call method%advance(system, plan%end, status)
@@ -160,7 +152,7 @@ contains
             return
          end if
          if (system%n_loose > 0) call run%watch%after_step(system, method)
-         call take_samples(system, method, plan, recorder, run, error)
+         call run%sampler%take(system, method, plan, run%residual, recorder, error)
          if (status == advance_event .and. .not. allocated(error)) then
             call handle_events(system, method, recorder, run, error)
          end if
@@ -200,72 +192,6 @@ contains
       run%summary%energy_max = max(run%summary%energy_max, energy%kinetic + energy%elastic &
                                    + abs(energy%potential - run%potential_0))
    end subroutine look_at_step
-
-   !> All output instants up to the end of the last step.
-   subroutine take_samples(system, method, plan, recorder, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
-      class(integrator_t), intent(inout) :: method        !! the integrator
-      type(time_plan_t), intent(in) :: plan               !! times
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(run_t), intent(inout) :: run                   !! state of the run
-      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
-
-      real(wp) :: cpu_0, cpu_1, t
-      integer :: status
-
-      if (run%n_strobe < size(plan%strobes)) then
-         if (plan%strobes(run%n_strobe + 1) <= method%t) call take_strobes(system, method, plan, recorder, run, error)
-         if (allocated(error)) return
-      end if
-      t = instant(plan, run%n_sample)
-      if (run%n_sample > run%n_last_sample .or. t > method%t) return
-      call cpu_time(cpu_0)
-      if (t < method%t) call method%prepare_output(system, status)
-      do while (run%n_sample <= run%n_last_sample .and. t <= method%t)
-         call method%state_at(system, t, run%y)
-         call report_state(system, t, run%y, run%ydot, run%residual, run%catalogue, status)
-         if (status /= 0) then
-            call describe_failure(system, method, advance_failed_evaluation, error)
-            return
-         end if
-         call recorder%sample(t, run%catalogue, error)
-         if (allocated(error)) return
-         run%n_sample = run%n_sample + 1
-         t = instant(plan, run%n_sample)
-      end do
-      call cpu_time(cpu_1)
-      run%aside = run%aside + (cpu_1 - cpu_0)
-   end subroutine take_samples
-
-   !> All stroboscopic instants up to the end of the last step.
-   subroutine take_strobes(system, method, plan, recorder, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
-      class(integrator_t), intent(inout) :: method        !! the integrator
-      type(time_plan_t), intent(in) :: plan               !! times
-      class(recorder_t), intent(inout) :: recorder        !! keeps the results
-      type(run_t), intent(inout) :: run                   !! state of the run
-      type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
-
-      real(wp) :: cpu_0, cpu_1, t
-      integer :: status
-
-      call cpu_time(cpu_0)
-      if (plan%strobes(run%n_strobe + 1) < method%t) call method%prepare_output(system, status)
-      do while (run%n_strobe < size(plan%strobes))
-         t = plan%strobes(run%n_strobe + 1)
-         if (t > method%t) exit
-         call method%state_at(system, t, run%y)
-         call report_state(system, t, run%y, run%ydot, run%residual, run%catalogue, status)
-         if (status /= 0) then
-            call describe_failure(system, method, advance_failed_evaluation, error)
-            return
-         end if
-         call recorder%strobe(t, run%catalogue)
-         run%n_strobe = run%n_strobe + 1
-      end do
-      call cpu_time(cpu_1)
-      run%aside = run%aside + (cpu_1 - cpu_0)
-   end subroutine take_strobes
 
    !> Handle the events at the end of the last step, and go on from there.
    subroutine handle_events(system, method, recorder, run, error)
