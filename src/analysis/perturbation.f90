@@ -6,9 +6,9 @@
 !> free stays moved. The numbers follow from the seed and the number of the run alone: a run is the same whatever runs
 !> beside it and whatever parameters are swept.
 module perturbation
+   use columns, only: column_of
    use kinds, only: wp
    use scene, only: scene_t
-   use section_info, only: column_of
    implicit none (type, external)
    private
    public :: new_shift, shift_t

@@ -1,6 +1,7 @@
 !> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
    use build_system, only: levels_as_written, levels_ideal, new_system
+   use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use guided_motion, only: guided_coordinates
@@ -9,7 +10,6 @@ module start_state
    use perturbation, only: shift_t
    use planar_system, only: planar_system_t
    use scene, only: scene_t
-   use section_info, only: column_of
    use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
    implicit none (type, external)

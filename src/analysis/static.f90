@@ -9,6 +9,7 @@
 module static
    use build_system, only: levels_ideal, new_system
    use catalogue, only: catalogue_t
+   use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use inverse_dynamics, only: find_reactions
@@ -20,7 +21,6 @@ module static
    use prescribed_motion, only: newton_t, solve_positions
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use scene, only: scene_t
-   use section_info, only: column_of
    use static_kinsol, only: polish
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale, square_frequencies
    use static_relaxation, only: least_unbalance, relax

@@ -1,11 +1,11 @@
 !> The times of a motion and of its output, from settings such as `end = 2 turns of motor`.
 module time_plan
+   use columns, only: column_of
    use diagnostics, only: diagnostics_t
    use item, only: value_t
    use kinds, only: i8, wp
    use planar_system, only: planar_system_t
    use scene, only: analysis_kinematic, analysis_static, scene_t
-   use section_info, only: column_of
    use text, only: append_text, join, nearest_word, text_t
    implicit none (type, external)
    private

@@ -3,6 +3,7 @@ module load
    use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
    use catalogue, only: catalogue_t
    use channels, only: list_scalars, select_channels, selection_t
+   use columns, only: column_of, find_column
    use deck_reader, only: deck_t, diagnostics_t, read_deck, read_sweep, sweep_t
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures, figure_bifurcation, figure_portrait, figure_section, figure_statistics, figure_t, &
@@ -16,7 +17,6 @@ module load
    use planar_system, only: planar_system_t
    use read_scene, only: scene_from_deck
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
-   use section_info, only: column_of
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
@@ -131,7 +131,8 @@ contains
 
       if (options%is_ideal) then
          do k = 1, size(scene%clearances)
-            c = column_of(scene%clearances(k)%info, "level")
+            c = find_column(scene%clearances(k)%info, "level")
+            if (c == 0) cycle  ! a geometry without an ideal joint keeps its contacts
             do i = 1, size(scene%clearances(k)%items)
                scene%clearances(k)%items(i)%values(c)%text = "ideal"
                scene%clearances(k)%items(i)%values(c)%given = .true.

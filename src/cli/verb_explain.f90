@@ -1,11 +1,13 @@
 !> `gudgeon explain DECK` and `gudgeon check DECK`: what would run, without running it.
 module verb_explain
+   use columns, only: column_of
    use console, only: say
    use build_system, only: levels_ideal, new_system
    use clearance_set, only: clearance_set_t
    use consistent_start, only: assembly_t
    use deck_reader, only: all_defaults
    use errors, only: error_t
+   use explain_dropped, only: say_dropped
    use imsl_names, only: is_imsl_name
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -16,7 +18,6 @@ module verb_explain
    use options, only: options_t
    use planar_system, only: planar_system_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
-   use section_info, only: column_of
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium
    use text, only: real_text, replace, text_t, to_text
@@ -106,7 +107,7 @@ contains
       call explain_start(loaded, assembly, allocated(start_error))
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
       call explain_loose(loaded, y)
-      call explain_dropped(loaded%scene, loaded%system)
+      call say_dropped(loaded%scene, loaded%system)
       call explain_method(loaded)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
       defaults = all_defaults(loaded%deck)
@@ -311,57 +312,6 @@ contains
       if (speed_limit >= huge(speed_limit)) return
       call say("the law is quasi-static: strictly for impacts below "//real_text(speed_limit, 3)//" m/s (1e-5 sqrt(E/rho))", 4)
    end subroutine explain_validity
-
-   !> What the deck gives but the motion does not need.
-   subroutine explain_dropped(scene, system)
-      type(scene_t), intent(in) :: scene            !! the scene
-      type(planar_system_t), intent(in) :: system   !! its system
-
-      integer :: k
-
-      call say("")
-      call say("dropped")
-      if (.not. norm2(system%gravity) > 0.0_wp) call say("gravity: zero", 2)
-      do k = 1, size(scene%frictions)
-         if (.not. scene%frictions(k)%law%is_active()) then
-            call say("friction law '"//scene%frictions(k)%law%name//"': never a force", 2)
-         else if (.not. is_used(scene%frictions(k)%law%name, "friction")) then
-            call say("friction law '"//scene%frictions(k)%law%name//"': used by no joint", 2)
-         end if
-      end do
-      do k = 1, size(scene%laws)
-         if (.not. is_used(scene%laws(k)%law%name, "law")) then
-            call say("contact law '"//scene%laws(k)%law%name//"': used by no joint", 2)
-         end if
-      end do
-      do k = 1, size(scene%materials)
-         if (is_used(scene%materials(k)%name%s, "material") .or. is_used(scene%materials(k)%name%s, "journal_material")) cycle
-         call say("material '"//scene%materials(k)%name%s//"': used by no joint", 2)
-      end do
-      if (.not. system%with_ledger) call say("energy ledger: off", 2)
-      if (scene%analysis == analysis_kinematic .and. size(system%ideal) > 0) then
-         call say("clearances: joints are ideal in a kinematic analysis", 2)
-      end if
-
-   contains
-
-      !> Whether a row of a clearance table names a law.
-      logical function is_used(name, column)
-         character(*), intent(in) :: name     !! the law
-         character(*), intent(in) :: column   !! where it would stand
-
-         integer :: i, table
-
-         is_used = .false.
-         do table = 1, size(scene%clearances)
-            do i = 1, size(scene%clearances(table)%items)
-               is_used = is_used .or. scene%clearances(table)%items(i)%values( &
-                         column_of(scene%clearances(table)%info, column))%text == name
-            end do
-         end do
-      end function is_used
-
-   end subroutine explain_dropped
 
    !> Method, solver, stabilisation and times.
    subroutine explain_method(loaded)

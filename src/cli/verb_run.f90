@@ -4,6 +4,7 @@ module verb_run
    use build_system, only: levels_ideal, new_system
    use catalogue, only: catalogue_t
    use channels, only: select_channels, selection_t
+   use columns, only: column_of
    use consistent_start, only: assembly_t
    use deck_reader, only: deck_text, get_includes
    use dynamic, only: limits_t, run_dynamic
@@ -28,7 +29,6 @@ module verb_run
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
-   use section_info, only: column_of
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t

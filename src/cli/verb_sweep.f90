@@ -7,6 +7,7 @@
 module verb_sweep
    use build_info, only: compiler, git_sha1
    use catalogue, only: catalogue_t
+   use columns, only: column_of
    use console, only: say
    use deck_reader, only: deck_text, get_includes, sweep_t
    use errors, only: error_t, exit_sweep, exit_usage, set_error
@@ -27,7 +28,6 @@ module verb_sweep
    use recorder, only: status_complete, status_failed, status_running
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
-   use section_info, only: column_of
    use sweep_file, only: write_sweep
    use sweep_plots, only: sweep_table
    use sweep_results, only: cases_csv, runs_csv, sweep_results_t

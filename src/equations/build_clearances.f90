@@ -5,6 +5,7 @@
 module build_clearances
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t, clearance_slot_t
+   use columns, only: cell_index, cell_text, find_column
    use find_known, only: kind_number
    use friction_law, only: friction_law_t
    use item, only: item_t
@@ -14,7 +15,6 @@ module build_clearances
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use scene, only: scene_t
-   use section_info, only: column_of
    implicit none (type, external)
    private
    public :: add_clearances, is_ideal, levels_as_written, levels_ideal, levels_loose
@@ -99,12 +99,11 @@ contains
       type(item_t), intent(in) :: item    !! the row
       integer, intent(in) :: levels       !! how joints with clearance are taken
 
-      integer :: level
-
-      level = column_of(scene%clearances(kind)%info, "level")
-      is_ideal = level <= size(item%values)
-      if (.not. is_ideal) return
-      is_ideal = levels == levels_ideal .or. (levels == levels_as_written .and. item%values(level)%text == "ideal")
+      associate (info => scene%clearances(kind)%info)
+         is_ideal = find_column(info, "level") > 0
+         if (.not. is_ideal) return
+         is_ideal = levels == levels_ideal .or. (levels == levels_as_written .and. cell_text(info, item, "level") == "ideal")
+      end associate
    end function is_ideal
 
    !> Rows of a geometry as the joint that it is without clearance.
@@ -171,16 +170,13 @@ contains
       integer :: face_law, friction_law, i, normal_law
 
       call new_clearance_set(kind, slot%set)
-      normal_law = items(1)%values(column_of(scene%clearances(kind)%info, "law"))%index
-      friction_law = items(1)%values(column_of(scene%clearances(kind)%info, "friction"))%index
+      normal_law = cell_index(scene%clearances(kind)%info, items(1), "law")
+      friction_law = cell_index(scene%clearances(kind)%info, items(1), "friction")
+      face_law = cell_index(scene%clearances(kind)%info, items(1), "face_law")
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
       call slot%set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
                         [(items(i)%values(2)%index, i=1, size(items))], scene%points, scene%laws(normal_law)%law, friction)
-      face_law = column_of(scene%clearances(kind)%info, "face_law")
-      if (face_law <= size(items(1)%values)) then
-         face_law = items(1)%values(face_law)%index
-         if (face_law > 0) allocate (slot%set%face_law, source=scene%laws(face_law)%law)
-      end if
+      if (face_law > 0) allocate (slot%set%face_law, source=scene%laws(face_law)%law)
       slot%set%first = system%n_loose
       slot%set%first_contact = system%n_contact
       system%n_loose = system%n_loose + slot%set%n

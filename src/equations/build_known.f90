@@ -3,6 +3,7 @@
 !> Bodies whose motion is a known function of time leave the unknowns, with the rows that fix them; a body that one joint leaves a
 !> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations.
 module build_known
+   use columns, only: column_of
    use find_guided, only: find_guided_bodies, guide_t, kind_sliding
    use find_known, only: find_known_bodies, joint_points, link_t
    use joint_registry, only: n_joint_kinds
@@ -11,7 +12,6 @@ module build_known
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use scene, only: analysis_dynamic, scene_t
-   use section_info, only: column_of
    implicit none (type, external)
    private
    public :: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles

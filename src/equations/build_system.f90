@@ -6,6 +6,7 @@ module build_system
    use augmented_schur, only: schur_is_cheap
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use build_known, only: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
+   use columns, only: column_of
    use find_known, only: has_smooth_cells, joint_points
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_slot_t
@@ -20,7 +21,6 @@ module build_system
    use planar_system, only: n_ledger, planar_system_t
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: size_of_bodies
-   use section_info, only: column_of
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
    private

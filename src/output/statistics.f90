@@ -177,7 +177,7 @@ contains
       end do
    end subroutine sample_statistics
 
-   !> An instant once per period.
+   !> An instant once per period; nothing is kept if no statistics are wanted.
    subroutine strobe_statistics(self, t, catalogue)
       class(statistics_t), intent(inout) :: self  !! what is gathered
       real(wp), intent(in) :: t                   !! time [s]
@@ -186,6 +186,7 @@ contains
       real(wp), allocatable :: longer(:)
       integer :: k
 
+      if (.not. self%plan%is_wanted) return
       self%n_strobe = self%n_strobe + 1
       call make_room(self%strobes, self%n_strobe)
       if (self%n_strobe > size(self%strobe_times)) then

@@ -80,7 +80,6 @@ contains
       table%x_name = "frequency"
       table%x_unit = "Hz"
       table%is_log_x = .true.
-      table%panels(1)%is_log_y = .true.
       table%panels(1)%y_name = "amplitude of "//scalar_name(catalogue, scalar)
       table%panels(1)%y_unit = unit_of(catalogue, scalar)
       table%panels(1)%curves(1)%style = draw_lines
@@ -93,6 +92,7 @@ contains
          allocate (table%values(2, size(frequency) - 1))
          table%values(1, :) = frequency(2:)
          table%values(2, :) = amplitude(2:)
+         table%panels(1)%is_log_y = any(amplitude(2:) > 0.0_wp)  ! a channel at rest has nothing that a logarithm could show
          return
       end do
    end subroutine spectrum_table

@@ -1,10 +1,10 @@
 !> IMSL's names of the integrator's controls: folded into the plain ones, so that nothing is said twice.
 module imsl_names
+   use columns, only: column_of
    use diagnostics, only: diagnostics_t
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
-   use section_info, only: column_of
    implicit none (type, external)
    private
    public :: fold_imsl_names, is_imsl_name

@@ -3,6 +3,7 @@ module read_scene
    use bodies, only: bodies_info, material_info, new_bodies, new_materials, new_points, points_info
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
+   use columns, only: cell_index, cell_text, column_of, find_column
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use deck_reader, only: check_sections, has_section, read_items, read_settings
    use deck_types, only: add_default, deck_t, location_of_end
@@ -21,7 +22,7 @@ module read_scene
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, &
       n_analysis, n_base, scene_t, table_bodies, table_materials, table_points
-   use section_info, only: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
@@ -388,8 +389,8 @@ contains
          real(wp) :: length, p(3, 2)
          integer :: c, end
 
-         c = column_of(info, "length")
-         if (c > size(info%columns)) return
+         c = find_column(info, "length")
+         if (c == 0) return
          if (item%values(c)%given) return
          do end = 1, 2
             p(:, end) = start_position(scene, item%values(end)%index)
@@ -420,21 +421,18 @@ contains
       real(wp) :: parameters(n_law_parameter)
       integer :: face_law
 
-      column = column_of(info, "level")
-      if (column <= size(item%values)) then
-         if (item%values(column)%text == "ideal") column = 0
-      end if
-      if (column == 0) return
       column = 0
+      message = ""
+      help = ""
+      if (cell_text(info, item, "level") == "ideal") return
       call set%describe(item, scene%materials, pair)
-      call scene%laws(item%values(column_of(info, "law"))%index)%law%fit(pair, parameters, message, help)
+      call scene%laws(cell_index(info, item, "law"))%law%fit(pair, parameters, message, help)
       if (message /= "") column = column_of(info, "law")
       if (column > 0) return
-      face_law = column_of(info, "face_law")
-      if (face_law > size(item%values)) return
-      if (item%values(face_law)%index == 0) return
+      face_law = cell_index(info, item, "face_law")
+      if (face_law == 0) return
       pair%shape = shape_face
-      associate (law => scene%laws(item%values(face_law)%index)%law)
+      associate (law => scene%laws(face_law)%law)
          law_info = law%info()
          call law%fit(pair, parameters, message, help)
          if (law_info%name /= "contact.plane_face") then
@@ -442,7 +440,7 @@ contains
             help = "name a row of contact.plane_face"
          end if
       end associate
-      if (message /= "") column = face_law
+      if (message /= "") column = column_of(info, "face_law")
    end subroutine check_law
 
    !> Where the deck puts a point at the start.

@@ -7,7 +7,7 @@ module section_info
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: column_of, dynamic_info, kinematic_info, output_info, scene_info, static_info, word_options
+   public :: dynamic_info, kinematic_info, output_info, scene_info, static_info, word_options
 
 contains
 
@@ -129,15 +129,5 @@ contains
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
       call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel)", default="")
    end function output_info
-
-   !> Number of a column of a kind, by its name.
-   pure integer function column_of(info, name) result(k)
-      type(kind_info_t), intent(in) :: info  !! the kind
-      character(*), intent(in) :: name       !! the column
-
-      do k = 1, size(info%columns)
-         if (info%columns(k)%name == name) return
-      end do
-   end function column_of
 
 end module section_info

@@ -1,12 +1,12 @@
 !> Whether the method of a scene can make the steps that its deck asks for.
 module step_check
+   use columns, only: cell_index, column_of
    use diagnostics, only: diagnostics_t
    use friction_law, only: memory_none
    use integrator, only: integrator_t, steps_fixed, steps_variable
    use integrator_registry, only: find_integrator
    use kinds, only: wp
    use scene, only: scene_t
-   use section_info, only: column_of
    implicit none (type, external)
    private
    public :: check_steps
@@ -55,15 +55,16 @@ contains
       type(scene_t), intent(in) :: scene                  !! the scene
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      integer :: i, k, law
+      integer :: c, i, k, law
 
       if (scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text /= "ida") return
       do k = 1, size(scene%clearances)
          do i = 1, size(scene%clearances(k)%items)
-            associate (value => scene%clearances(k)%items(i)%values(column_of(scene%clearances(k)%info, "friction")))
-               law = value%index
-               if (law == 0) cycle
-               if (scene%frictions(law)%law%memory == memory_none) cycle
+            law = cell_index(scene%clearances(k)%info, scene%clearances(k)%items(i), "friction")
+            if (law == 0) cycle
+            if (scene%frictions(law)%law%memory == memory_none) cycle
+            c = column_of(scene%clearances(k)%info, "friction")
+            associate (value => scene%clearances(k)%items(i)%values(c))
                call diagnostics%add(value%location, "method 'ida' cannot be used with friction law '"//value%text//"'", &
                                     "sticks, or has a state of its own", "take verner, rk4, adams or bdf, or a friction law " &
                                     //"without a memory")

@@ -1,0 +1,92 @@
+!> What the deck gives but the motion does not need, for `gudgeon explain`.
+!>
+!> Whether a row is used follows from the references of all columns of all tables, as each kind's own `info` tells them.
+module explain_dropped
+   use console, only: say
+   use kind_info, only: cell_reference
+   use kinds, only: wp
+   use planar_system, only: planar_system_t
+   use scene, only: analysis_kinematic, scene_t, table_t
+   implicit none (type, external)
+   private
+   public :: say_dropped
+
+contains
+
+   !> Say what was dropped.
+   subroutine say_dropped(scene, system)
+      type(scene_t), intent(in) :: scene            !! the scene
+      type(planar_system_t), intent(in) :: system   !! its system
+
+      logical :: is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials)))
+      integer :: k
+
+      call say("")
+      call say("dropped")
+      if (.not. norm2(system%gravity) > 0.0_wp) call say("gravity: zero", 2)
+      call find_used(scene, "friction.", is_used)
+      do k = 1, size(scene%frictions)
+         if (.not. scene%frictions(k)%law%is_active()) then
+            call say("friction law '"//scene%frictions(k)%law%name//"': never a force", 2)
+         else if (.not. is_used(k)) then
+            call say("friction law '"//scene%frictions(k)%law%name//"': used by no joint", 2)
+         end if
+      end do
+      call find_used(scene, "contact.", is_used)
+      do k = 1, size(scene%laws)
+         if (.not. is_used(k)) call say("contact law '"//scene%laws(k)%law%name//"': used by no joint", 2)
+      end do
+      call find_used(scene, "material", is_used)
+      do k = 1, size(scene%materials)
+         if (.not. is_used(k)) call say("material '"//scene%materials(k)%name%s//"': used by no joint", 2)
+      end do
+      if (.not. system%with_ledger) call say("energy ledger: off", 2)
+      if (scene%analysis == analysis_kinematic .and. size(system%ideal) > 0) then
+         call say("clearances: joints are ideal in a kinematic analysis", 2)
+      end if
+   end subroutine say_dropped
+
+   !> Which rows of a group of kinds any row of the deck refers to.
+   subroutine find_used(scene, group, is_used)
+      type(scene_t), intent(in) :: scene       !! the scene
+      character(*), intent(in) :: group        !! what columns say that they refer to
+      logical, intent(out) :: is_used(:)       !! (rows of the group, or more) whether a row is referred to
+
+      integer :: k
+
+      is_used = .false.
+      do k = 1, size(scene%base)
+         call look(scene%base(k))
+      end do
+      do k = 1, size(scene%joints)
+         call look(scene%joints(k))
+      end do
+      do k = 1, size(scene%forces)
+         call look(scene%forces(k))
+      end do
+      do k = 1, size(scene%clearances)
+         call look(scene%clearances(k))
+      end do
+
+   contains
+
+      !> Mark what the rows of a table refer to.
+      subroutine look(table)
+         type(table_t), intent(in) :: table  !! the table
+
+         integer :: c, i
+
+         do c = 1, size(table%info%columns)
+            if (table%info%columns(c)%cell /= cell_reference) cycle
+            if (table%info%columns(c)%refers_to /= group) cycle
+            do i = 1, size(table%items)
+               associate (index => table%items(i)%values(c)%index)
+                  if (index > 0) is_used(index) = .true.
+               end associate
+            end do
+         end do
+      end subroutine look
+
+   end subroutine find_used
+
+end module explain_dropped
