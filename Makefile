@@ -125,16 +125,27 @@ ifeq ($(shell command -v $(FC)),)
 $(error $(FC) not found: scripts/setup installs what is needed)
 endif
 
+# SUNDIALS: Debian's place, or a prefix. Its version and its kind of index go to the sources that the preprocessor reads.
+SUNDIALS_PREFIX := $(or $(SUNDIALS_DIR),/usr)
+SUNDIALS_MODULES := $(patsubst %/fcvode_mod.mod,%,$(firstword $(wildcard $(patsubst %,$(SUNDIALS_PREFIX)/%/fcvode_mod.mod,\
+                    include/sundials/fortran fortran include))))
+SUNDIALS_VERSION := $(if $(wildcard $(SUNDIALS_MODULES)/fsundials_core_mod.mod),7,$(if \
+                    $(wildcard $(SUNDIALS_MODULES)/fsundials_context_mod.mod),6))
+SUNDIALS_INDEX := $(if $(shell grep -E '^\#define SUNDIALS_INT64_T' $(SUNDIALS_PREFIX)/include/sundials/sundials_config.h 2>/dev/null),64,32)
+ifeq ($(SUNDIALS_VERSION),)
+$(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/setup installs what is needed, SUNDIALS_DIR= names a prefix)
+endif
+
 # The rooms, in the order of docs/architecture.md.
 ROOMS := core math deck functions model contact lubrication joints forces clearance integrators scene equations \
          analysis output cli
-SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90)))
+SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90) $(ROOMS:%=src/%/*.F90)))
 C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))
 MAIN := $(wildcard src/main.f90)
 TEST_SOURCES := $(sort $(wildcard tests/unit/test_*.f90 tests/identity/test_*.f90 tests/order/test_*.f90 \
                 tests/invariance/test_*.f90))
 TEST_HELPERS := $(sort $(filter-out $(TEST_SOURCES),$(wildcard tests/*.f90 tests/unit/*.f90 tests/identity/*.f90 \
-                tests/order/*.f90 tests/invariance/*.f90)))
+                tests/order/*.f90 tests/order/*.F90 tests/invariance/*.f90)))
 BENCH_MAINS := $(sort $(shell grep -li '^program ' /dev/null $(wildcard tests/bench/*.f90)))
 BENCH_HELPERS := $(sort $(filter-out $(BENCH_MAINS),$(wildcard tests/bench/*.f90)))
 GENERATED := $(B)/build_info.f90 $(B)/tests/run_tests.f90
@@ -146,18 +157,16 @@ TEST_OBJECTS := $(call object,$(TEST_SOURCES) $(TEST_HELPERS)) $(B)/obj/gen/run_
 BENCH_PROGRAMS := $(BENCH_MAINS:tests/bench/%.f90=$(B)/bench/%)
 
 # Libraries: Debian's places, or prefixes.
-ifeq ($(SUNDIALS_DIR),)
-SUNDIALS_INCLUDE := -I/usr/include/sundials/fortran
-else
-SUNDIALS_INCLUDE := $(patsubst %,-I%,$(sort $(dir $(wildcard $(patsubst %,$(SUNDIALS_DIR)/%/fcvode_mod.mod,\
-                    include/sundials/fortran fortran include)))))
-SUNDIALS_PATH := $(foreach d,$(wildcard $(SUNDIALS_DIR)/lib $(SUNDIALS_DIR)/lib64),-L$(d) -Wl,-rpath,$(d))
-endif
+SUNDIALS_INCLUDE := -I$(SUNDIALS_MODULES)
+SUNDIALS_PATH := $(foreach d,$(wildcard $(SUNDIALS_DIR:%=%/lib) $(SUNDIALS_DIR:%=%/lib64)),-L$(d) -Wl,-rpath,$(d))
 SUNDIALS_LIBRARIES := $(SUNDIALS_PATH) -lsundials_farkode_mod -lsundials_fcvode_mod -lsundials_fida_mod \
   -lsundials_fkinsol_mod -lsundials_fsunnonlinsolfixedpoint_mod -lsundials_fsunnonlinsolnewton_mod \
   -lsundials_fsunlinsoldense_mod -lsundials_fsunmatrixdense_mod -lsundials_fnvecserial_mod \
   -lsundials_arkode -lsundials_cvode -lsundials_ida -lsundials_kinsol -lsundials_sunnonlinsolfixedpoint \
   -lsundials_sunnonlinsolnewton -lsundials_sunlinsoldense -lsundials_sunmatrixdense -lsundials_nvecserial
+ifneq ($(SUNDIALS_VERSION),6)
+SUNDIALS_LIBRARIES += -lsundials_fcore_mod -lsundials_core
+endif
 
 ifneq ($(HDF5_DIR),)
 HDF5_INCLUDE := $(patsubst %,-I%,$(sort $(HDF5_DIR)/include \
@@ -198,6 +207,7 @@ OPTIMISE := -Og -g -fcheck=all,no-array-temps -ffpe-trap=invalid,zero,overflow -
             -finit-derived -fbacktrace -Werror
 endif
 FFLAGS := -std=f2018 -fimplicit-none $(WARNINGS) $(OPTIMISE)
+DEFINES := -DSUNDIALS_VERSION=$(SUNDIALS_VERSION) -DSUNDIALS_INDEX=$(SUNDIALS_INDEX)
 CFLAGS := -std=c11 -Wall -Wextra $(filter-out -f%,$(OPTIMISE))
 PREFIX_MAP := -ffile-prefix-map=$(CURDIR)=.
 COMPILE = $(FC) $(FFLAGS) $(PREFIX_MAP) -J$(B)/mod -I$(B)/mod $(SUNDIALS_INCLUDE) $(HDF5_INCLUDE)
@@ -207,7 +217,7 @@ LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
 $(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench \
   $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS)))))
-$(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(CC) $(CFLAGS) $(LIBRARIES)'; } > $(B)/flags.new; \
+$(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS) $(LIBRARIES)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
   echo '$(OBJECTS) $(TEST_OBJECTS)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
   scripts/buildinfo $(FC) '$(FFLAGS)' > $(B)/build_info.f90.new; $(call keep_if_equal,$(B)/build_info.f90); \
@@ -220,7 +230,7 @@ endif
 
 # $(1): source. The object is there; only its .mod is missing, so compile once more.
 define compile_if_gone
-@test -f $@ || { echo "  FC $(1) (for $(@F))"; $(COMPILE) -c $(1) -o $<; }
+@test -f $@ || { echo "  FC $(1) (for $(@F))"; $(COMPILE) $(if $(filter %.F90,$(1)),$(DEFINES)) -c $(1) -o $<; }
 endef
 
 include $(B)/deps.mk
@@ -254,6 +264,10 @@ endif
 $(B)/obj/%.o: %.f90 $(B)/flags
 	@echo "  FC $<"
 	@$(COMPILE) -c $< -o $@
+
+$(B)/obj/%.o: %.F90 $(B)/flags
+	@echo "  FC $<"
+	@$(COMPILE) $(DEFINES) -c $< -o $@
 
 $(B)/obj/gen/build_info.o: $(B)/build_info.f90 $(B)/flags
 	@$(COMPILE) -c $< -o $@

@@ -7,7 +7,7 @@
 
 function object_of(path,   stem) {
    stem = path
-   sub(/\.f90$/, "", stem)
+   sub(/\.[fF]90$/, "", stem)
    if (index(stem, gen "/") == 1) {
       sub(/.*\//, "", stem)
       return obj "/gen/" stem ".o"
@@ -27,7 +27,7 @@ function makes(name, path,   stem) {
    order[++n_made] = name
    stem = path
    sub(/.*\//, "", stem)
-   sub(/\.f90$/, "", stem)
+   sub(/\.[fF]90$/, "", stem)
    if (stem != word_of[name]) complain(path ": holds '" word_of[name] "'; file and module must have the same name")
 }
 

@@ -253,7 +253,7 @@ contains
       real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
 
       real(wp) :: lost, rate, stored
-      integer :: i, k
+      integer :: i, k, z
       type(trend_t) :: force, penetration
 
       call system%find_contact(number, k, i)
@@ -286,9 +286,8 @@ contains
          end if
          if (.not. (set%energy_jumps .and. system%with_ledger)) return
          lost = stored - set%elastic_energy(system%motion)
-         associate (in_contact => method%step%y1(loss_place(system, number)))
-            in_contact = in_contact + lost
-         end associate
+         z = loss_place(system, number)
+         method%step%y1(z) = method%step%y1(z) + lost
          if (is_over) row%energy_lost = row%energy_lost + lost
       end associate
 

@@ -7,20 +7,18 @@
 !> Source: Hindmarsh et al. (2005), SUNDIALS, KINSOL with KIN_LINESEARCH and its dense linear solver. Limits: the
 !> Jacobian must be regular: no indifferent equilibrium.
 module static_kinsol
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_ptr
    use consistent_start, only: row_scale
-   use fkinsol_mod, only: fkincreate, fkinfree, fkininit, fkinsetfuncnormtol, fkinsetlinearsolver, fkinsetnummaxiters, &
-      fkinsetscaledsteptol, fkinseterrfile, fkinsetuserdata, fkinsol, kin_linesearch, kin_linesearch_nonconv
+   use fkinsol_mod, only: fkinfree, fkininit, fkinsetfuncnormtol, fkinsetlinearsolver, fkinsetnummaxiters, &
+      fkinsetscaledsteptol, fkinsetuserdata, fkinsol, kin_linesearch, kin_linesearch_nonconv
    use fnvector_serial_mod, only: fn_vmake_serial
-   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
-   use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
-   use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
-   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunmatrix_dense_mod, only: fsundensematrix
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use static_problem, only: look_at, position_scale, unbalanced_load
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, n_vector, new_context, &
+      new_kinsol, sunindextype, sunlinearsolver, sunmatrix
    implicit none (type, external)
    private
    public :: polish
@@ -82,7 +80,7 @@ contains
       type(problem_t), target :: problem
       real(wp), allocatable, target :: ones(:), x(:)
       real(c_double), pointer :: solution(:)
-      integer(c_long) :: n
+      integer(sunindextype) :: n
       integer :: status
 
       problem%system => system
@@ -91,18 +89,16 @@ contains
       problem%is_independent(dependent) = .false.
       x = [q/position_scale(system), pack(system%lambda/row_scale(system)/load, problem%is_independent)]
       allocate (ones(size(x)), source=1.0_wp)
-      n = size(x, kind=c_long)
-      context = c_null_ptr
-      status = int(fsuncontext_create(c_null_ptr, context))
+      n = size(x, kind=sunindextype)
+      status = new_context(context)
       unknowns => fn_vmake_serial(n, x, context)
       scale => fn_vmake_serial(n, ones, context)
       matrix => fsundensematrix(n, n, context)
       solver => fsunlinsol_dense(unknowns, matrix, context)
-      memory = fkincreate(context)
+      memory = new_kinsol(context)
       if (.not. c_associated(memory)) status = -1
       if (status == 0) status = int(fkinsetuserdata(memory, c_loc(problem)))
       if (status == 0) status = int(fkininit(memory, c_funloc(equations), unknowns))
-      if (status == 0) status = int(fkinseterrfile(memory, c_null_ptr))
       if (status == 0) status = int(fkinsetlinearsolver(memory, solver, matrix))
       if (status == 0) status = int(fkinsetnummaxiters(memory, int(most, c_long)))
       if (status == 0) status = int(fkinsetfuncnormtol(memory, tolerance))

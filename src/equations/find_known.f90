@@ -140,10 +140,12 @@ contains
       integer, intent(out) :: i            !! point of body i
       integer, intent(out) :: j            !! point of body j
 
+      integer :: driven_kind
+
       associate (table => scene%joints(kind))
          if (table%info%columns(1)%name == "joint") then
-            associate (driven => scene%joints(kind_number(scene, table%info%columns(1)%refers_to))% &
-                       items(table%items(row)%values(1)%index))
+            driven_kind = kind_number(scene, table%info%columns(1)%refers_to)
+            associate (driven => scene%joints(driven_kind)%items(table%items(row)%values(1)%index))
                i = driven%values(1)%index
                j = driven%values(2)%index
             end associate

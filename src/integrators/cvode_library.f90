@@ -12,20 +12,17 @@
 !> solvers, ACM Trans. Math. Softw. 31 (2005) 363-396.
 module cvode_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
-   use fcvode_mod, only: cv_adams, cv_bdf, cv_one_step, fcvode, fcvodecreate, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, &
-      fcvodegetnumerrtestfails, &
-      fcvodegetnumnonlinsolvconvfails, fcvodeinit, fcvodereinit, fcvodeseterrfile, fcvodesetinitstep, fcvodesetjacfn, &
-      fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, fcvodesetprojerrest, &
+   use fcvode_mod, only: cv_adams, cv_bdf, cv_one_step, fcvode, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, &
+      fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, fcvodeinit, fcvodereinit, fcvodesetinitstep, &
+      fcvodesetjacfn, fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, fcvodesetprojerrest, &
       fcvodesetprojfn, fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
    use fnvector_serial_mod, only: fn_vnew_serial
-   use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
-   use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
-   use fsundials_nonlinearsolver_mod, only: fsunnonlinsolfree, sunnonlinearsolver
-   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunmatrix_dense_mod, only: fsundensematrix
    use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
    use kinds, only: wp
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunlinsolfree, fsunmatdestroy, fsunnonlinsolfree, n_vector, new_cvode, &
+      sunindextype, sunlinearsolver, sunmatrix, sunnonlinearsolver
    use sundials_library, only: dense_block, increments, library_t, note, problem_t
    implicit none (type, external)
    private
@@ -85,15 +82,14 @@ contains
       class(cvode_library_t), intent(inout) :: self   !! the library
       integer, intent(out) :: status                  !! 0: done
 
-      integer(c_long) :: n
+      integer(sunindextype) :: n
 
-      n = int(self%problem%system%n, c_long)
+      n = int(self%problem%system%n, sunindextype)
       self%state => fn_vnew_serial(n, self%context)
       self%look => fn_vnew_serial(n, self%context)
-      self%memory = fcvodecreate(merge(cv_bdf, cv_adams, self%is_stiff), self%context)
+      self%memory = new_cvode(merge(cv_bdf, cv_adams, self%is_stiff), self%context)
       status = merge(0, -1, associated(self%state) .and. associated(self%look) .and. c_associated(self%memory))
       if (status /= 0) return
-      call note(fcvodeseterrfile(self%memory, c_null_ptr), status)
       call note(fcvodeinit(self%memory, c_funloc(right_hand_side), self%problem%method%t, self%state), status)
       call note(fcvodesetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fcvodewftolerances(self%memory, c_funloc(weigh)), status)

@@ -20,16 +20,15 @@
 module ida_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use dae_system, only: dae_system_t
-   use fida_mod, only: fidacreate, fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, &
-      fidagetnumnonlinsolvconvfails, fidainit, fidareinit, fidaseterrfile, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, &
-      fidasetmaxstep, fidasetminstep, fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
+   use fida_mod, only: fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, fidagetnumnonlinsolvconvfails, &
+      fidainit, fidareinit, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxstep, fidasetminstep, &
+      fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
    use fnvector_serial_mod, only: fn_vnew_serial
-   use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
-   use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
-   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunmatrix_dense_mod, only: fsundensematrix
    use kinds, only: wp
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunlinsolfree, fsunmatdestroy, n_vector, new_ida, sunindextype, &
+      sunlinearsolver, sunmatrix
    use sundials_library, only: dense_block, increments, library_t, note, problem_t
    implicit none (type, external)
    private
@@ -119,18 +118,17 @@ contains
       class(ida_library_t), intent(inout) :: self   !! the library
       integer, intent(out) :: status                !! 0: done
 
-      integer(c_long) :: n
+      integer(sunindextype) :: n
 
-      n = int(self%problem%system%n + 2*rows_of(self%problem%system), c_long)
+      n = int(self%problem%system%n + 2*rows_of(self%problem%system), sunindextype)
       self%state => fn_vnew_serial(n, self%context)
       self%rate => fn_vnew_serial(n, self%context)
       self%look => fn_vnew_serial(n, self%context)
-      self%memory = fidacreate(self%context)
+      self%memory = new_ida(self%context)
       status = merge(0, -1, associated(self%state) .and. associated(self%rate) .and. associated(self%look) &
                      .and. c_associated(self%memory))
       if (status /= 0) return
       call set_start(self)
-      call note(fidaseterrfile(self%memory, c_null_ptr), status)
       call note(fidainit(self%memory, c_funloc(residual), self%problem%method%t, self%state, self%rate), status)
       call note(fidasetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fidawftolerances(self%memory, c_funloc(weigh)), status)

@@ -436,7 +436,7 @@ contains
       type(item_t), intent(in) :: item           !! the section
       type(controls_t), intent(out) :: controls  !! the controls
 
-      integer :: k
+      integer :: k, place
 
       controls%tolerance = number("tolerance")
       controls%fixed_step = number("step")
@@ -453,7 +453,8 @@ contains
       case ("euclidean"); controls%norm = norm_euclidean
       case default; controls%norm = norm_scaled
       end select
-      associate (value => item%values(column("contact_onset")))
+      place = column("contact_onset")
+      associate (value => item%values(place))
          select case (value%text)
          case ("interpolate"); controls%onset = onset_interpolate
          case ("reject"); controls%onset = onset_reject

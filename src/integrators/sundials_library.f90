@@ -9,12 +9,11 @@
 !> multipliers of a constrained system, weigh next to nothing.
 module sundials_library
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
-   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
-   use fsundials_matrix_mod, only: sunmatrix
    use fsunmatrix_dense_mod, only: fsundensematrix_data
    use integrator, only: advance_failed_evaluation, advance_too_many_evaluations, advance_too_small, integrator_t
    use kinds, only: eps, wp
    use ode_system, only: ode_system_t
+   use sundials, only: fsuncontext_free, new_context, sunmatrix
    implicit none (type, external)
    private
    public :: dense_block, increments, library_t, note, problem_t
@@ -191,7 +190,7 @@ contains
 
       allocate (self%problem)
       allocate (self%problem%held(n), source=0.0_wp)
-      status = fsuncontext_create(c_null_ptr, self%context)
+      status = new_context(self%context)
    end subroutine library_open
 
    !> Free both; the objects of the context must be gone.

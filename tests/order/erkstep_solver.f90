@@ -4,15 +4,14 @@
 !> first. DVERK's eighth stage is at 1 without being that, so a ninth is added: c = 1, its row the
 !> weights of order 6, its own weight nought. Nine stages then are Verner's method, not one order less.
 module erkstep_solver
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
-   use farkode_erkstep_mod, only: ferkstepcreate, ferkstepevolve, ferkstepfree, ferkstepgetnumsteps, ferkstepsetfixedstep, &
-      ferkstepsetmaxnumsteps, ferkstepsetstoptime, ferkstepsettable, ferkstepsetuserdata, ferkstepsstolerances
-   use farkode_mod, only: ark_normal, ark_tstop_return, farkodebutchertable_create, farkodebutchertable_free
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_ptr
+   use arkode, only: ark_normal, ark_tstop_return, farkodebutchertable_create, farkodebutchertable_free, farkodeevolve, &
+      farkodefree, farkodesetfixedstep, farkodesetmaxnumsteps, farkodesetstoptime, farkodesetuserdata, farkodesstolerances, &
+      ferkstepcreate, ferkstepsettable
    use fnvector_serial_mod, only: fn_vmake_serial
-   use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
-   use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
    use kinds, only: wp
    use ode_system, only: ode_system_t
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, n_vector, new_context, sunindextype
    implicit none (type, external)
    private
    public :: solve_by_erkstep
@@ -87,25 +86,24 @@ contains
       real(c_double), pointer :: state(:)
 
       problem%system => system
-      context = c_null_ptr
-      status = int(fsuncontext_create(c_null_ptr, context))
-      vector => fn_vmake_serial(size(y, kind=c_long), y, context)
+      status = new_context(context)
+      vector => fn_vmake_serial(size(y, kind=sunindextype), y, context)
       memory = ferkstepcreate(c_funloc(right_hand_side), t, vector, context)
       if (.not. c_associated(memory)) status = -1
       table = corrected_table()
       if (status == 0) status = int(ferkstepsettable(memory, table))
-      if (status == 0) status = int(ferkstepsetuserdata(memory, c_loc(problem)))
-      if (status == 0) status = int(ferkstepsetmaxnumsteps(memory, 1000000_c_long))
-      if (status == 0 .and. present(tolerance)) status = int(ferkstepsstolerances(memory, tolerance, tolerance))
-      if (status == 0 .and. present(n_step)) status = int(ferkstepsetfixedstep(memory, (t_end - t)/real(n_step, wp)))
-      if (status == 0) status = int(ferkstepsetstoptime(memory, t_end))
-      if (status == 0) status = int(ferkstepevolve(memory, t_end, vector, reached, ark_normal))
+      if (status == 0) status = int(farkodesetuserdata(memory, c_loc(problem)))
+      if (status == 0) status = int(farkodesetmaxnumsteps(memory, 1000000_c_long))
+      if (status == 0 .and. present(tolerance)) status = int(farkodesstolerances(memory, tolerance, tolerance))
+      if (status == 0 .and. present(n_step)) status = int(farkodesetfixedstep(memory, (t_end - t)/real(n_step, wp)))
+      if (status == 0) status = int(farkodesetstoptime(memory, t_end))
+      if (status == 0) status = int(farkodeevolve(memory, t_end, vector, reached, ark_normal))
       if (status == ark_tstop_return) status = 0
       if (abs(reached(1) - t_end) > 0.0_wp) status = -2
       state => fn_vgetarraypointer(vector)
       y = state
       call farkodebutchertable_free(table)
-      call ferkstepfree(memory)
+      call farkodefree(memory)
       call fn_vdestroy(vector)
       status = merge(status, int(fsuncontext_free(context)), status /= 0)
    end subroutine solve_by_erkstep
