@@ -15,6 +15,10 @@ ifeq ($(origin CC),default)
 CC := gcc
 endif
 PYTHON ?= /usr/bin/python3
+PREFIX ?= /usr/local
+DESTDIR ?=
+SUITE ?= trixie
+DIR ?=
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 SUNDIALS_DIR ?=
 HDF5_DIR ?=
@@ -38,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all debug run test check bench stability figures studies lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench stability figures studies lint format docs clean help
 .PHONY: objects binary test_program bench_programs
 
 all:
@@ -58,6 +62,16 @@ test:
 	$(inner)debug binary test_program
 	@GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
 	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(PYTEST) tests
+
+test-debian:
+	@scripts/test_debian $(SUITE) $(or $(DIR),$(BUILD)/debian/$(SUITE))
+
+install:
+	$(inner)release binary
+	@scripts/install $(abspath $(BUILD))/gudgeon $(PREFIX) $(DESTDIR)
+
+uninstall:
+	@scripts/install --remove $(abspath $(BUILD))/gudgeon $(PREFIX) $(DESTDIR)
 
 check:
 	$(inner)debug test_program
@@ -103,10 +117,13 @@ help:
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
+	@echo "make install    program, man page, completions, decks below PREFIX=/usr/local; make uninstall takes them away again"
+	@echo "make test-debian  as root: 'make run && make test' in a bare Debian SUITE=trixie|bookworm in DIR=build/debian/SUITE"
 	@echo "make -j objects compile all sources without linking (-k: go on after errors)"
 	@echo
 	@echo "Variables: MODE=release|debug  ARCH=x86-64-v3 (ARCH= for the compiler's default)  BUILD=build  JOBS=$(JOBS)"
 	@echo "           SUNDIALS_DIR= HDF5_DIR= SUITESPARSE_DIR= FFTW_DIR= (prefixes)  LAPACK='-L... -l...'  FC=gfortran  PYTHON=/usr/bin/python3"
+	@echo "           PREFIX=/usr/local DESTDIR= (before every path installed)"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
 
 # ---- building one mode ------------------------------------------------------------------------------

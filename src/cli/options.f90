@@ -1,20 +1,17 @@
 !> The command line: a verb, its operands and its options.
 module options
+   use command_words, only: options_of, verb_names, words_of_value
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: wp
    use numbers, only: number_length, read_number
    use text, only: append_text, join, nearest_word, split_blank, starts_with, text_t
    implicit none (type, external)
    private
-   public :: options_t, read_options, verbs
-
-   character(*), parameter :: verbs = "run check explain sweep new list help"  !! what the program can do
-
-   character(*), parameter :: write_words = "numbers channels all"               !! what `--write` takes
+   public :: options_t, read_options
 
    !> What the user asked for.
    type :: options_t
-      character(:), allocatable :: verb              !! one of `verbs`, or version
+      character(:), allocatable :: verb              !! one of `known_verbs`
       type(text_t), allocatable :: operands(:)       !! (n) words that are no options
       type(text_t), allocatable :: overrides(:)      !! (n) `--set NAME=VALUE`
       character(:), allocatable :: directory         !! `--out DIR`; unallocated: outputs/NAME
@@ -29,28 +26,11 @@ module options
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
       logical :: is_manual = .false.                 !! `--manual`
+      logical :: is_man = .false.                    !! `--man`
+      character(:), allocatable :: completion        !! `--completion SHELL`; unallocated: not asked for
    end type options_t
 
 contains
-
-   !> Options that a verb takes.
-   pure function options_of(verb) result(words)
-      character(*), intent(in) :: verb       !! the verb
-      character(:), allocatable :: words     !! blank-separated
-
-      select case (verb)
-      case ("run")
-         words = "--out --set --ideal --analysis --tolerance --method --quiet --json --member --write"
-      case ("sweep")
-         words = "--out --set --ideal --tolerance --method --quiet --json --jobs"
-      case ("check", "explain")
-         words = "--set --ideal --analysis --tolerance --method"
-      case ("help")
-         words = "--manual"
-      case default
-         words = ""
-      end select
-   end function options_of
 
    !> Read the command line.
    subroutine read_options(options, error)
@@ -70,14 +50,13 @@ contains
       if (command_argument_count() == 0) return
       options%verb = argument(1)
       select case (options%verb)
-      case ("--version", "-V", "version")
+      case ("--version", "-V")
          options%verb = "version"
-         return
       case ("--help", "-h")
          options%verb = "help"
       end select
-      if (.not. any_word(options%verb, verbs)) then
-         call usage_error("unknown verb '"//options%verb//"'", options%verb, verbs, error)
+      if (.not. any_word(options%verb, verb_names())) then
+         call usage_error("unknown verb '"//options%verb//"'", options%verb, verb_names(), error)
          return
       end if
       known = options_of(options%verb)
@@ -113,6 +92,7 @@ contains
       case ("--quiet"); options%is_quiet = .true.
       case ("--json"); options%is_json = .true.
       case ("--manual"); options%is_manual = .true.
+      case ("--man"); options%is_man = .true.
       case default
          k = k + 1
          if (k > command_argument_count()) then
@@ -124,8 +104,10 @@ contains
          case ("--out"); options%directory = value
          case ("--write")
             options%write = value
-            if (any_word(value, write_words)) return
-            call usage_error("unknown word '"//value//"' of "//word, value, write_words, error)
+            call check_word(word, value, error)
+         case ("--completion")
+            options%completion = value
+            call check_word(word, value, error)
          case ("--member"); call take_count(word, value, options%member, error)
          case ("--jobs"); call take_count(word, value, options%jobs, error)
          case ("--method"); options%method = value
@@ -140,6 +122,16 @@ contains
          end select
       end select
    end subroutine take_option
+
+   !> A value that is one of a few words.
+   subroutine check_word(word, value, error)
+      character(*), intent(in) :: word                     !! the option
+      character(*), intent(in) :: value                    !! its value
+      type(error_t), allocatable, intent(out) :: error     !! not one of the words
+
+      if (any_word(value, words_of_value(word))) return
+      call usage_error("unknown word '"//value//"' of "//word, value, words_of_value(word), error)
+   end subroutine check_word
 
    !> A number of things, from 1 on.
    subroutine take_count(word, value, n, error)

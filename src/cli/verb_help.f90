@@ -1,7 +1,9 @@
 !> `gudgeon help`, `gudgeon list`, `gudgeon --version`: everything read from what the kinds say of themselves.
 module verb_help
-   use console, only: say
    use build_info, only: compile_flags, compiler, git_sha1
+   use command_words, only: exit_codes, exit_meanings, known_options, known_verbs, takers_of, words_of_value
+   use completions, only: write_completion
+   use console, only: say
    use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
    use integrator, only: integrator_t
@@ -10,6 +12,7 @@ module verb_help
       cell_vector, cell_words, column_t, kind_info_t, no_bound
    use kind_list, only: all_kinds
    use libraries, only: library_versions
+   use man_page, only: write_man_page
    use options, only: options_t
    use planar_report, only: energy_info
    use text, only: append_text, join, nearest_word, text_t, to_text
@@ -78,6 +81,14 @@ contains
          call write_manual(kinds)
          return
       end if
+      if (options%is_man) then
+         call write_man_page(kinds)
+         return
+      end if
+      if (allocated(options%completion)) then
+         call write_completion(options%completion, kinds)
+         return
+      end if
       if (.not. allocated(options%operands)) then
          call write_usage()
          return
@@ -111,28 +122,40 @@ contains
 
    !> What the program can do.
    subroutine write_usage()
+      character(:), allocatable :: codes, left, right
+      integer :: k
+
       call say("gudgeon simulates mechanisms whose joints are not perfect.")
       call say("")
-      call say("  gudgeon run DECK [--out DIR] [--set NAME=VALUE]... [--ideal] [--analysis A]")
-      call say("          [--tolerance X] [--method M] [--quiet] [--json]")
-      call say("                              run the analysis; writes outputs/NAME/")
-      call say("  gudgeon sweep DECK [--out DIR] [--set NAME=VALUE]... [--jobs N]")
-      call say("                              run all cases of [sweep] and all runs of [ensemble], on all processors")
-      call say("  gudgeon check DECK          find every mistake without integrating")
-      call say("  gudgeon explain DECK        what is modelled, what was dropped, every default taken")
-      call say("  gudgeon new NAME            write a commented deck NAME.deck to start from")
-      call say("  gudgeon list                all tables and settings a deck may hold")
-      call say("  gudgeon help [KIND]         this page, or a kind: gudgeon help joint revolute")
-      call say("  gudgeon help --manual       the whole manual")
-      call say("  gudgeon --version           versions of the program and its libraries")
+      do k = 1, size(known_verbs)
+         associate (verb => known_verbs(k))
+            left = "gudgeon "//trim(verb%name)//" "//trim(verb%operand)
+            if (verb%options /= "") left = trim(left)//" [OPTION]..."
+            call say(trim(left), 2, trim(verb%help), 38)
+         end associate
+      end do
       call say("")
-      call say("--set changes a parameter of the deck, --ideal takes every loose joint as ideal, --analysis takes")
-      call say("another of the deck's analyses than the first of dynamic, kinematic and static, --tolerance and --method")
-      call say("override the deck, --json prints summary.json and nothing else, --quiet prints errors only, --member K")
-      call say("runs number K of the deck's ensemble, --write numbers|channels leaves out what takes long to write.")
+      call say("Options, and the verbs that take them:")
+      do k = 1, size(known_options)
+         associate (option => known_options(k))
+            right = trim(option%help)
+            if (option%is_repeated) right = right//"; may be repeated"
+            left = words_of_value(trim(option%name))
+            if (left /= "") right = right//": "//left
+            call say(trim(trim(option%name)//" "//option%value), 2, right//" ("//takers_of(trim(option%name))//")", 25)
+         end associate
+      end do
       call say("")
-      call say("Exit codes: 0 done, 2 usage, 3 deck, 4 assembly, 5 integration, 6 audit failed, 8 part of a sweep failed,")
-      call say("9 file or disk, 70 internal.")
+      codes = "Exit codes:"
+      do k = 1, size(exit_codes)
+         right = " "//to_text(exit_codes(k))//" "//trim(exit_meanings(k))//merge(".", ",", k == size(exit_codes))
+         if (len(codes) + len(right) > 112) then
+            call say(codes)
+            codes = repeat(" ", 11)
+         end if
+         codes = codes//right
+      end do
+      call say(codes)
    end subroutine write_usage
 
    !> The manual, as a page of Markdown.

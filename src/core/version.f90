@@ -2,8 +2,9 @@
 module version
    implicit none (type, external)
    private
-   public :: program_version
+   public :: program_date, program_version
 
-   character(*), parameter :: program_version = "0.1.0"  !! of gudgeon
+   character(*), parameter :: program_version = "0.1.0"     !! of gudgeon
+   character(*), parameter :: program_date = "2026-11-22"   !! of this version
 
 end module version

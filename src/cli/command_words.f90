@@ -1,0 +1,160 @@
+!> The verbs, options and exit codes of the program, each said once: the command line's reader, `gudgeon help`, the man page
+!> and the completions of shells take them from here.
+module command_words
+   use errors, only: exit_assembly, exit_audit, exit_deck, exit_file, exit_integration, exit_internal, exit_ok, exit_sweep, &
+      exit_usage
+   use integrator, only: integrator_t
+   use integrator_registry, only: n_integrator_kinds, new_integrator
+   use kind_info, only: kind_info_t
+   use scene, only: analysis_names
+   implicit none (type, external)
+   private
+   public :: command_t, exit_codes, exit_meanings, find_option, known_options, known_verbs, option_t, options_of, takers_of, &
+      verb_names, words_of_value
+
+   !> What follows a verb.
+   type :: command_t
+      character(7) :: name = ""      !! the verb
+      character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
+      character(76) :: help = ""     !! one line
+      character(92) :: options = ""  !! the options that it takes, blank-separated
+   end type command_t
+
+   !> An option.
+   type :: option_t
+      character(12) :: name = ""      !! with its dashes
+      character(10) :: value = ""     !! name of its value; blank: it has none
+      character(100) :: help = ""     !! one line
+      logical :: is_repeated = .false.   !! may stand more than once
+   end type option_t
+
+   type(command_t), parameter :: known_verbs(*) = [ &
+      command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
+                "--out --set --ideal --analysis --tolerance --method --quiet --json --member --write"), &
+      command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
+                "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
+      command_t("check", "DECK", "find every mistake without integrating", "--set --ideal --analysis --tolerance --method"), &
+      command_t("explain", "DECK", "what is modelled, what was dropped, every default taken", &
+                "--set --ideal --analysis --tolerance --method"), &
+      command_t("new", "NAME", "write a commented deck NAME.deck to start from", ""), &
+      command_t("list", "", "all tables and settings a deck may hold", ""), &
+      command_t("help", "[KIND]", "this page, or a kind: gudgeon help joint revolute", "--manual --man --completion"), &
+      command_t("version", "", "versions of the program and its libraries; also --version", "")]
+      !! in the order of the help
+
+   type(option_t), parameter :: known_options(*) = [ &
+      option_t("--out", "DIR", "directory of the results; default outputs/NAME, as the deck is called"), &
+      option_t("--set", "NAME=VALUE", "change a parameter of the deck", .true.), &
+      option_t("--ideal", "", "take every loose joint as ideal"), &
+      option_t("--analysis", "A", "the analysis to run; left out: the first of these that the deck has"), &
+      option_t("--tolerance", "X", "error allowed, instead of the deck's"), &
+      option_t("--method", "M", "method of integration, instead of the deck's"), &
+      option_t("--quiet", "", "print errors only"), &
+      option_t("--json", "", "print summary.json and nothing else"), &
+      option_t("--member", "K", "run number K of the deck's ensemble"), &
+      option_t("--write", "W", "leave out what takes long to write"), &
+      option_t("--jobs", "N", "runs at once; default one for each processor"), &
+      option_t("--manual", "", "the whole manual, as Markdown"), &
+      option_t("--man", "", "the man page"), &
+      option_t("--completion", "SHELL", "what completes the words of this program in a shell")]
+      !! in the order of the help
+
+   integer, parameter :: exit_codes(*) = [exit_ok, exit_usage, exit_deck, exit_assembly, exit_integration, exit_audit, &
+                                          exit_sweep, exit_file, exit_internal]  !! that a run may end with
+   character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
+      "done", "a wrong command line", "a mistake in the deck", "the mechanism cannot be assembled", "the integration failed", &
+      "energy or constraints above the deck's limit", "part of a sweep failed", "a file or the disk", &
+      "a mistake of the program itself"]
+      !! what they mean
+
+contains
+
+   !> The verbs, blank-separated.
+   pure function verb_names() result(words)
+      character(:), allocatable :: words  !! in the order of the help
+
+      integer :: k
+
+      words = trim(known_verbs(1)%name)
+      do k = 2, size(known_verbs)
+         words = words//" "//trim(known_verbs(k)%name)
+      end do
+   end function verb_names
+
+   !> Options that a verb takes, blank-separated.
+   pure function options_of(verb) result(words)
+      character(*), intent(in) :: verb       !! the verb
+      character(:), allocatable :: words     !! blank if it takes none
+
+      integer :: k
+
+      words = ""
+      do k = 1, size(known_verbs)
+         if (known_verbs(k)%name == verb) words = trim(known_verbs(k)%options)
+      end do
+   end function options_of
+
+   !> The verbs that take an option, blank-separated.
+   pure function takers_of(option) result(words)
+      character(*), intent(in) :: option     !! with its dashes
+      character(:), allocatable :: words     !! in the order of the help
+
+      integer :: k
+
+      words = ""
+      do k = 1, size(known_verbs)
+         if (index(" "//known_verbs(k)%options, " "//option//" ") == 0) cycle
+         words = words//" "//trim(known_verbs(k)%name)
+      end do
+      words = trim(adjustl(words))
+   end function takers_of
+
+   !> An option by its name; one without a name if there is none.
+   pure type(option_t) function find_option(name) result(option)
+      character(*), intent(in) :: name  !! with its dashes
+
+      integer :: k
+
+      do k = 1, size(known_options)
+         if (known_options(k)%name == name) option = known_options(k)
+      end do
+   end function find_option
+
+   !> The words that an option takes as its value, blank-separated; blank where it takes anything.
+   function words_of_value(name) result(words)
+      character(*), intent(in) :: name       !! the option
+      character(:), allocatable :: words     !! as the kinds call themselves
+
+      class(integrator_t), allocatable :: method
+      type(kind_info_t) :: info
+      integer :: k
+
+      words = ""
+      select case (name)
+      case ("--analysis"); words = concatenated(analysis_names)
+      case ("--method")
+         do k = 1, n_integrator_kinds
+            call new_integrator(k, method)
+            info = method%info()
+            words = words//" "//info%name
+         end do
+      case ("--write"); words = "numbers channels all"
+      case ("--completion"); words = "bash zsh"
+      end select
+      words = trim(adjustl(words))
+   end function words_of_value
+
+   !> Words of equal length, blank-separated.
+   pure function concatenated(list) result(words)
+      character(*), intent(in) :: list(:)    !! the words
+      character(:), allocatable :: words     !! all of them
+
+      integer :: k
+
+      words = ""
+      do k = 1, size(list)
+         words = words//" "//trim(list(k))
+      end do
+   end function concatenated
+
+end module command_words
