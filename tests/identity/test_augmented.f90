@@ -5,6 +5,7 @@ module test_augmented
    use augmented_schur, only: augmented_schur_t
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: load_file, loaded_t
+   use columns, only: column_of
    use errors, only: error_t
    use fixed_random, only: random_t
    use hold, only: hold_t
@@ -14,7 +15,7 @@ module test_augmented
    use kinds, only: i8, wp
    use planar_system, only: planar_system_t
    use scene_fixture, only: nl, slider_crank, start_text
-   use section_info, only: column_of, dynamic_info, word_options
+   use section_info, only: dynamic_info, word_options
    use solver_registry, only: n_solver_kinds, new_solver
    use text, only: replace, to_text
    implicit none (type, external)
