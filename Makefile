@@ -148,7 +148,7 @@ SUNDIALS_MODULES := $(patsubst %/fcvode_mod.mod,%,$(firstword $(wildcard $(patsu
                     include/sundials/fortran fortran include))))
 SUNDIALS_VERSION := $(if $(wildcard $(SUNDIALS_MODULES)/fsundials_core_mod.mod),7,$(if \
                     $(wildcard $(SUNDIALS_MODULES)/fsundials_context_mod.mod),6))
-SUNDIALS_INDEX := $(if $(shell grep -E '^\#define SUNDIALS_INT64_T' $(SUNDIALS_PREFIX)/include/sundials/sundials_config.h 2>/dev/null),64,32)
+SUNDIALS_INDEX := $(if $(shell grep '^.define SUNDIALS_INT64_T' $(SUNDIALS_PREFIX)/include/sundials/sundials_config.h 2>/dev/null),64,32)
 ifeq ($(SUNDIALS_VERSION),)
 $(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/setup installs what is needed, SUNDIALS_DIR= names a prefix)
 endif
