@@ -1,12 +1,13 @@
 !> gudgeon: mechanisms whose joints are not perfect. Reads the command line, prints errors, sets the exit code.
 program gudgeon
    use, intrinsic :: ieee_arithmetic, only: ieee_set_underflow_mode, ieee_support_underflow_control
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use blas_threads, only: use_one_blas_thread
    use console, only: write_said
    use errors, only: error_t, exit_ok
    use kinds, only: wp
    use options, only: options_t, read_options
+   use posix, only: write_error
+   use processes, only: begin_process, end_process
    use text, only: printable, starts_with
    use verb_explain, only: check_deck, explain_deck
    use verb_help, only: list_kinds, show_help, show_version
@@ -18,20 +19,12 @@ program gudgeon
    type(error_t), allocatable :: console_error, error
    type(options_t) :: options
 
-   interface
-      !> The C library's exit, for an exit code without a word from the run-time system.
-      subroutine c_exit(code) bind(c, name="exit")
-         use, intrinsic :: iso_c_binding, only: c_int
-         implicit none (type, external)
-         integer(c_int), value :: code  !! exit code
-      end subroutine c_exit
-   end interface
-
-   call use_one_blas_thread()
+   call begin_process()
+   call use_one_blas_thread(error)
    ! Forces fade along a chain by a factor per body until they are below the least normal number, where some processors take a
    ! hundred times as long: there they are zero.
    if (ieee_support_underflow_control(1.0_wp)) call ieee_set_underflow_mode(gradual=.false.)
-   call read_options(options, error)
+   if (.not. allocated(error)) call read_options(options, error)
    if (.not. allocated(error)) then
       select case (options%verb)
       case ("run")
@@ -55,11 +48,10 @@ program gudgeon
    call write_said(console_error)
    if (allocated(console_error) .and. .not. allocated(error)) call move_alloc(console_error, error)
    if (allocated(error)) then
-      if (.not. starts_with(error%message, "error: ")) write (error_unit, "(a)", advance="no") "error: "
-      write (error_unit, "(a)") printable(error%message)
-      flush (error_unit)
-      call c_exit(error%code)
+      if (.not. starts_with(error%message, "error: ")) error%message = "error: "//error%message
+      call write_error(printable(error%message)//new_line("a"))
+      call end_process(error%code)
    end if
-   call c_exit(exit_ok)
+   call end_process(exit_ok)
 
 end program gudgeon

@@ -63,7 +63,7 @@ module command_words
                                           exit_sweep, exit_file, exit_internal]  !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "a wrong command line", "a mistake in the deck", "the mechanism cannot be assembled", "the integration failed", &
-      "energy or constraints above the deck's limit", "part of a sweep failed", "a file or the disk", &
+      "energy or constraints above the deck's limit", "part of a sweep failed", "a file, the disk or memory", &
       "a mistake of the program itself"]
       !! what they mean
 

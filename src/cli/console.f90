@@ -2,7 +2,7 @@
 !> full disk is noticed (gfortran's own output unit reports no error).
 module console
    use errors, only: error_t
-   use posix, only: write_output
+   use posix, only: is_pipe_gone, write_output
    use text, only: buffer_t
    use text_file, only: fail_file
    implicit none (type, external)
@@ -28,7 +28,7 @@ contains
       call said%line(whole)
    end subroutine say
 
-   !> Write everything said.
+   !> Write everything said; a reader that has seen enough and went away is no error.
    subroutine write_said(error)
       type(error_t), allocatable, intent(out) :: error   !! the standard output cannot be written
 
@@ -36,7 +36,7 @@ contains
 
       code = 0
       if (said%length() > 0) code = write_output(said%get())
-      if (code /= 0) call fail_file(error, "cannot write to", "the standard output", code, "")
+      if (code /= 0 .and. .not. is_pipe_gone(code)) call fail_file(error, "cannot write to", "the standard output", code, "")
    end subroutine write_said
 
 end module console

@@ -34,6 +34,7 @@ module load
       type(planar_system_t) :: system             !! its equations
       type(time_plan_t) :: plan                   !! its times
       type(sweep_t) :: sweep                      !! its cases
+      logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
    end type loaded_t
 
 contains
@@ -55,6 +56,7 @@ contains
       end if
       loaded%path = options%operands(1)%s
       call read_deck(loaded%path, options%overrides, loaded%deck, mistakes)
+      loaded%is_stream = loaded%deck%sources(1)%is_stream
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
       if (mistakes%count() == 0) call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)

@@ -115,9 +115,11 @@ contains
    subroutine write_surroundings()
       call say(".SH ENVIRONMENT")
       call entry("PATH", "where gnuplot is looked for, which draws the figures. Without it only their scripts are written.")
+      call entry("GUDGEON_GNUPLOT_SECONDS", "how long a figure may take. Default: 300. After that gnuplot is ended.")
       call say(".SH FILES")
       call entry("outputs/NAME/", "results of NAME.deck, below the working directory: run.h5, time histories (.dat), "// &
-                 "events.dat, figures/, summary.txt, summary.json, and deck.echo, the deck as understood.")
+                 "events.dat, figures/, summary.txt, summary.json, deck.echo, the deck as understood, and "// &
+                 ".gudgeon, by which the directory is known as the program's own.")
       call entry("share/gudgeon/decks/", "decks to learn from, below the prefix that the program is installed in.")
    end subroutine write_surroundings
 

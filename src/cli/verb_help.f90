@@ -156,6 +156,7 @@ contains
          codes = codes//right
       end do
       call say(codes)
+      call say("Environment: GUDGEON_GNUPLOT_SECONDS is the time that a figure may take; default 300 s.")
    end subroutine write_usage
 
    !> The manual, as a page of Markdown.

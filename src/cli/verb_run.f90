@@ -32,7 +32,7 @@ module verb_run
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
-   use text, only: append_text, real_text, text_t, to_text
+   use text, only: append_text, real_text, starts_with, text_t, to_text
    use version, only: program_version
    implicit none (type, external)
    private
@@ -85,9 +85,9 @@ contains
          call find_start(loaded%scene, loaded%system, y, assembly, error)
       end if
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded%path), error)
+      call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
-      call make_plan(options, loaded, directory%path, assembly, plan)
+      call make_plan(options, loaded, directory, assembly, plan)
       if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%n_loose > 0) then
          call run_twin(loaded, plan, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
@@ -136,9 +136,9 @@ contains
       end associate
       call find_kinematic_start(loaded%scene, loaded%system, q, assembly, mobility, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded%path), error)
+      call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
-      call make_plan(options, loaded, directory%path, assembly, keeper%plan)
+      call make_plan(options, loaded, directory, assembly, keeper%plan)
       call run_kinematic(loaded%system, q, loaded%plan, newton, keeper, summary, error)
       call directory%close()
    end subroutine run_prescribed
@@ -159,9 +159,9 @@ contains
       call deck_positions(loaded%scene, q, v)
       call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded%path), error)
+      call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
-      call make_plan(options, loaded, directory%path, assembly, keeper%plan)
+      call make_plan(options, loaded, directory, assembly, keeper%plan)
       if (size(keeper%plan%figures) > 0) then
          call append_text(keeper%plan%warnings, "figures left out: an equilibrium is one instant")
          keeper%plan%with_figures = .false.
@@ -222,12 +222,12 @@ contains
    subroutine make_plan(options, loaded, directory, assembly, plan)
       type(options_t), intent(in) :: options       !! the command line
       type(loaded_t), intent(in) :: loaded         !! the deck
-      character(*), intent(in) :: directory        !! of the run
+      type(output_directory_t), intent(in) :: directory  !! of the run
       type(assembly_t), intent(in) :: assembly     !! how the start was found
       type(output_plan_t), intent(out) :: plan     !! the plan
 
-      allocate (plan%warnings(0))
-      plan%directory = directory
+      plan%warnings = directory%warnings
+      plan%directory = directory%path
       plan%deck_name = loaded%path
       plan%deck_text = deck_text(loaded%deck)
       plan%deck_echo = echo_scene(loaded%deck, loaded%scene)
@@ -334,21 +334,21 @@ contains
    end function first_line
 
    !> Directory of the run: outputs/NAME of inputs/NAME.deck, unless `--out` names another.
-   function directory_of(options, path) result(directory)
+   function directory_of(options, loaded) result(directory)
       type(options_t), intent(in) :: options       !! the command line
-      character(*), intent(in) :: path             !! of the deck
+      type(loaded_t), intent(in) :: loaded         !! the deck
       character(:), allocatable :: directory       !! of the run
 
       integer :: dot, slash
 
-      if (allocated(options%directory)) then
-         directory = options%directory
-         return
-      end if
-      slash = index(path, "/", back=.true.)
-      dot = index(path, ".", back=.true.)
-      if (dot <= slash + 1) dot = len(path) + 1
-      directory = "outputs/"//path(slash + 1:dot - 1)
+      associate (path => loaded%path)
+         slash = index(path, "/", back=.true.)
+         dot = index(path, ".", back=.true.)
+         if (dot <= slash + 1) dot = len(path) + 1
+         directory = "outputs/"//path(slash + 1:dot - 1)
+         if (loaded%is_stream .and. (starts_with(path, "/dev/") .or. starts_with(path, "/proc/"))) directory = "outputs/stdin"
+      end associate
+      if (allocated(options%directory)) directory = options%directory
    end function directory_of
 
 end module verb_run

@@ -19,11 +19,13 @@ module verb_sweep
    use load, only: check_swept_words, load_deck, loaded_t
    use options, only: options_t
    use output_directory, only: output_directory_t
+   use output_marker, only: enter_file
    use output_plan, only: output_plan_t
+   use output_tree, only: remove_run
    use planar_report, only: build_catalogue
    use plot_table, only: plot_table_t, write_plot
-   use posix, only: make_directory, n_processors, own_path, path_exists, remove_file, remove_tree, start_program, &
-      system_message, wait_any
+   use posix, only: make_directory, n_processors, own_path, path_exists, remove_file, remove_within
+   use processes, only: start_program, wait_any
    use progress, only: progress_t
    use recorder, only: status_complete, status_failed, status_running
    use scene, only: analysis_dynamic
@@ -69,13 +71,14 @@ contains
       if (.not. allocated(error)) call check_request(options, loaded, error)
       if (.not. allocated(error)) call check_swept_words(options, loaded, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded%path), error)
+      call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
+      warnings = directory%warnings
       call new_work(options, loaded, directory%path, work, error)
       if (.not. allocated(error)) call run_all(options, loaded, work, error)
       if (.not. allocated(error)) call finish(options, loaded, work, pictures, warnings, error)
-      call directory%close()
       if (.not. allocated(error)) call report(options, loaded, work, pictures, warnings, error)
+      call directory%close()
    end subroutine sweep_deck
 
    !> A sweep needs something to sweep, and its parameters must be free.
@@ -89,6 +92,9 @@ contains
       if (.not. loaded%sweep%is_present .and. .not. loaded%scene%has_ensemble) then
          call set_error(error, exit_usage, "the deck has neither a section [sweep] nor [ensemble]"//new_line("a")// &
                         "  = 'gudgeon help sweep' tells how to write one; 'gudgeon run' runs the deck as it is")
+      else if (loaded%is_stream) then
+         call set_error(error, exit_usage, "a sweep reads its deck once for every run, so it cannot come through a pipe; "// &
+                        "save it to a file")
       else if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "a sweep runs the section [analysis.dynamic], which the deck does not begin with")
       end if
@@ -162,7 +168,8 @@ contains
       end associate
       call write_file(path//"/deck.echo", echo_scene(loaded%deck, loaded%scene), error)
       if (allocated(error)) return
-      code = make_directory(path//runs_folder)
+      code = enter_file(path//runs_folder//"/")
+      if (code == 0) code = make_directory(path//runs_folder)
       if (code /= 0) call fail_file(error, "cannot make the directory", path//runs_folder, code, "")
    end subroutine new_work
 
@@ -244,7 +251,11 @@ contains
       if (allocated(case%method)) call add("--method", case%method)
       if (case%tolerance > 0.0_wp) call add("--tolerance", to_exact(case%tolerance))
       if (work%results%is_ensemble) call add("--member", to_text(mod(number - 1, work%results%n_member) + 1))
-      code = start_program(".", work%program, arguments, work%directories(number)%s//".log", work%processes(number))
+      associate (directory => work%directories(number)%s)
+         code = enter_file(directory//".log")
+         if (code == 0) code = enter_file(directory//"/")
+         if (code == 0) code = start_program(".", work%program, arguments, directory//".log", .false., work%processes(number))
+      end associate
       if (code /= 0) call fail_file(error, "cannot start", work%program, code, "")
 
    contains
@@ -291,7 +302,7 @@ contains
          return
       end if
       ignored = remove_file(log)
-      if (.not. keeps_channels) ignored = remove_tree(work%directories(number)%s)
+      if (.not. keeps_channels) call remove_run(work%directories(number)%s, ignored)
    end subroutine end_run
 
    !> Why a run failed: its error message, without the picture of the place.
@@ -336,21 +347,26 @@ contains
       type(loaded_t), intent(in) :: loaded                       !! the deck
       type(work_t), intent(in) :: work                           !! the sweep
       type(text_t), allocatable, intent(out) :: pictures(:)      !! (n) pictures made, paths within the directory
-      type(text_t), allocatable, intent(out) :: warnings(:)      !! (m) what was not made
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) what was noticed before, and what was not made
       type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
 
       type(text_t), allocatable :: directories(:)
       integer :: ignored, k
 
-      allocate (pictures(0), warnings(0), directories(0))
+      allocate (pictures(0), directories(0))
       if (loaded%sweep%keeps_channels) directories = work%directories
       call write_results(work, trim(merge(status_failed//"  ", status_complete, work%n_failed > 0)), failure_text(work), &
                          directories, error)
       if (allocated(error)) return
       do k = 1, size(directories)
-         if (work%results%runs(k)%exit_code == 0) ignored = remove_tree(directories(k)%s)
+         if (work%results%runs(k)%exit_code == 0) call remove_run(directories(k)%s, ignored)
       end do
-      if (work%n_failed == 0) ignored = remove_tree(work%plan%directory//runs_folder)
+      if (work%n_failed == 0) then
+         ignored = remove_within(work%plan%directory, runs_folder(2:)//"/")
+         if (path_exists(work%plan%directory//runs_folder)) then
+            call append_text(warnings, work%plan%directory//runs_folder//" holds files that gudgeon did not make, so it stays")
+         end if
+      end if
       call make_sweep_figures(loaded, work, pictures, warnings, error)
    end subroutine finish
 
@@ -378,7 +394,8 @@ contains
             call new_figure(words(k)%s, catalogue, figure, message, hint)
             if (len(message) > 0) cycle
             if (is_of_run(figure)) cycle
-            code = make_directory(folder)
+            code = enter_file(folder//"/")
+            if (code == 0) code = make_directory(folder)
             if (code /= 0) then
                call fail_file(error, "cannot make the directory", folder, code, "")
                return

@@ -40,7 +40,7 @@ contains
       type(source_t) :: source
       integer :: k, number
 
-      call read_source(path, source, message)
+      call read_source(path, source, message, may_be_stream=.true.)
       call add_source(deck, source, number)
       do k = 1, size(overrides)
          call new_source(source, "--set "//overrides(k)%s, overrides(k)%s)
@@ -226,14 +226,14 @@ contains
          call mistakes%add(location, "an include without a file", "write: include ""file""")
          return
       end if
-      path = plain_path(beside(deck%sources(location%file)%name, path))
+      path = plain_path(beside(deck%sources(location%file)%place, path))
       do k = 1, reading%depth
          if (plain_path(deck%sources(reading%chain(k))%name) /= path .and. reading%depth < deepest) cycle
          call mistakes%add(deck%tokens%t(first + 1)%location, "'"//path//"' includes itself", &
                          & "this file is being read already")
          return
       end do
-      call read_source(path, source, message)
+      call read_source(path, source, message, may_be_stream=.false.)
       if (len(message) > 0) then
          call mistakes%add(deck%tokens%t(first + 1)%location, "cannot read the included file '"//path//"'", message)
          return

@@ -72,9 +72,11 @@ contains
 
       call move_alloc(from%name, to%name)
       call move_alloc(from%text, to%text)
+      call move_alloc(from%place, to%place)
       call move_alloc(from%first, to%first)
       call move_alloc(from%last, to%last)
       to%is_file = from%is_file
+      to%is_stream = from%is_stream
    end subroutine move_source
 
    !> Append a section.

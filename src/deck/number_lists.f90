@@ -149,8 +149,8 @@ contains
          call mistakes%add(value%location, "the name of a file is missing "//place, "a path is wanted here")
          return
       end if
-      path = plain_path(beside(deck%sources(value%location%file)%name, value%text))
-      call read_source(path, source, message)
+      path = plain_path(beside(deck%sources(value%location%file)%place, value%text))
+      call read_source(path, source, message, may_be_stream=.false.)
       if (len(message) > 0) then
          call mistakes%add(value%location, "cannot read the file '"//path//"' "//place, message)
          return

@@ -1,10 +1,10 @@
 !> Deck text: whole files in memory, cut into lines.
 !>
 !> Lines end with LF or CR LF. A tab counts as one column. A byte order mark of UTF-8 is skipped.
-!> A file that is missing, a directory, empty, too large or not text is refused with a clear message.
+!> A file that is missing, a directory, a device, empty, too large or not text is refused with a clear message.
 module source_text
    use kinds, only: i8
-   use text, only: to_text
+   use system_file, only: read_file
    implicit none (type, external)
    private
    public :: line_of, n_line_of, new_source, read_source, source_t
@@ -15,7 +15,9 @@ module source_text
    type :: source_t
       character(:), allocatable :: name   !! as shown in messages
       character(:), allocatable :: text   !! verbatim
+      character(:), allocatable :: place  !! path beside which the files lie that it names; blank: the current directory
       logical :: is_file = .false.        !! its lines have numbers
+      logical :: is_stream = .false.      !! it came through a pipe and cannot be read again
       integer, allocatable :: first(:)    !! (lines) first character of each line
       integer, allocatable :: last(:)     !! (lines) last character of each line, without its end
    end type source_t
@@ -29,70 +31,30 @@ contains
       character(*), intent(in) :: content    !! its text
 
       source%name = name
+      source%place = name
       source%text = content
       call cut_lines(source)
    end subroutine new_source
 
-   !> Read a file.
-   subroutine read_source(path, source, message)
+   !> Read a file; a deck may also come through a pipe, which is read to its end.
+   subroutine read_source(path, source, message, may_be_stream)
       character(*), intent(in) :: path                   !! of the file, also its name in messages
       type(source_t), intent(out) :: source              !! its text; empty if it cannot be read
       character(:), allocatable, intent(out) :: message  !! empty: success; else why not
+      logical, intent(in) :: may_be_stream               !! whether a pipe will do
 
-      character(512) :: reason
-      integer(i8) :: n_byte
-      integer :: status, unit
-      logical :: is_there
+      character(:), allocatable :: bytes
 
-      message = ""
       call new_source(source, path, "")
       source%is_file = .true.
-      inquire (file=path//"/.", exist=is_there)
-      if (is_there) message = "it is a directory"
-      if (is_there) return
-      inquire (file=path, exist=is_there)
-      if (.not. is_there .or. len_trim(path) == 0) message = "there is no such file"
+      call read_file(path, .not. may_be_stream, largest_file, bytes, message, source%is_stream)
+      if (source%is_stream) source%place = ""
       if (len(message) > 0) return
-      open (newunit=unit, file=path, access="stream", form="unformatted", status="old", action="read", &
-          & iostat=status, iomsg=reason)
-      if (status /= 0) then
-         message = trim(reason)
-         return
-      end if
-      inquire (unit=unit, size=n_byte)
-      if (n_byte > largest_file) then
-         message = "it is too large: "//to_text(n_byte)//" bytes, the limit is "//to_text(largest_file)
-      else if (n_byte <= 0) then
-         message = "it is empty"
-      else
-         call read_bytes(unit, int(n_byte), source, message)
-      end if
-      close (unit)
+      message = why_not_text(bytes)
       if (len(message) > 0) return
-      message = why_not_text(source%text)
-      if (len(message) > 0) source%text = ""
+      call move_alloc(bytes, source%text)
       call cut_lines(source)
    end subroutine read_source
-
-   !> Read all bytes of an open file.
-   subroutine read_bytes(unit, n_byte, source, message)
-      integer, intent(in) :: unit                          !! of the file
-      integer, intent(in) :: n_byte                        !! size of the file
-      type(source_t), intent(inout) :: source              !! its text
-      character(:), allocatable, intent(inout) :: message  !! set if it cannot be read
-
-      character(512) :: reason
-      character(:), allocatable :: bytes
-      integer :: status
-
-      allocate (character(n_byte) :: bytes)
-      read (unit, iostat=status, iomsg=reason) bytes
-      if (status /= 0) then
-         message = trim(reason)
-      else
-         call move_alloc(bytes, source%text)
-      end if
-   end subroutine read_bytes
 
    !> Why a string is not text; empty if it is.
    pure function why_not_text(string) result(message)

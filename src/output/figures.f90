@@ -2,7 +2,7 @@
 !>
 !> gnuplot is started directly, with fixed file names made of the deck's checked names; text of the
 !> deck reaches it only inside single-quoted strings of the scripts. That gnuplot is not installed,
-!> or fails, is a warning: the scripts stay.
+!> fails, takes too long or leaves no whole picture is a warning: the scripts stay.
 module figures
    use catalogue, only: catalogue_t
    use errors, only: error_t
@@ -10,7 +10,11 @@ module figures
    use figure_script, only: figure_text
    use figure_words, only: figure_portrait, figure_t
    use plot_table, only: plot_table_t, write_plot
-   use posix, only: is_missing, make_directory, remove_file, start_program, system_message, wait_program
+   use kinds, only: i8
+   use output_marker, only: enter_file
+   use posix, only: is_missing, make_directory, remove_file, system_message
+   use processes, only: clock_ms, start_program, wait_group
+   use system_file, only: read_file
    use text, only: append_text, text_t, to_text
    use text_file, only: fail_file, write_file
    implicit none (type, external)
@@ -18,6 +22,9 @@ module figures
    public :: draw_figures, make_figures
 
    integer, parameter :: most_at_once = 4           !! gnuplots running side by side
+   integer, parameter :: patience = 300             !! that a figure may take, unless the environment says otherwise [s]
+   character(*), parameter :: patience_variable = "GUDGEON_GNUPLOT_SECONDS"  !! what says so
+   integer(i8), parameter :: largest_picture = 1000000000_i8  !! bytes
    character(*), parameter :: ideal_suffix = ".ideal"  !! of the files of the ideal twin
 
 contains
@@ -42,7 +49,8 @@ contains
 
       allocate (pictures(0), warnings(0), names(0))
       if (size(list) == 0) return
-      code = make_directory(directory//"/figures")
+      code = enter_file(directory//"/figures/")
+      if (code == 0) code = make_directory(directory//"/figures")
       if (code /= 0) then
          call fail_file(error, "cannot make the directory", directory//"/figures", code, "")
          return
@@ -93,14 +101,16 @@ contains
       type(text_t), allocatable, intent(inout) :: pictures(:)       !! (m) pictures made
       type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) what was not made, and why
 
-      integer :: code, first, k, last, process(size(names))
+      integer(i8) :: until
+      integer :: code, first, k, last, n_late, process(size(names)), seconds
 
+      if (size(names) == 0) return
+      call read_patience(seconds, warnings)
       do first = 1, size(names), most_at_once
          last = min(first + most_at_once - 1, size(names))
          do k = first, last
-            code = start_program(folder, "gnuplot", [text_t("-d"), text_t(names(k)%s//".gp")], names(k)%s//".log", process(k))
+            call start_drawing(folder, names(k)%s, process(k), code)
             if (code == 0) cycle
-            process(k) = 0
             if (is_missing(code)) then
                call append_text(warnings, "gnuplot is not installed: the figures are left as scripts in "//folder)
                last = k - 1
@@ -108,31 +118,102 @@ contains
             end if
             call append_text(warnings, "figure "//names(k)%s//": gnuplot cannot be started: "//system_message(code))
          end do
+         until = clock_ms() + 1000_i8*seconds
+         n_late = 0
          do k = first, last
-            if (process(k) > 0) call end_drawing(folder, names(k)%s, process(k), pictures, warnings)
+            if (process(k) > 0) call end_drawing(folder, names(k)%s, process(k), until, seconds, n_late, pictures, warnings)
          end do
          if (last < min(first + most_at_once - 1, size(names))) return
+         if (n_late == last - first + 1 .and. last < size(names)) then
+            call append_text(warnings, to_text(size(names) - last)//" further figures were left as scripts in "//folder// &
+                             ", because gnuplot does not end")
+            return
+         end if
       end do
    end subroutine draw_figures
 
+   !> How long a figure may take.
+   subroutine read_patience(seconds, warnings)
+      integer, intent(out) :: seconds                               !! the limit [s]
+      type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) grown if it cannot be read
+
+      character(32) :: word
+      integer :: length, status
+
+      seconds = patience
+      call get_environment_variable(patience_variable, word, length, status)
+      if (status == 1 .or. length == 0) return
+      if (status == 0 .and. verify(trim(word), "0123456789") == 0) read (word, *, iostat=status) seconds
+      if (status == 0 .and. verify(trim(word), "0123456789") == 0 .and. seconds >= 1) return
+      seconds = patience
+      call append_text(warnings, patience_variable//" is not a number of seconds from 1 on; "//to_text(patience)//" s are taken")
+   end subroutine read_patience
+
+   !> Start gnuplot on a script.
+   subroutine start_drawing(folder, name, process, code)
+      character(*), intent(in) :: folder  !! of the figures
+      character(*), intent(in) :: name    !! of the figure
+      integer, intent(out) :: process     !! the running gnuplot, 0 if it could not be started
+      integer, intent(out) :: code        !! 0, or the system's error number
+
+      process = 0
+      code = enter_file(folder//"/"//name//".log")
+      if (code == 0) code = enter_file(folder//"/"//name//".png")
+      if (code /= 0) return
+      code = start_program(folder, "gnuplot", [text_t("-d"), text_t(name//".gp")], name//".log", .true., process)
+      if (code /= 0) process = 0
+   end subroutine start_drawing
+
    !> Wait for one gnuplot and see what came of it.
-   subroutine end_drawing(folder, name, process, pictures, warnings)
+   subroutine end_drawing(folder, name, process, until, seconds, n_late, pictures, warnings)
       character(*), intent(in) :: folder                            !! of the figures
       character(*), intent(in) :: name                              !! of the figure
       integer, intent(in) :: process                                !! the running gnuplot
+      integer(i8), intent(in) :: until                              !! instant at which it is ended, see `clock_ms` [ms]
+      integer, intent(in) :: seconds                                !! that it had [s]
+      integer, intent(inout) :: n_late                              !! figures that were not ready
       type(text_t), allocatable, intent(inout) :: pictures(:)       !! (m) pictures made
       type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) what was not made, and why
 
+      character(:), allocatable :: path
       integer :: code, ignored
+      logical :: is_late
 
-      code = wait_program(process)
-      if (code == 0) then
-         ignored = remove_file(folder//"/"//name//".log")
-         call append_text(pictures, "figures/"//name//".png")
-      else
+      path = folder//"/"//name
+      code = wait_group(process, until, is_late)
+      if (is_late) then
+         n_late = n_late + 1
+         call append_text(warnings, "figure "//name//": gnuplot was not ready after "//to_text(seconds)// &
+                          " s and was ended ("//patience_variable//"=SECONDS gives it more)")
+      else if (code /= 0) then
          call append_text(warnings, "figure "//name//": gnuplot ended with code "//to_text(code)// &
-                          ", its message is in "//folder//"/"//name//".log")
+                          ", its message is in "//path//".log")
+      else if (.not. is_whole_picture(path//".png")) then
+         call append_text(warnings, "figure "//name//": gnuplot left no whole picture, though it reported no failure; its "// &
+                          "message is in "//path//".log")
+      else
+         ignored = remove_file(path//".log")
+         call append_text(pictures, "figures/"//name//".png")
+         return
       end if
+      ignored = remove_file(path//".png")
    end subroutine end_drawing
+
+   !> Whether a file is a PNG picture up to its last chunk.
+   logical function is_whole_picture(path)
+      character(*), intent(in) :: path  !! the file
+
+      character(*), parameter :: start = char(137)//"PNG"//achar(13)//achar(10)//achar(26)//achar(10)
+      character(*), parameter :: end = "IEND"                       !! type of the last chunk, before its checksum
+      integer, parameter :: checksum = 4                            !! bytes
+      character(:), allocatable :: bytes, message
+      integer :: n
+
+      call read_file(path, .true., largest_picture, bytes, message)
+      n = len(bytes) - checksum
+      is_whole_picture = .false.
+      if (n < len(start) + len(end)) return
+      is_whole_picture = bytes(1:len(start)) == start .and. bytes(n - len(end) + 1:n) == end
+   end function is_whole_picture
 
 end module figures

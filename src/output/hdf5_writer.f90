@@ -19,8 +19,9 @@ module hdf5_writer
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
    use kinds, only: i8, wp
+   use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: host_name, release_space, remove_file, reserve_space, system_message, utc_time
+   use posix, only: host_name, release_space, remove_file, reserve_space, sync_path, system_message, utc_time
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
    use text, only: to_text
@@ -72,7 +73,11 @@ contains
       self%with_histories = plan%with_histories
       block = rows_of_block(catalogue)
       allocate (self%times(block))
-      status = 0
+      status = enter_file(self%path)
+      if (status /= 0) then
+         call fail(self, "cannot make", system_message(status), error)
+         return
+      end if
       call open_library(status)
       if (status >= 0) call h5pcreate_f(h5p_file_create_f, creation, status)
       if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
@@ -259,6 +264,7 @@ contains
       end if
       call close_all(self, status)
       call release_space(self%path)
+      if (sync_path(self%path) /= 0) status = -1
       if (status < 0 .and. .not. allocated(error)) then
          call fail(self, "cannot finish", "the disk may be full", error)
       end if

@@ -1,27 +1,26 @@
-!> What the writers need of the operating system, from posix_calls.c and decimal.c.
+!> What the writers need of the operating system, from posix_calls.c.
 !>
 !> Functions return 0 or the system's error number, which `system_message` puts into words.
-!> Paths go out with a null character at their end. No function starts a shell.
+!> Paths go out with a null character at their end.
 module posix
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
-   use, intrinsic :: iso_fortran_env, only: output_unit
-   use kinds, only: i8, wp
-   use posix_interfaces, only: c_error_text, c_host_name
-   use posix_interfaces, only: c_is_empty, c_isatty, c_lock, c_make_directory, c_path_kind
-   use posix_interfaces, only: c_real_path, c_release, c_remove_file, c_remove_tree, c_rename
-   use posix_interfaces, only: c_reserve, c_setenv, c_start_program, c_unlock, c_utc_time
-   use posix_interfaces, only: c_own_path, c_processors, c_wait_any, c_wait_program, c_write_at, c_write_open
-   use text, only: buffer_t, text_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int8_t, c_null_char
+   use kinds, only: i8
+   use posix_interfaces, only: c_close, c_getpid, c_host_name, c_is_alive, c_is_link, c_isatty, c_list, c_lock
+   use posix_interfaces, only: c_make_directory, c_own_path, c_path_kind, c_processors, c_random, c_real_path, c_release
+   use posix_interfaces, only: c_remove_file, c_remove_within, c_rename, c_reserve, c_setenv, c_sync, c_utc_time
+   use posix_interfaces, only: c_write_at, c_write_open
+   use system_file, only: system_message
+   use text, only: text_t
    implicit none (type, external)
    private
-   public :: n_processors, own_path, wait_any
-   public :: host_name, is_busy, is_directory, is_empty_directory, is_missing
-   public :: is_terminal, lock_file, make_directory, path_exists, real_path, remove_file, remove_tree
-   public :: release_space, rename_path, reserve_space, set_default_variable, start_program, system_message
-   public :: unlock_file, utc_time, wait_program, write_at, write_output
+   public :: close_file, host_name, is_alive, is_busy, is_directory, is_link, is_missing, is_pipe_gone
+   public :: is_terminal, list_directory, lock_file, make_directory, n_processors, own_path, path_exists, process_number
+   public :: random_name, real_path, release_space, remove_file, remove_within, rename_path, reserve_space, set_default_variable
+   public :: sync_path, system_message, utc_time, write_at, write_error, write_output
 
    integer, parameter :: longest_text = 4096     !! longest path that comes back
    integer(c_int), parameter :: no_entry = 2     !! ENOENT, the same on every Unix
+   integer(c_int), parameter :: broken_pipe = 32 !! EPIPE, the same on every Unix
    integer(c_int), parameter :: would_block = 11 !! EWOULDBLOCK of Linux
    integer(c_int), parameter :: bsd_would_block = 35  !! EWOULDBLOCK of the BSD family
 
@@ -41,12 +40,44 @@ contains
       is_directory = c_path_kind(path//c_null_char) == 1
    end function is_directory
 
-   !> Whether a directory holds nothing.
-   logical function is_empty_directory(path)
-      character(*), intent(in) :: path  !! the directory
+   !> Whether a path names a symbolic link, which may lead nowhere.
+   logical function is_link(path)
+      character(*), intent(in) :: path  !! what to look at
 
-      is_empty_directory = c_is_empty(path//c_null_char) == 1
-   end function is_empty_directory
+      is_link = c_is_link(path//c_null_char) == 1
+   end function is_link
+
+   !> What a directory holds; names of directories end with a slash, links are not followed.
+   subroutine list_directory(path, names, code)
+      character(*), intent(in) :: path                      !! the directory
+      type(text_t), allocatable, intent(out) :: names(:)    !! (n) names, in no order
+      integer, intent(out) :: code                          !! 0, or the system's error number
+
+      character(:), allocatable :: list
+      integer(i8) :: n, room
+      integer :: first, k, last
+
+      room = 4096
+      do
+         if (allocated(list)) deallocate (list)
+         allocate (character(room) :: list)
+         code = c_list(path//c_null_char, list, room, n)
+         if (code /= 0 .or. n < room - 1) exit
+         room = 2*n
+      end do
+      if (code /= 0) n = 0
+      last = 0
+      do k = 1, int(n)
+         if (list(k:k) == c_null_char) last = last + 1
+      end do
+      allocate (names(last))
+      first = 1
+      do k = 1, size(names)
+         last = first + index(list(first:n), c_null_char) - 2
+         names(k)%s = list(first:last)
+         first = last + 2
+      end do
+   end subroutine list_directory
 
    !> Make a directory and those above it.
    integer function make_directory(path) result(code)
@@ -66,13 +97,6 @@ contains
       real = from_c(text)
    end function real_path
 
-   !> Remove a directory with all it holds.
-   integer function remove_tree(path) result(code)
-      character(*), intent(in) :: path  !! the directory
-
-      code = c_remove_tree(path//c_null_char)
-   end function remove_tree
-
    !> Remove a file.
    integer function remove_file(path) result(code)
       character(*), intent(in) :: path  !! the file
@@ -88,22 +112,64 @@ contains
       code = c_rename(from//c_null_char, to//c_null_char)
    end function rename_path
 
-   !> Take a lock that ends with this process.
-   integer function lock_file(path, file, holder) result(code)
-      character(*), intent(in) :: path     !! lock file
-      integer, intent(out) :: file         !! its descriptor, for `unlock_file`
-      integer(i8), intent(out) :: holder   !! process that has the lock, 0 if not known
+   !> Remove what a path within a directory names, an empty directory if it ends with a slash; no link on the way is followed.
+   integer function remove_within(directory, path) result(code)
+      character(*), intent(in) :: directory  !! the directory
+      character(*), intent(in) :: path       !! path within it
 
-      code = c_lock(path//c_null_char, file, holder)
+      code = c_remove_within(directory//c_null_char, path//c_null_char)
+   end function remove_within
+
+   !> Open a file and take its lock, which ends with this process at the latest; nothing in it is changed, no link is followed.
+   integer function lock_file(path, make, file, is_locked) result(code)
+      character(*), intent(in) :: path     !! the file
+      logical, intent(in) :: make          !! whether it is made if there is none
+      integer, intent(out) :: file         !! its descriptor, for `close_file`
+      logical, intent(out) :: is_locked    !! .false.: the file system knows no locks
+
+      integer(c_int) :: locked
+
+      file = -1
+      locked = 0
+      code = c_lock(path//c_null_char, merge(1_c_int, 0_c_int, make), file, locked)
+      is_locked = locked /= 0
    end function lock_file
 
-   !> Give a lock back and remove its file.
-   subroutine unlock_file(path, file)
-      character(*), intent(in) :: path  !! lock file
-      integer, intent(in) :: file       !! its descriptor
+   !> Close a file, which gives its lock back.
+   subroutine close_file(file)
+      integer, intent(in) :: file  !! descriptor
 
-      call c_unlock(path//c_null_char, file)
-   end subroutine unlock_file
+      call c_close(int(file, c_int))
+   end subroutine close_file
+
+   !> Whether a process of this machine lives.
+   logical function is_alive(process)
+      integer(i8), intent(in) :: process  !! its number
+
+      is_alive = c_is_alive(process) == 1
+   end function is_alive
+
+   !> Number of this process.
+   integer(i8) function process_number()
+      process_number = int(c_getpid(), i8)
+   end function process_number
+
+   !> Hand a file's content, or a directory's names, to the disk.
+   integer function sync_path(path) result(code)
+      character(*), intent(in) :: path  !! file or directory
+
+      code = c_sync(path//c_null_char)
+   end function sync_path
+
+   !> A name that nobody else has: 32 hexadecimal digits.
+   function random_name() result(name)
+      character(32) :: name  !! the digits
+
+      integer(c_int8_t) :: bytes(16)
+
+      call c_random(bytes, size(bytes, kind=c_int))
+      write (name, "(16z2.2)") bytes
+   end function random_name
 
    !> Write text at an offset of a file; if that fails the file ends at the offset.
    integer function write_at(path, text, offset) result(code)
@@ -120,9 +186,18 @@ contains
 
       integer(c_int), parameter :: standard_output = 1
 
-      flush (output_unit)
       code = c_write_open(standard_output, text, len(text, i8))
    end function write_output
+
+   !> Write text to the standard error; if nobody reads it or it is full, there is nobody to tell.
+   subroutine write_error(text)
+      character(*), intent(in) :: text  !! what to write
+
+      integer(c_int), parameter :: standard_error = 2
+      integer(c_int) :: ignored
+
+      ignored = c_write_open(standard_error, text, len(text, i8))
+   end subroutine write_error
 
    !> Reserve space behind the end of a file.
    integer function reserve_space(path, n) result(code)
@@ -149,17 +224,6 @@ contains
       now = from_c(text)
    end function utc_time
 
-   !> An error number in words.
-   function system_message(code) result(message)
-      integer, intent(in) :: code            !! error number
-      character(:), allocatable :: message   !! what it means
-
-      character(kind=c_char) :: text(256)
-
-      call c_error_text(code, text, 256)
-      message = from_c(text)
-   end function system_message
-
    !> Whether an error number says that another process holds a lock.
    pure logical function is_busy(code)
       integer, intent(in) :: code  !! error number
@@ -174,6 +238,13 @@ contains
       is_missing = code == no_entry
    end function is_missing
 
+   !> Whether an error number says that nobody reads what is written any more.
+   pure logical function is_pipe_gone(code)
+      integer, intent(in) :: code  !! error number
+
+      is_pipe_gone = code == broken_pipe
+   end function is_pipe_gone
+
    !> Name of this machine.
    function host_name() result(name)
       character(:), allocatable :: name  !! as the system knows it
@@ -183,33 +254,6 @@ contains
       call c_host_name(text, 256)
       name = from_c(text)
    end function host_name
-
-   !> Start a program without a shell.
-   integer function start_program(directory, program, arguments, log, process) result(code)
-      character(*), intent(in) :: directory  !! where it runs
-      character(*), intent(in) :: program    !! its name, found along PATH
-      type(text_t), intent(in) :: arguments(:) !! (n) its arguments
-      character(*), intent(in) :: log        !! file for its messages, in the directory
-      integer, intent(out) :: process        !! its number, for `wait_program`
-
-      type(buffer_t) :: list
-      integer :: k
-
-      process = 0
-      do k = 1, size(arguments)
-         call list%add(arguments(k)%s//c_null_char)
-      end do
-      code = c_start_program(directory//c_null_char, program//c_null_char, list%get()//c_null_char, size(arguments), &
-                             log//c_null_char, process)
-   end function start_program
-
-   !> Wait for whichever program ends next; its number, 0 if none is running.
-   integer function wait_any(code) result(process)
-      integer, intent(out) :: code  !! its exit code, 128 + signal if one ended it
-
-      code = 0
-      process = c_wait_any(code)
-   end function wait_any
 
    !> Processors that this process may use.
    integer function n_processors()
@@ -225,13 +269,6 @@ contains
       call c_own_path(text, longest_text)
       path = from_c(text)
    end function own_path
-
-   !> Wait for a program that was started; its exit code.
-   integer function wait_program(process) result(code)
-      integer, intent(in) :: process  !! its number
-
-      code = c_wait_program(process)
-   end function wait_program
 
    !> Whether a descriptor (1: output, 2: errors) is a terminal.
    logical function is_terminal(file)

@@ -1,6 +1,6 @@
-/* What the writers need of the operating system: directories, locks, whole writes, another program.
+/* What the writers need of the operating system: directories, locks, whole writes.
  *
- * Every function that can fail returns 0 or an errno value. Nothing here starts a shell.
+ * Every function that can fail returns 0 or an errno value.
  * The Fortran side is posix.f90; comments on the arguments are there.
  */
 #define _GNU_SOURCE
@@ -8,9 +8,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
-#include <limits.h>
-#include <math.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdint.h>
@@ -18,12 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 #include <sys/stat.h>
 #include <sys/types.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -35,6 +28,13 @@ int gudgeon_path_kind(const char *path)
    struct stat status;
    if (stat(path, &status) != 0) return kind_none;
    return S_ISDIR(status.st_mode) ? kind_directory : kind_other;
+}
+
+/* 1: the path names a symbolic link, whether it leads anywhere or not. */
+int gudgeon_is_link(const char *path)
+{
+   struct stat status;
+   return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
 }
 
 /* Makes one directory; that it is there already is no failure. */
@@ -71,73 +71,153 @@ void gudgeon_real_path(const char *path, char *real, int capacity)
    free(found);
 }
 
-/* 1: nothing in the directory; 0: something, or it cannot be read. */
-int gudgeon_is_empty_directory(const char *path)
-{
-   DIR *directory = opendir(path);
-   if (directory == NULL) return 0;
-   int empty = 1;
-   for (struct dirent *entry = readdir(directory); entry != NULL && empty; entry = readdir(directory))
-      if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) empty = 0;
-   closedir(directory);
-   return empty;
-}
-
-static int remove_visited(const char *path, const struct stat *status, int type, struct FTW *place)
-{
-   (void)status;
-   (void)type;
-   (void)place;
-   return remove(path) == 0 ? 0 : errno;
-}
-
-/* Removes a directory with all it holds; links are removed, not followed. */
-int gudgeon_remove_tree(const char *path)
-{
-   int code = nftw(path, remove_visited, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
-   return code == -1 ? errno : code;
-}
-
 int gudgeon_remove_file(const char *path) { return unlink(path) == 0 ? 0 : errno; }
 
 int gudgeon_rename(const char *from, const char *to) { return rename(from, to) == 0 ? 0 : errno; }
 
-/* Takes the lock of a file, which is made if need be. EWOULDBLOCK: a living process holds it. */
-int gudgeon_lock(const char *path, int *file, int64_t *holder)
+/* Opens a file within a directory without following any link on the way to it. The last part of the path is left for the
+ * caller: returns the open directory that holds it, or -1. */
+static int open_holder(const char *directory, const char *path, const char **last)
 {
-   *holder = 0;
+   int at = open(directory, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+   while (at >= 0) {
+      const char *slash = strchr(path, '/');
+      if (slash == NULL || slash[1] == '\0') break;
+      char *part = strndup(path, (size_t)(slash - path));
+      int next = part != NULL ? openat(at, part, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
+      int code = errno;
+      free(part);
+      close(at);
+      errno = code;
+      at = next;
+      path = slash + 1;
+   }
+   *last = path;
+   return at;
+}
+
+/* Removes what a path within a directory names: a file or link, or, with a slash at the end, an empty directory. */
+int gudgeon_remove_within(const char *directory, const char *path)
+{
+   const char *last;
+   int at = open_holder(directory, path, &last);
+   if (at < 0) return errno;
+   char *name = strdup(last);
+   int code = name != NULL ? 0 : ENOMEM;
+   if (code == 0) {
+      size_t n = strlen(name);
+      int is_directory = n > 0 && name[n - 1] == '/';
+      if (is_directory) name[n - 1] = '\0';
+      if (unlinkat(at, name, is_directory ? AT_REMOVEDIR : 0) != 0) code = errno;
+   }
+   free(name);
+   close(at);
+   return code;
+}
+
+/* The names in a directory, one behind the other, each with a null character at its end, those of directories with a slash
+ * before it; links are not followed. What they need is counted even if there is no room for it. */
+int gudgeon_list(const char *directory, char *names, int64_t capacity, int64_t *n)
+{
+   *n = 0;
+   int at = open(directory, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+   DIR *stream = at >= 0 ? fdopendir(at) : NULL;
+   if (stream == NULL) {
+      int code = errno;
+      if (at >= 0) close(at);
+      return code;
+   }
+   int code = 0;
+   for (;;) {
+      errno = 0;
+      struct dirent *entry = readdir(stream);
+      if (entry == NULL) {
+         code = errno;
+         break;
+      }
+      if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+      struct stat status;
+      int is_directory = fstatat(at, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(status.st_mode);
+      int64_t length = (int64_t)strlen(entry->d_name);
+      if (*n + length + 2 <= capacity) {
+         memcpy(names + *n, entry->d_name, (size_t)length);
+         memcpy(names + *n + length, is_directory ? "/" : "", is_directory ? 2 : 1);
+      }
+      *n += length + 1 + is_directory;
+   }
+   closedir(stream);
+   return code;
+}
+
+/* Opens a file and locks it as long as it is open; a link is not followed, nothing is changed in it. `make`: it is made if
+ * there is none. EWOULDBLOCK: another process holds the lock. `is_locked` is 0 where the file system knows no locks. */
+int gudgeon_lock(const char *path, int make, int *file, int *is_locked)
+{
+   const int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
    for (int attempt = 0; attempt < 100; attempt++) {
-      int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      int fd = open(path, flags);
+      if (fd < 0 && errno == ENOENT && make) {
+         fd = open(path, flags | O_CREAT | O_EXCL, 0666);
+         if (fd < 0 && errno == EEXIST) continue;
+      }
       if (fd < 0) return errno;
-      if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-         char digits[32] = "";
-         if (read(fd, digits, sizeof digits - 1) > 0) *holder = strtoll(digits, NULL, 10);
-         close(fd);
-         return EWOULDBLOCK;
-      } /* where the file system knows no locks, go on without */
       struct stat held, named;
-      if (fstat(fd, &held) == 0 && stat(path, &named) == 0 && held.st_ino == named.st_ino) {
-         char digits[32];
-         int n = snprintf(digits, sizeof digits, "%lld\n", (long long)getpid());
-         if (ftruncate(fd, 0) != 0 || write(fd, digits, (size_t)n) != n) n = 0; /* only for the message */
+      int code = fstat(fd, &held) == 0 ? 0 : errno;
+      if (code == 0 && !S_ISREG(held.st_mode)) code = EINVAL;
+      int result = 0;
+      if (code == 0) {
+         do result = flock(fd, LOCK_EX | LOCK_NB);
+         while (result != 0 && errno == EINTR);
+         if (result != 0 && errno == EWOULDBLOCK) code = EWOULDBLOCK;
+      }
+      if (code != 0) {
+         close(fd);
+         return code;
+      }
+      *is_locked = result == 0;
+      if (lstat(path, &named) == 0 && held.st_ino == named.st_ino && held.st_dev == named.st_dev) {
          *file = fd;
          return 0;
       }
-      close(fd); /* its last owner has just removed it: once more */
+      close(fd); /* its last owner has just taken it away: once more */
    }
    return EAGAIN;
 }
 
-void gudgeon_unlock(const char *path, int file)
+void gudgeon_close(int file) { close(file); }
+
+/* 1: a process of this number lives on this machine. */
+int gudgeon_is_alive(int64_t process) { return kill((pid_t)process, 0) == 0 || errno == EPERM; }
+
+/* Hands what was written to a file, or the names in a directory, to the disk; file systems that cannot are passed over. */
+int gudgeon_sync(const char *path)
 {
-   unlink(path);
-   close(file);
+   int fd = open(path, O_RDONLY | O_CLOEXEC);
+   if (fd < 0) return errno;
+   int code = fsync(fd) == 0 ? 0 : errno;
+   close(fd);
+   return code == EIO || code == ENOSPC || code == EDQUOT ? code : 0;
+}
+
+/* Bytes that nobody can guess. */
+void gudgeon_random(unsigned char *bytes, int n)
+{
+   int fd = open("/dev/urandom", O_RDONLY | O_CLOEXEC);
+   ssize_t got = fd >= 0 ? read(fd, bytes, (size_t)n) : 0;
+   if (fd >= 0) close(fd);
+   struct timespec now;
+   clock_gettime(CLOCK_REALTIME, &now);
+   uint64_t state = (uint64_t)now.tv_nsec * 1000003u ^ (uint64_t)now.tv_sec << 20 ^ (uint64_t)getpid() << 44;
+   for (int k = got > 0 ? (int)got : 0; k < n; k++) {
+      state = state * 6364136223846793005u + 1442695040888963407u;
+      bytes[k] = (unsigned char)(state >> 56);
+   }
 }
 
 /* Writes all of the bytes at an offset, which becomes the end if it fails: never half a record. */
 int gudgeon_write_at(const char *path, const char *bytes, int64_t n, int64_t offset)
 {
-   int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | (offset == 0 ? O_TRUNC : 0), 0666);
+   int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | (offset == 0 ? O_TRUNC : 0), 0666);
    if (fd < 0) return errno;
    int code = 0;
    for (int64_t done = 0; done < n && code == 0;) {
@@ -198,81 +278,10 @@ void gudgeon_utc_time(char *text, int capacity)
    if (gmtime_r(&now, &parts) != NULL) strftime(text, (size_t)capacity, "%Y-%m-%dT%H:%M:%SZ", &parts);
 }
 
-void gudgeon_error_text(int code, char *text, int capacity)
-{
-   snprintf(text, (size_t)capacity, "%s", strerror(code));
-}
-
 void gudgeon_host_name(char *name, int capacity)
 {
    if (gethostname(name, (size_t)capacity) != 0) name[0] = '\0';
    name[capacity - 1] = '\0';
-}
-
-enum { max_arguments = 1024 };
-
-/* Starts a program in a directory without a shell; its messages go to a file there. The arguments stand one behind the
- * other, each with a null character at its end. ENOENT: not installed. */
-int gudgeon_start_program(const char *directory, const char *program, const char *arguments, int n_arguments,
-                          const char *log, int *process)
-{
-   char *vector[max_arguments + 2] = {(char *)program};
-   if (n_arguments > max_arguments) return E2BIG;
-   for (int k = 1; k <= n_arguments; k++) {
-      vector[k] = (char *)arguments;
-      arguments += strlen(arguments) + 1;
-   }
-   int report[2];
-   if (pipe(report) != 0) return errno;
-   fcntl(report[1], F_SETFD, FD_CLOEXEC);
-   fflush(NULL);
-   pid_t child = fork();
-   if (child < 0) {
-      int code = errno;
-      close(report[0]);
-      close(report[1]);
-      return code;
-   }
-   if (child == 0) {
-      int code = 0;
-      close(report[0]);
-#ifdef __linux__
-      prctl(PR_SET_PDEATHSIG, SIGTERM); /* it ends with the program that asked for it */
-#endif
-      if (chdir(directory) != 0) code = EIO;
-      int input = open("/dev/null", O_RDWR);
-      int messages = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-      if (messages < 0) messages = input;
-      if (code == 0 && dup2(input, 0) >= 0 && dup2(input, 1) >= 0 && dup2(messages, 2) >= 0)
-         execvp(program, vector);
-      if (code == 0) code = errno;
-      ssize_t told = write(report[1], &code, sizeof code);
-      _exit(told > 0 ? 127 : 126);
-   }
-   close(report[1]);
-   int code = 0;
-   ssize_t got;
-   do got = read(report[0], &code, sizeof code);
-   while (got < 0 && errno == EINTR);
-   close(report[0]);
-   if (got == (ssize_t)sizeof code) {
-      waitpid(child, NULL, 0);
-      return code;
-   }
-   *process = (int)child;
-   return 0;
-}
-
-/* Waits for whichever program ends next; its number, and its exit code as below. 0: none is running. */
-int gudgeon_wait_any(int *code)
-{
-   int status = 0;
-   pid_t child;
-   do child = waitpid(-1, &status, 0);
-   while (child < 0 && errno == EINTR);
-   if (child < 0) return 0;
-   *code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-   return (int)child;
 }
 
 /* Processors that this process may use. */
@@ -291,14 +300,4 @@ void gudgeon_own_path(char *path, int capacity)
 {
    ssize_t n = readlink("/proc/self/exe", path, (size_t)capacity - 1);
    path[n > 0 ? n : 0] = '\0';
-}
-
-/* Waits for a program that was started; returns its exit code, 128 + signal if one ended it. */
-int gudgeon_wait_program(int process)
-{
-   int status = 0;
-   while (waitpid((pid_t)process, &status, 0) < 0)
-      if (errno != EINTR) return 128;
-   if (WIFSIGNALED(status)) return 128 + WTERMSIG(status);
-   return WEXITSTATUS(status);
 }

@@ -1,12 +1,11 @@
-!> The functions of posix_calls.c, decimal.c and of the C library as Fortran sees them. Use module posix instead.
+!> The functions of posix_calls.c and of the C library as Fortran sees them. Use module posix instead.
 module posix_interfaces
-   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int64_t
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int8_t, c_int64_t
    implicit none (type, external)
    private
-   public :: c_error_text, c_host_name, c_is_empty, c_isatty
-   public :: c_lock, c_make_directory, c_path_kind, c_real_path, c_release, c_remove_file
-   public :: c_remove_tree, c_rename, c_reserve, c_setenv, c_start_program, c_unlock, c_utc_time
-   public :: c_own_path, c_processors, c_wait_any, c_wait_program, c_write_at, c_write_open
+   public :: c_close, c_getpid, c_host_name, c_is_alive, c_is_link, c_isatty, c_list, c_lock, c_make_directory, c_own_path
+   public :: c_path_kind, c_processors, c_random, c_real_path, c_release, c_remove_file, c_remove_within, c_rename
+   public :: c_reserve, c_setenv, c_sync, c_utc_time, c_write_at, c_write_open
 
    ! allow(assumed-size, assumed-size-character-intent)
    interface
@@ -30,18 +29,6 @@ module posix_interfaces
          integer(c_int), value :: capacity               !! characters there is room for
       end subroutine c_real_path
 
-      integer(c_int) function c_is_empty(path) bind(c, name="gudgeon_is_empty_directory")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)  !! (n) directory
-      end function c_is_empty
-
-      integer(c_int) function c_remove_tree(path) bind(c, name="gudgeon_remove_tree")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)  !! (n) directory
-      end function c_remove_tree
-
       integer(c_int) function c_remove_file(path) bind(c, name="gudgeon_remove_file")
          import :: c_char, c_int
          implicit none (type, external)
@@ -55,20 +42,66 @@ module posix_interfaces
          character(kind=c_char), intent(in) :: to(*)    !! (n) new name
       end function c_rename
 
-      integer(c_int) function c_lock(path, file, holder) bind(c, name="gudgeon_lock")
-         import :: c_char, c_int, c_int64_t
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)   !! (n) lock file
-         integer(c_int), intent(out) :: file             !! descriptor of the lock file
-         integer(c_int64_t), intent(out) :: holder       !! process that holds the lock, 0 if not known
-      end function c_lock
-
-      subroutine c_unlock(path, file) bind(c, name="gudgeon_unlock")
+      integer(c_int) function c_is_link(path) bind(c, name="gudgeon_is_link")
          import :: c_char, c_int
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)  !! (n) lock file
-         integer(c_int), value :: file                  !! its descriptor
-      end subroutine c_unlock
+         character(kind=c_char), intent(in) :: path(*)  !! (n) what to look at
+      end function c_is_link
+
+      integer(c_int) function c_list(directory, names, capacity, n) bind(c, name="gudgeon_list")
+         import :: c_char, c_int, c_int64_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: directory(*)  !! (n) the directory
+         character(kind=c_char), intent(out) :: names(*)     !! (capacity) names, each with its null character
+         integer(c_int64_t), value :: capacity               !! characters there is room for
+         integer(c_int64_t), intent(out) :: n                !! characters of all names
+      end function c_list
+
+      integer(c_int) function c_remove_within(directory, path) bind(c, name="gudgeon_remove_within")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: directory(*)  !! (n) a directory
+         character(kind=c_char), intent(in) :: path(*)       !! (n) path within it, of a directory with a slash at its end
+      end function c_remove_within
+
+      integer(c_int) function c_lock(path, make, file, is_locked) bind(c, name="gudgeon_lock")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)   !! (n) the file
+         integer(c_int), value :: make                   !! 1: it is made if there is none
+         integer(c_int), intent(out) :: file             !! its descriptor
+         integer(c_int), intent(out) :: is_locked        !! 0: the file system knows no locks
+      end function c_lock
+
+      subroutine c_close(file) bind(c, name="gudgeon_close")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: file  !! descriptor
+      end subroutine c_close
+
+      integer(c_int) function c_is_alive(process) bind(c, name="gudgeon_is_alive")
+         import :: c_int, c_int64_t
+         implicit none (type, external)
+         integer(c_int64_t), value :: process  !! number of a process of this machine
+      end function c_is_alive
+
+      integer(c_int) function c_getpid() bind(c, name="getpid")
+         import :: c_int
+         implicit none (type, external)
+      end function c_getpid
+
+      integer(c_int) function c_sync(path) bind(c, name="gudgeon_sync")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)  !! (n) file or directory
+      end function c_sync
+
+      subroutine c_random(bytes, n) bind(c, name="gudgeon_random")
+         import :: c_int, c_int8_t
+         implicit none (type, external)
+         integer(c_int8_t), intent(out) :: bytes(*)  !! (n) the bytes
+         integer(c_int), value :: n                  !! how many
+      end subroutine c_random
 
       integer(c_int) function c_write_at(path, bytes, n, offset) bind(c, name="gudgeon_write_at")
          import :: c_char, c_int, c_int64_t
@@ -107,38 +140,12 @@ module posix_interfaces
          integer(c_int), value :: capacity               !! characters there is room for
       end subroutine c_utc_time
 
-      subroutine c_error_text(code, text, capacity) bind(c, name="gudgeon_error_text")
-         import :: c_char, c_int
-         implicit none (type, external)
-         integer(c_int), value :: code                   !! error number
-         character(kind=c_char), intent(out) :: text(*)  !! (capacity) what it means
-         integer(c_int), value :: capacity               !! characters there is room for
-      end subroutine c_error_text
-
       subroutine c_host_name(name, capacity) bind(c, name="gudgeon_host_name")
          import :: c_char, c_int
          implicit none (type, external)
          character(kind=c_char), intent(out) :: name(*)  !! (capacity) name of this machine
          integer(c_int), value :: capacity               !! characters there is room for
       end subroutine c_host_name
-
-      integer(c_int) function c_start_program(directory, program, arguments, n_arguments, log, process) &
-         bind(c, name="gudgeon_start_program")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: directory(*)  !! (n) where it runs
-         character(kind=c_char), intent(in) :: program(*)    !! (n) its name, found along PATH
-         character(kind=c_char), intent(in) :: arguments(*)  !! (n) arguments, each with its null character
-         integer(c_int), value :: n_arguments                !! number of arguments
-         character(kind=c_char), intent(in) :: log(*)        !! (n) file for its messages
-         integer(c_int), intent(out) :: process              !! its number
-      end function c_start_program
-
-      integer(c_int) function c_wait_any(code) bind(c, name="gudgeon_wait_any")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), intent(out) :: code  !! exit code
-      end function c_wait_any
 
       integer(c_int) function c_processors() bind(c, name="gudgeon_processors")
          import :: c_int
@@ -151,12 +158,6 @@ module posix_interfaces
          character(kind=c_char), intent(out) :: path(*)  !! (capacity) the file
          integer(c_int), value :: capacity               !! characters there is room for
       end subroutine c_own_path
-
-      integer(c_int) function c_wait_program(process) bind(c, name="gudgeon_wait_program")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), value :: process  !! number of the process
-      end function c_wait_program
 
       integer(c_int) function c_isatty(file) bind(c, name="isatty")
          import :: c_int

@@ -2,9 +2,8 @@
 !>
 !> Nothing is shown in the first second, so that short runs stay silent.
 module progress
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: i8, wp
-   use posix, only: is_terminal
+   use posix, only: is_terminal, write_error
    use text, only: to_text
    implicit none (type, external)
    private
@@ -62,14 +61,12 @@ contains
       if (elapsed < silent) return
       if (self%has_bar) then
          if (self%is_drawn .and. elapsed - self%shown_at < bar_interval) return
-         write (error_unit, "(a)", advance="no") achar(13)//bar(fraction, elapsed)
-         flush (error_unit)
+         call write_error(achar(13)//bar(fraction, elapsed))
          self%is_drawn = .true.
       else
          if (elapsed - self%shown_at < log_interval) return
          if (fraction - self%shown < log_step .and. elapsed - self%shown_at < 6.0_wp*log_interval) return
-         write (error_unit, "(a)") "progress "//percent(fraction)//", "//time_left(fraction, elapsed)
-         flush (error_unit)
+         call write_error("progress "//percent(fraction)//", "//time_left(fraction, elapsed)//new_line("a"))
       end if
       self%shown_at = elapsed
       self%shown = fraction
@@ -80,8 +77,7 @@ contains
       class(progress_t), intent(inout) :: self  !! the display
 
       if (self%is_drawn) then
-         write (error_unit, "(a)", advance="no") achar(13)//repeat(" ", bar_width + 32)//achar(13)
-         flush (error_unit)
+         call write_error(achar(13)//repeat(" ", bar_width + 32)//achar(13))
       end if
       self%is_on = .false.
       self%is_drawn = .false.

@@ -12,17 +12,16 @@ module run_recorder
       stroboscopic_scalars
    use figures, only: make_figures
    use hdf5_writer, only: hdf5_writer_t
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: wp
    use output_plan, only: output_plan_t, show_json, show_summary
    use plot_table, only: plot_table_t
-   use posix, only: write_output
+   use posix, only: is_pipe_gone, write_error, write_output
    use progress, only: progress_t
    use recorder, only: event_t, recorder_t, status_failed, summary_t
    use statistics, only: number_t, statistics_t
    use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
-   use text, only: append_text, text_t
+   use text, only: append_text, printable, text_t
    use text_file, only: fail_file, replace_file, write_file
    use text_table, only: file_heading
    use text_writer, only: text_writer_t
@@ -293,11 +292,11 @@ contains
       if (self%plan%show == show_summary .and. summary%status /= status_failed) return
       if (.not. self%plan%with_summary) return
       do k = 1, size(outcome%warnings)
-         write (error_unit, "(a)") "warning: "//outcome%warnings(k)%s
+         call write_error("warning: "//printable(outcome%warnings(k)%s)//new_line("a"))
       end do
    end subroutine write_summary
 
-   !> Print on the standard output, which may be a full disk.
+   !> Print on the standard output, which may be a full disk; a reader that has seen enough is none.
    subroutine print_text(text, error)
       character(*), intent(in) :: text                   !! whole lines
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
@@ -305,6 +304,7 @@ contains
       integer :: code
 
       code = write_output(text)
+      if (is_pipe_gone(code)) return
       if (code /= 0) call fail_file(error, "cannot write the summary to", "the standard output", code, &
                                     "It is in the output directory.")
    end subroutine print_text

@@ -10,10 +10,12 @@ module sweep_file
    use hdf5_calls, only: integer_dataset, new_group, open_library, real_dataset, text_attribute, text_dataset
    use hdf5_layout, only: make_root
    use kinds, only: not_a_number, wp
+   use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: host_name, path_exists, remove_file, rename_path, utc_time
+   use posix, only: host_name, path_exists, remove_file, utc_time
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
    use text, only: append_text, text_t, to_text
+   use text_file, only: fail_file, put_in_place
    implicit none (type, external)
    private
    public :: write_sweep
@@ -37,7 +39,11 @@ contains
       integer :: closed, status
 
       path = plan%directory//"/sweep.h5"
-      status = 0
+      status = enter_file(path//".part")
+      if (status /= 0) then
+         call fail_file(error, "cannot make", path//".part", status, "")
+         return
+      end if
       call open_library(status)
       if (status >= 0) call h5pcreate_f(h5p_file_create_f, creation, status)
       if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
@@ -61,11 +67,11 @@ contains
          status = min(status, closed)
       end if
       if (status >= 0) then
-         if (rename_path(path//".part", path) /= 0) status = -1
+         call put_in_place(path, error)
+      else
+         call set_error(error, exit_file, "cannot write "//path//": the disk may be full")
       end if
-      if (status >= 0) return
-      closed = remove_file(path//".part")
-      call set_error(error, exit_file, "cannot write "//path//": the disk may be full")
+      if (allocated(error)) closed = remove_file(path//".part")
    end subroutine write_sweep
 
    !> The cases.

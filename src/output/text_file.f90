@@ -2,10 +2,11 @@
 module text_file
    use errors, only: error_t, exit_file, set_error
    use kinds, only: i8
-   use posix, only: remove_file, rename_path, system_message, write_at
+   use output_marker, only: enter_file
+   use posix, only: remove_file, rename_path, sync_path, system_message, write_at
    implicit none (type, external)
    private
-   public :: fail_file, replace_file, text_file_t, write_file
+   public :: fail_file, put_in_place, replace_file, text_file_t, write_file
 
    !> A file that grows at its end. It is open only while it is being written, so that ten thousand
    !> of them are no problem.
@@ -42,7 +43,9 @@ contains
       integer :: code
 
       if (len(text) == 0 .and. self%length > 0) return
-      code = write_at(self%path, text, self%length)
+      code = 0
+      if (self%length == 0) code = enter_file(self%path)
+      if (code == 0) code = write_at(self%path, text, self%length)
       if (code /= 0) then
          call fail_file(error, "cannot write", self%path, code, &
                         "Make room there, or write elsewhere with --out DIRECTORY.")
@@ -69,15 +72,26 @@ contains
       character(*), intent(in) :: text                   !! all it is to hold
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
 
-      integer :: code, ignored
+      integer :: ignored
 
       call write_file(path//".part", text, error)
-      if (allocated(error)) then
-         ignored = remove_file(path//".part")
-         return
-      end if
-      code = rename_path(path//".part", path)
-      if (code /= 0) call fail_file(error, "cannot rename "//path//".part to", path, code, "")
+      if (.not. allocated(error)) call put_in_place(path, error)
+      if (allocated(error)) ignored = remove_file(path//".part")
    end subroutine replace_file
+
+   !> Give a file that was written as `PATH.part` its name, once it is on the disk: after a power failure either the old file or
+   !> the new one is there, whole.
+   subroutine put_in_place(path, error)
+      character(*), intent(in) :: path                   !! the file
+      type(error_t), allocatable, intent(out) :: error   !! it cannot be written to the disk, or renamed
+
+      integer :: code
+
+      code = sync_path(path//".part")
+      if (code == 0) code = enter_file(path)
+      if (code == 0) code = rename_path(path//".part", path)
+      if (code == 0) code = sync_path(path(1:max(1, index(path, "/", back=.true.) - 1)))
+      if (code /= 0) call fail_file(error, "cannot put "//path//".part in place of", path, code, "")
+   end subroutine put_in_place
 
 end module text_file

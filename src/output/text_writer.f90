@@ -9,6 +9,7 @@ module text_writer
    use errors, only: error_t, set_error
    use event_list, only: event_list_t, n_event_numbers, n_event_words, number_names, number_units, word_names
    use kinds, only: i8, wp
+   use output_marker, only: enter_file
    use output_plan, only: output_plan_t
    use posix, only: make_directory
    use text, only: buffer_t, text_t, to_text
@@ -112,7 +113,8 @@ contains
       if (pass == 1) return
       at = index(name, "/", back=.true.)
       if (at > 1) then
-         code = make_directory(plan%directory//"/"//name(1:at - 1))
+         code = enter_file(plan%directory//"/"//name(1:at))
+         if (code == 0) code = make_directory(plan%directory//"/"//name(1:at - 1))
          if (code /= 0) then
             call fail_file(error, "cannot make the directory", plan%directory//"/"//name(1:at - 1), code, "")
             return

@@ -1,21 +1,13 @@
 !> A made-up scene for the tests of output/: what it can report, and a place to write to.
 module output_scene
    use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy
-   use, intrinsic :: iso_c_binding, only: c_int
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
-   use posix, only: make_directory, path_exists, remove_tree
-   use text, only: to_text
+   use posix, only: list_directory, make_directory, path_exists, process_number, remove_within
+   use text, only: text_t, to_text
    implicit none (type, external)
    private
    public :: clean_scratch, fill_scene, is_absent, make_scene, read_whole, scratch_directory
-
-   interface
-      integer(c_int) function c_getpid() bind(c, name="getpid")
-         import :: c_int
-         implicit none (type, external)
-      end function c_getpid
-   end interface
 
 contains
 
@@ -29,18 +21,29 @@ contains
 
       call get_environment_variable("TMPDIR", place)
       if (len_trim(place) == 0) place = "/tmp"
-      path = trim(place)//"/gudgeon_test_"//to_text(int(c_getpid()))//"_"//name
-      code = remove_tree(path)
+      path = trim(place)//"/gudgeon_test_"//to_text(process_number())//"_"//name
+      call clean_scratch(path)
       code = make_directory(path)
    end function scratch_directory
 
-   !> Remove the directory of a test.
-   subroutine clean_scratch(path)
+   !> Remove the directory of a test with all it holds.
+   recursive subroutine clean_scratch(path)
       character(*), intent(in) :: path  !! the directory
 
-      integer :: code
+      type(text_t), allocatable :: names(:)
+      integer :: code, k
 
-      code = remove_tree(path)
+      call list_directory(path, names, code)
+      do k = 1, size(names)
+         associate (name => names(k)%s)
+            if (index(name, "/") > 0) then
+               call clean_scratch(path//"/"//name(1:len(name) - 1))
+            else
+               code = remove_within(path, name)
+            end if
+         end associate
+      end do
+      code = remove_within(path, "../"//path(index(path, "/", back=.true.) + 1:)//"/")
    end subroutine clean_scratch
 
    !> Two bodies, a driver, a pin with one contact and a guide with two, the ledger.
