@@ -1,7 +1,8 @@
 !> The libraries that the program runs on, with their versions.
 module libraries
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
-   use hdf5, only: h5close_f, h5get_libversion_f, h5open_f
+   use hdf5, only: h5get_libversion_f
+   use hdf5_calls, only: open_library
    use text, only: to_text
    implicit none (type, external)
    private
@@ -44,10 +45,10 @@ contains
             line = line//version(k)
          end do
       end if
-      call h5open_f(status)
+      status = 0
+      call open_library(status)
       call h5get_libversion_f(major, minor, patch, status)
       line = line//", HDF5 "//to_text(major)//"."//to_text(minor)//"."//to_text(patch)
-      call h5close_f(status)
    end function library_versions
 
 end module libraries

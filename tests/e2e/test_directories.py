@@ -275,3 +275,88 @@ def test_a_directory_that_cannot_be_written(gudgeon, place):
     (place / "closed").mkdir(mode=0o555)
     done = call(gudgeon, "run", place / "scene.deck", "--out", closed, "--quiet", expect=9)
     assert closed in done.stderr
+
+
+SHIM = r"""
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+static void note(const char *what, const char *path)
+{
+   FILE *log = getenv("SHIM_LOG") ? fopen(getenv("SHIM_LOG"), "ae") : NULL;
+   if (log != NULL) { fprintf(log, "%s %s\n", what, path); fclose(log); }
+}
+int fsync(int file)
+{
+   char link[64], path[4096];
+   snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+   ssize_t n = readlink(link, path, sizeof path - 1);
+   path[n > 0 ? n : 0] = '\0';
+   note("fsync", path);
+   return 0;
+}
+int rename(const char *from, const char *to)
+{
+   note("rename", from);
+   return ((int (*)(const char *, const char *))dlsym(RTLD_NEXT, "rename"))(from, to);
+}
+int flock(int file, int how)
+{
+   if (getenv("SHIM_NO_LOCKS") == NULL) return ((int (*)(int, int))dlsym(RTLD_NEXT, "flock"))(file, how);
+   errno = ENOLCK;
+   return -1;
+}
+"""
+
+
+@pytest.fixture
+def shim(place):
+    """The environment of a program whose calls of fsync and rename are listed, and which may be without locks."""
+    source = written(place, SHIM, "shim.c")
+    library = place / "shim.so"
+    made = subprocess.run([os.environ.get("CC", "gcc"), "-shared", "-fPIC", "-o", library, source, "-ldl"], capture_output=True)
+    if made.returncode != 0:
+        pytest.skip("no C compiler that makes a shared library")
+    return {**os.environ, "LD_PRELOAD": str(library), "SHIM_LOG": str(place / "calls")}
+
+
+@pytest.mark.parametrize("verb", ["run", "sweep"])
+def test_a_file_is_on_the_disk_before_it_is_renamed(gudgeon, place, shim, verb):
+    """And the directory after it; run.h5 before the summaries."""
+    written(place, plain_deck(SHORT) + "\n[sweep]\nc = 0.5 0.2 mm\n")
+    subprocess.run([str(gudgeon), verb, str(place / "scene.deck"), "--out", str(place / "out"), "--quiet"],
+                   env=shim, check=True, timeout=60)
+    calls = [line.split(" ", 1) for line in (place / "calls").read_text().splitlines()]
+    calls = [(what, path) for what, path in calls if "/runs/" not in path]
+    renamed = [k for k, (what, _) in enumerate(calls) if what == "rename"]
+    assert len(renamed) >= 2
+    for k in renamed:
+        assert calls[k - 1] == ("fsync", calls[k][1]) and calls[k + 1] == ("fsync", str(place / "out"))
+    paths = [path for _, path in calls]
+    if verb == "run":
+        assert paths.index(str(place / "out" / "run.h5")) < paths.index(str(place / "out" / "summary.txt.part"))
+
+
+def test_without_locks_the_marker_counts(gudgeon, place, shim):
+    """A file system without locks: a run that lives is respected, one that is dead or done is not, one on another machine is."""
+    env = {**shim, "SHIM_NO_LOCKS": "1"}
+
+    def again():
+        return subprocess.run([str(gudgeon), "run", str(place / "scene.deck"), "--out", str(place / "out"), "--quiet"],
+                              env=env, capture_output=True, text=True, timeout=60)
+
+    process = started(gudgeon, place, "out")
+    try:
+        refused = again()
+        assert refused.returncode == 9 and str(process.pid) in refused.stderr
+    finally:
+        process.kill()
+        process.wait()
+    assert again().returncode == 0 and again().returncode == 0
+    marker = place / "out" / MARKER
+    marker.write_text(marker.read_text().replace("host = ", "host = other").replace("\nended", ""))
+    refused = again()
+    assert refused.returncode == 9 and "on other" in refused.stderr

@@ -222,6 +222,8 @@ contains
       call first%close()
       call second%open(place//"/run", error)
       call second%close()
+      if (allocated(error)) return
+      call check_equal(error, read_whole(place//"/run.lock"), "1"//new_line("a"), "a file beside the directory is not touched")
       call clean_scratch(place)
    end subroutine a_second_run_is_refused
 
@@ -242,8 +244,9 @@ contains
       call check_true(error, allocated(refused), "a file is refused")
       code = make_directory(place//"/run.1")
       call write_file(place//"/run.1/thesis.txt", "precious", refused)
-      code = make_directory(place//"/run")
+      call directory%open(place//"/run", refused)
       call write_file(place//"/run/run.h5", "x", refused)
+      call directory%close()
       call directory%open(place//"/run", refused)
       call check_true(error, allocated(refused), "a foreign DIRECTORY.1 is not removed")
       call check_equal(error, read_whole(place//"/run.1/thesis.txt"), "precious", "it is still there")
