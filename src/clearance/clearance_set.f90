@@ -82,6 +82,7 @@ module clearance_set
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
       procedure :: item_of => clearance_item_of
+      procedure :: span_of => clearance_span_of
       procedure :: press => clearance_press
       procedure :: rub => clearance_rub
       procedure :: fit_law => clearance_fit_law
@@ -255,6 +256,18 @@ contains
 
       item = (contact - 1)/self%n_contact_item + 1
    end function clearance_item_of
+
+   !> How far what takes part in a contact is from the centres of mass of both bodies, for bounds of round-off; the clearance and
+   !> lengths like it count too.
+   pure function clearance_span_of(self, contact) result(span)
+      class(clearance_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact              !! contact of the set
+      real(wp) :: span(2)                         !! (2) in bodies i and j [m]
+
+      associate (item => self%item_of(contact))
+         span = [sum(abs(self%s_i(:, item))), sum(abs(self%s_j(:, item))) + self%clearance(item)]
+      end associate
+   end function clearance_span_of
 
    !> Normal forces of some contacts. A law whose force jumps from F_a to F_p where the penetration turns follows the course of the
    !> contact, which changes at located events only; one that rests has (F_a + F_p)/2 + (F_a - F_p)/2 rate/rest_speed.

@@ -62,6 +62,7 @@ module flat_contacts
       procedure :: find_forces
       procedure :: find_normal_forces
       procedure :: measure
+      procedure :: span_of => flat_span_of
       procedure :: share_faces => flat_share_faces
       procedure :: face_energy => flat_face_energy
       procedure :: evaluate => flat_evaluate
@@ -136,6 +137,15 @@ contains
          contact%v_t = n(1)*v(2) - n(2)*v(1)
       end associate
    end subroutine measure
+
+   !> How far plane and point of a contact are from the centres of mass.
+   pure function flat_span_of(self, contact) result(span)
+      class(flat_contacts_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact              !! contact of the set
+      real(wp) :: span(2)                         !! (2) in bodies i and j [m]
+
+      span = [sum(abs(self%s_i(:, self%item_of(contact)))) + abs(self%height(contact)), sum(abs(self%point_j(:, contact)))]
+   end function flat_span_of
 
    !> Second derivative of a penetration by time.
    pure real(wp) function penetration_acceleration(self, m, motion, contact) result(acceleration)

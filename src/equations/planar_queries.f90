@@ -1,6 +1,7 @@
 !> What is asked of a planar scene beside its evaluation: error scales, event functions, names.
 submodule(planar_system) planar_queries
    use clearance_set, only: rests
+   use gap_noise, only: find_gap_noise
    implicit none (type, external)
 
 contains
@@ -140,6 +141,26 @@ contains
          end associate
       end do
    end subroutine contact_events
+
+   !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
+   module procedure planar_event_noise
+      real(wp) :: rate_noise(self%n_contact), shared
+      integer :: k
+
+      noise = 0.0_wp
+      shared = 0.0_wp
+      if (self%rows%n_solve > 0 .or. self%guided%n > 0) then
+         shared = maxval(abs(self%motion%r(:2, :))) + maxval(abs(self%motion%angle))*self%length_scale
+      end if
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            associate (first => set%first_contact + 1, last => set%first_contact + set%n_contact)
+               call find_gap_noise(set, self%motion, shared, noise(first:last), rate_noise(first:last))
+            end associate
+         end associate
+      end do
+      if (self%first_turn > 0) noise(self%first_turn + 1:) = rate_noise
+   end procedure planar_event_noise
 
    !> Whether event k, as things stand, is the onset of a contact.
    module procedure planar_is_onset

@@ -98,6 +98,7 @@ module planar_system
       procedure :: weights => planar_weights
       procedure :: events => planar_events
       procedure :: last_events => planar_last_events
+      procedure :: event_noise => planar_event_noise
       procedure :: set_step => planar_set_step
       procedure :: hold => planar_hold
       procedure :: mend => planar_mend
@@ -283,6 +284,13 @@ module planar_system
          real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
          real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
       end subroutine planar_last_events
+
+      !> Round-off of the event functions of contacts and turns at the present motion.
+      module subroutine planar_event_noise(self, noise)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self  !! the system
+         real(wp), intent(out) :: noise(:)           !! (n_event) bounds; zero of friction, whose events are not of positions [m or m/s]
+      end subroutine planar_event_noise
 
       !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.
       module subroutine planar_find_contact(self, number, slot, contact)

@@ -4,18 +4,25 @@
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
 !> zero. What is found is a bracket; the integrator goes into it by its own means (a one-step method
 !> re-steps, so that the event is as accurate as the step, not as the interpolant).
+!>
+!> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
+!> - a function that begins a step at g_0 > -r must rise above g_0 + r, its threshold, to be at its event: one that has just had it,
+!>   or parts from it, is at none, whatever its last digits say; all others have the threshold zero;
+!> - an event wants a rate > 0: a function found above its threshold that does not rise is at none in this step;
+!> - all functions that rise, at zero to r and to the spacing of time, are at their events together with the first one.
 module event_location
    use integrator, only: integrator_t
-   use kinds, only: wp
+   use kinds, only: eps, wp
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: find_first_event
+   public :: dismiss_event, find_first_event, first_of, note_events, time_resolution
 
    integer, parameter :: n_sample = 8      !! places of a step looked at
    integer, parameter :: n_bisect = 30     !! halvings in search of a maximum on the interpolant
    integer, parameter :: n_narrow = 72     !! places looked at to narrow the bracket of an event, at most
    real(wp), parameter :: narrow_enough = 2.0_wp**(-18)  !! width of that bracket: re-stepping does the rest [1]
+   real(wp), parameter :: round_off = 100.0_wp  !! spacings of time: events closer than this are one [1]
 
 contains
 
@@ -30,19 +37,101 @@ contains
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place in the step after it [1]
 
-      integer :: k
-      logical :: is_worth
-
       event = 0
       low = 0.0_wp
       high = 1.0_wp
+      method%threshold = 0.0_wp
+      if (.not. is_worth_a_search(system, method)) return
+      call set_thresholds(system, method)
+      if (is_worth_a_search(system, method)) call search(system, method, event, low, high)
+   end subroutine find_first_event
+
+   !> A function that was found is at no event in this step after all: look for the first of the others.
+   subroutine dismiss_event(system, method, event, low, high)
+      class(ode_system_t), intent(inout) :: system  !! the system
+      class(integrator_t), intent(inout) :: method  !! the integrator, after a step; its scratch is used
+      integer, intent(inout) :: event               !! the function; then which other one, 0: none
+      real(wp), intent(out) :: low                  !! place in the step before the event [1]
+      real(wp), intent(out) :: high                 !! place in the step after it [1]
+
+      method%threshold(event) = huge(1.0_wp)
+      event = 0
+      low = 0.0_wp
+      high = 1.0_wp
+      if (is_worth_a_search(system, method)) call search(system, method, event, low, high)
+   end subroutine dismiss_event
+
+   !> What each function must exceed in the last step to be at its event. Of functions without known noise nothing is asked.
+   subroutine set_thresholds(system, method)
+      class(ode_system_t), intent(in) :: system     !! the system
+      class(integrator_t), intent(inout) :: method  !! the integrator, after a step
+
+      call system%event_noise(method%noise)
+      where (method%noise > 0.0_wp) method%threshold = max(method%g0 + method%noise, 0.0_wp)
+   end subroutine set_thresholds
+
+   !> Whether any function may become positive within the last step.
+   pure logical function is_worth_a_search(system, method) result(is_worth)
+      class(ode_system_t), intent(in) :: system     !! the system
+      class(integrator_t), intent(in) :: method     !! the integrator, after a step
+
+      integer :: k
+
       is_worth = .false.
       do k = 1, system%n_event
-         is_worth = is_worth .or. may_happen(method%g0(k), method%step%h*method%rate0(k), &
-                                             method%g1(k), method%step%h*method%rate1(k))
+         is_worth = may_happen(method%g0(k) - method%threshold(k), method%step%h*method%rate0(k), &
+                               method%g1(k) - method%threshold(k), method%step%h*method%rate1(k))
+         if (is_worth) return
       end do
-      if (is_worth) call search(system, method, event, low, high)
-   end subroutine find_first_event
+   end function is_worth_a_search
+
+   !> Time within which events are one.
+   pure real(wp) function time_resolution(method, h) result(time)
+      class(integrator_t), intent(in) :: method  !! the integrator
+      real(wp), intent(in) :: h                  !! length of its step, with what lies behind the event [s]
+
+      time = round_off*eps*max(abs(method%step%t0 + h), h)
+   end function time_resolution
+
+   !> Of the functions that rise above their thresholds at a place, the one that has done so for longest, by its tangent.
+   pure integer function first_of(method, at_least) result(event)
+      class(integrator_t), intent(in) :: method    !! the integrator, `g` and `rate` as `look_at_events` gives them
+      real(wp), intent(in) :: at_least             !! time for which it must have done so [s]
+
+      real(wp) :: longest
+      integer :: k
+
+      event = 0
+      longest = at_least
+      do k = 1, size(method%g)
+         if (method%rate(k) <= 0.0_wp .or. method%g(k) - method%noise(k) <= longest*method%rate(k)) cycle
+         longest = (method%g(k) - method%noise(k))/method%rate(k)
+         event = k
+      end do
+   end function first_of
+
+   !> Events of the last step: the one that it was ended for, and all that come with it. They are one
+   !> event, because whatever is left of a function that is about to become positive would have to be located anew, with a
+   !> step of round-off.
+   pure subroutine note_events(method, event, h)
+      class(integrator_t), intent(inout) :: method  !! the integrator, `g` and `rate` as `look_at_events` gives them at the event
+      integer, intent(in) :: event                  !! number of the event function
+      real(wp), intent(in) :: h                     !! length of the step, with what lies behind the event [s]
+
+      real(wp) :: reach, time
+      integer :: k
+
+      time = time_resolution(method, h)
+      method%n_happened = 1
+      method%happened(1) = event
+      do k = 1, size(method%g)
+         if (k == event .or. method%rate(k) <= 0.0_wp .or. method%threshold(k) >= huge(1.0_wp)) cycle
+         reach = method%noise(k) + method%threshold(k) + time*method%rate(k)
+         if (abs(method%g(k) + method%threshold(k)) > reach) cycle
+         method%n_happened = method%n_happened + 1
+         method%happened(method%n_happened) = k
+      end do
+   end subroutine note_events
 
    !> The search itself, at places of the step and between them.
    subroutine search(system, method, event, low, high)
@@ -69,7 +158,7 @@ contains
          if (i < n_sample) then
             call values_at(b)
          else
-            g = method%g1
+            g = method%g1 - method%threshold
             rate = method%rate1
          end if
          do k = 1, system%n_event

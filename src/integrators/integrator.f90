@@ -11,7 +11,7 @@ module integrator
    use interpolation, only: inner_places, interpolate, step_t
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_none, dim_time, kind_info_t
-   use kinds, only: eps, i8, wp
+   use kinds, only: i8, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
    implicit none (type, external)
@@ -62,8 +62,6 @@ module integrator
       real(wp) :: onset_limit = default_limit  !! greatest penetration at an onset with `onset_reject` [m]
    end type controls_t
 
-   real(wp), parameter :: round_off = 100.0_wp  !! spacings of time: events closer than this are one [1]
-
    !> An integrator with its state.
    type, abstract :: integrator_t
       type(controls_t) :: controls              !! what the user set
@@ -75,6 +73,8 @@ module integrator
       real(wp), allocatable :: g0(:), rate0(:)  !! (n_event) event functions and rates at the start of the last step [any]
       real(wp), allocatable :: g1(:), rate1(:)  !! (n_event) at the present state [any]
       real(wp), allocatable :: g(:), rate(:)    !! (n_event) elsewhere [any]
+      real(wp), allocatable :: noise(:)         !! (n_event) their round-off in the last step that was searched [any]
+      real(wp), allocatable :: threshold(:)     !! (n_event) what they must exceed in that step to be at their event [any]
       logical, allocatable :: is_hidden(:)      !! (n_event) event functions that are not searched for now
       real(wp), allocatable :: gap(:)           !! (n_event) with onsets not located: event functions, none hidden [any]
       real(wp), allocatable :: end_gap(:)       !! (n_event) with onsets not located: at the end of the step in hand [any]
@@ -103,7 +103,6 @@ module integrator
       procedure :: begin_step
       procedure :: look_at_events
       procedure :: hide_events
-      procedure :: note_events
       procedure :: set_scales
       procedure :: base_memory_size
       procedure :: save_base
@@ -227,31 +226,10 @@ contains
       allocate (self%step%y0(n), self%step%y1(n), self%step%f0(n), self%step%f1(n), self%step%inner(n, 2), source=0.0_wp)
       allocate (self%trial(n), self%scale(n), self%scratch(n), source=0.0_wp)
       allocate (self%g0(m), self%rate0(m), self%g1(m), self%rate1(m), self%g(m), self%rate(m), source=0.0_wp)
-      allocate (self%gap(m), self%end_gap(m), self%end_rate(m), source=0.0_wp)
+      allocate (self%noise(m), self%threshold(m), self%gap(m), self%end_gap(m), self%end_rate(m), source=0.0_wp)
       allocate (self%is_hidden(m), self%is_waiting(m), source=.false.)
       allocate (self%happened(m), source=0)
    end subroutine make_room
-
-   !> Events of the last step: the one that it was ended for, and all that come with it. They are one
-   !> event, because whatever is left of a function that is about to become positive would have to be located anew, with a
-   !> step of round-off.
-   pure subroutine note_events(self, event, h)
-      class(integrator_t), intent(inout) :: self  !! the integrator; `g` and `rate` are those at the event
-      integer, intent(in) :: event                !! number of the event function
-      real(wp), intent(in) :: h                   !! length of the step, with what lies behind the event [s]
-
-      real(wp) :: time
-      integer :: k
-
-      time = round_off*eps*max(abs(self%step%t0 + h), h)
-      self%n_happened = 1
-      self%happened(1) = event
-      do k = 1, size(self%g)
-         if (k == event .or. self%rate(k) <= 0.0_wp .or. abs(self%g(k)) > time*self%rate(k)) cycle
-         self%n_happened = self%n_happened + 1
-         self%happened(self%n_happened) = k
-      end do
-   end subroutine note_events
 
    !> The present state becomes the start of the next step.
    subroutine begin_step(self)
@@ -266,17 +244,18 @@ contains
       self%step%has_inner = .false.
    end subroutine begin_step
 
-   !> Event functions and their rates at a state, for a search.
+   !> Event functions less their thresholds, and their rates, at a state, for a search.
    subroutine look_at_events(self, system, t, y, g, rate)
       class(integrator_t), intent(in) :: self       !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                     !! time [s]
       real(wp), intent(in) :: y(:)                  !! (n) state [any]
-      real(wp), intent(out) :: g(:)                 !! (n_event) event functions [any]
+      real(wp), intent(out) :: g(:)                 !! (n_event) event functions less their thresholds [any]
       real(wp), intent(out) :: rate(:)              !! (n_event) their rates [any]
 
       call system%events(t, y, g, rate)
       call self%hide_events(g, rate)
+      g = g - self%threshold
    end subroutine look_at_events
 
    !> Functions that are not searched for look as if they were far from their event, and stayed there.

@@ -13,7 +13,7 @@
 !> Checkpoints: the history is not saved. A run that is loaded begins anew at order 1 at the saved
 !> state, so it agrees with the uninterrupted one to the tolerance, not to the last bit.
 module multistep
-   use event_location, only: find_first_event
+   use event_location, only: dismiss_event, find_first_event, note_events
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small, integrator_t, steps_variable
    use interpolation, only: interpolate
@@ -215,76 +215,85 @@ contains
       status = advance_step
       if (system%n_event == 0) return
       call find_first_event(system, self, event, low, high)
-      if (event > 0) call go_to_event(self, system, low, high, status)
+      if (event > 0) call go_to_event(self, system, low, high, event, status)
    end subroutine accept
 
    !> Shorten the step so that it ends at an event: halve between "none positive" and "one positive". A function that falls
    !> there is at no event: the first step after one has an error that may be more than the way from it, and the function is
-   !> above zero where it should be below. The whole step stands then; an event of another function is met in the next.
-   subroutine go_to_event(self, system, low, high, status)
+   !> above zero where it should be below. It is dismissed for the first of the others.
+   subroutine go_to_event(self, system, low, high, event, status)
       class(multistep_t), intent(inout) :: self     !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: low                   !! place before the event [1]
-      real(wp), intent(in) :: high                  !! place after it [1]
+      real(wp), intent(inout) :: low                !! place before the event [1]
+      real(wp), intent(inout) :: high               !! place after it [1]
+      integer, intent(inout) :: event               !! the event function, then the one that was met
       integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
 
-      real(wp) :: left, middle, right
-      integer :: event, i
+      logical :: is_found
 
-      left = low
-      right = high
-      call look(right)
-      if (status == 0 .and. all(self%g <= 0.0_wp)) then
-         ! on held states it is not there, or later
-         left = right
-         right = 1.0_wp
-         if (all(self%g1 <= 0.0_wp)) then
-            call stay
-            return
-         end if
-      end if
-      do i = 1, n_halving
-         if (status /= 0 .or. (right - left)*self%h_whole <= eps*abs(self%step%t0 + right*self%h_whole)) exit
-         middle = 0.5_wp*(left + right)
-         call look(middle)
-         if (any(self%g > 0.0_wp)) then
-            right = middle
-         else
-            left = middle
-         end if
+      do while (event > 0)
+         call halve(self, system, low, high, event, is_found, status)
+         if (status /= 0 .or. is_found) exit
+         call dismiss_event(system, self, event, low, high)
       end do
-      if (status == 0) call look(right)
-      if (status == 0) then
-         event = maxloc(self%g, dim=1)
-         if (self%rate(event) < 0.0_wp) then
-            call stay
-            return
-         end if
-         self%step%h = right*self%h_whole
+      if (status == 0 .and. is_found) then
+         self%step%h = high*self%h_whole
          self%t = self%step%t0 + self%step%h
          self%step%y1 = self%trial
-         call self%note_events(event, self%h_whole)
-         call evaluate_end(self, system, status)
+         call note_events(self, event, self%h_whole)
       end if
-      status = merge(advance_event, advance_failed_evaluation, status == 0)
+      if (status == 0) call evaluate_end(self, system, status)  ! without an event the whole step stands
+      status = merge(merge(advance_event, advance_step, is_found), advance_failed_evaluation, status == 0)
+   end subroutine go_to_event
+
+   !> Halve the bracket of an event down to the spacing of time.
+   subroutine halve(self, system, low, high, event, is_found, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator; `trial`, `g` and `rate` are those at the upper end
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(inout) :: low                !! place before the event [1]
+      real(wp), intent(inout) :: high               !! place after it [1]
+      integer, intent(inout) :: event               !! by the search; then the first event function, or one that is at none
+      logical, intent(out) :: is_found              !! whether it rises there
+      integer, intent(out) :: status                !! of holding the states
+
+      real(wp) :: middle
+      integer :: i
+
+      is_found = .false.
+      call look(high)
+      if (status == 0 .and. all(self%g <= 0.0_wp)) then
+         ! on held states it is not there, or later
+         low = high
+         high = 1.0_wp
+         if (all(self%g1 <= self%threshold)) return
+      end if
+      do i = 1, n_halving
+         if (status /= 0 .or. (high - low)*self%h_whole <= eps*abs(self%step%t0 + high*self%h_whole)) exit
+         middle = 0.5_wp*(low + high)
+         call look(middle)
+         if (any(self%g > 0.0_wp)) then
+            high = middle
+         else
+            low = middle
+         end if
+      end do
+      if (status == 0) call look(high)
+      if (status /= 0) return
+      event = maxloc(self%g, dim=1, mask=self%rate > 0.0_wp .and. self%g > 0.0_wp)
+      is_found = event > 0
+      if (.not. is_found) event = maxloc(self%g, dim=1)
 
    contains
-
-      !> No event: the whole step stands.
-      subroutine stay()
-         call evaluate_end(self, system, status)
-         status = merge(advance_step, advance_failed_evaluation, status == 0)
-      end subroutine stay
 
       !> The state at a place of the step, held, into `trial`, and its event functions.
       subroutine look(s)
          real(wp), intent(in) :: s  !! place in the whole step [1]
 
          call held_state(self, system, s, self%trial, status)
-         if (status == 0) call system%events(self%step%t0 + s*self%h_whole, self%trial, self%g, self%rate)
+         if (status == 0) call self%look_at_events(system, self%step%t0 + s*self%h_whole, self%trial, self%g, self%rate)
       end subroutine look
 
-   end subroutine go_to_event
+   end subroutine halve
 
    !> State at a place of the last step, held or mended.
    subroutine held_state(self, system, s, y, status)

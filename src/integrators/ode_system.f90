@@ -3,7 +3,8 @@
 !> The first `n_position` entries of y are positions whose derivatives are the next `n_position`
 !> entries, the velocities; the last `n_quadrature` entries are quadratures, which no derivative
 !> depends on and which stay out of the error norm. Between, there may be other states.
-!> An event function is negative before its event and becomes positive at it.
+!> An event function is negative before its event and becomes positive at it. Its last digits are noise: `event_noise` says up to
+!> where, for systems whose event functions are small differences of large numbers.
 !>
 !> Two hooks do nothing unless a system overrides them. `set_step` tells the step about to be made
 !> (the gains of some stabilisations follow it). A system that sets `holds` has its `hold` called on
@@ -30,6 +31,7 @@ module ode_system
       procedure(weights_interface), deferred :: weights
       procedure(events_interface), deferred :: events
       procedure :: last_events => ode_last_events
+      procedure :: event_noise => ode_event_noise
       procedure :: set_step => ode_set_step
       procedure :: hold => ode_hold
       procedure :: mend => ode_mend
@@ -82,6 +84,15 @@ contains
 
       call self%events(t, y, g, rate)
    end subroutine ode_last_events
+
+   !> Bounds of the round-off of the event functions near the state that was evaluated last. Zero: it is not known, and less
+   !> than matters.
+   subroutine ode_event_noise(self, noise)
+      class(ode_system_t), intent(in) :: self  !! the system
+      real(wp), intent(out) :: noise(:)        !! (n_event) bounds, in the units of the functions [any]
+
+      noise = 0.0_wp
+   end subroutine ode_event_noise
 
    !> A step of length h is about to be made.
    subroutine ode_set_step(self, h)

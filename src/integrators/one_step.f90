@@ -23,10 +23,7 @@ module one_step
    real(wp), parameter :: safety = 0.9_wp         !! of the step that the estimate would allow [1]
    real(wp), parameter :: growth = 4.0_wp         !! greatest ratio of successive steps [1]
    real(wp), parameter :: shrinkage = 0.1_wp      !! least ratio of successive steps [1]
-   real(wp), parameter :: near = 1.0e-9_wp        !! of a step: events closer than this count as one [1]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
-   integer, parameter :: n_newton = 12            !! re-steps towards an event
-   integer, parameter :: n_halving = 60           !! halvings if these do not converge
 
    !> A one-step method.
    type, abstract, extends(integrator_t) :: one_step_t
@@ -45,6 +42,7 @@ module one_step
       procedure :: memory_size => one_step_memory_size
       procedure :: save => one_step_save
       procedure :: load => one_step_load
+      procedure, private :: make_part
    end type one_step_t
 
    abstract interface
@@ -75,6 +73,19 @@ module one_step
          real(wp), intent(in) :: h                  !! length of the step [s]
          real(wp) :: norm                           !! at most 1: accept [1]
       end function norm_interface
+   end interface
+
+   interface
+      !> Shorten the step so that it ends at an event; one that is none after all is dismissed for the first of the others.
+      module subroutine go_to_event(self, system, low, high, event, status)
+         implicit none (type, external)
+         class(one_step_t), intent(inout) :: self      !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(inout) :: low                !! place before the event, by the interpolant [1]
+         real(wp), intent(inout) :: high               !! place after it, by the interpolant [1]
+         integer, intent(inout) :: event               !! the event function, by the interpolant; then the one that was met
+         integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
+      end subroutine go_to_event
    end interface
 
 contains
@@ -293,40 +304,6 @@ contains
       if (self%controls%onset /= onset_located .and. status >= 0) call meet_onsets(system, self, status)
    end subroutine finish_step
 
-   !> Shorten the step so that it ends at an event.
-   subroutine go_to_event(self, system, low, high, event, status)
-      class(one_step_t), intent(inout) :: self      !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: low                   !! place before the event, by the interpolant [1]
-      real(wp), intent(in) :: high                  !! place after it, by the interpolant [1]
-      integer, intent(inout) :: event               !! the event function, by the interpolant; then the one that was met
-      integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
-
-      real(wp) :: h
-      logical :: is_found
-
-      call close_in(self, system, event, low, high, h, is_found, status)
-      if (.not. is_found) then
-         call halve(self, system, high, h, event, status)
-         if (event == 0) then
-            ! the interpolant's maximum was not there: the whole step stands
-            call system%evaluate(self%t, self%step%y1, self%step%f1, status)
-            self%n_evaluations = self%n_evaluations + 1
-            status = merge(advance_step, advance_failed_evaluation, status == 0)
-            return
-         end if
-      end if
-      if (status == 0) then
-         call self%note_events(event, self%step%h)
-         self%step%h = h
-         self%t = self%step%t0 + h
-         self%step%y1 = self%trial
-         call system%evaluate(self%t, self%step%y1, self%step%f1, status)
-         self%n_evaluations = self%n_evaluations + 1
-      end if
-      status = merge(advance_event, advance_failed_evaluation, status == 0)
-   end subroutine go_to_event
-
    !> The state after a part of the step, held, by the method itself.
    subroutine make_part(self, system, h, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
@@ -339,94 +316,6 @@ contains
       if (status == 0 .and. system%holds) call system%hold(self%step%t0 + h, self%trial, status)
    end subroutine make_part
 
-   !> The same with the event functions there, into `g` and `rate`.
-   subroutine step_by(self, system, h, status)
-      class(one_step_t), intent(inout) :: self      !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: h                     !! length of the part [s]
-      integer, intent(out) :: status                !! of the evaluations
-
-      call make_part(self, system, h, status)
-      if (status == 0) call self%look_at_events(system, self%step%t0 + h, self%trial, self%g, self%rate)
-   end subroutine step_by
-
-   !> Newton's iteration on the length of the step towards an event.
-   subroutine close_in(self, system, event, low, high, h, is_found, status)
-      class(one_step_t), intent(inout) :: self      !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system
-      integer, intent(in) :: event                  !! the event function, by the interpolant
-      real(wp), intent(in) :: low                   !! place before it, by the interpolant [1]
-      real(wp), intent(in) :: high                  !! place after it [1]
-      real(wp), intent(out) :: h                    !! length of the step to the event [s]
-      logical, intent(out) :: is_found              !! whether it was found, and no other one comes clearly earlier
-      integer, intent(out) :: status                !! of the evaluations
-
-      real(wp) :: before, full, h_before, h_new
-      integer :: i
-
-      full = self%step%h
-      h = 0.5_wp*(low + high)*full
-      before = huge(1.0_wp)
-      h_before = h
-      is_found = .false.
-      do i = 1, n_newton
-         call step_by(self, system, h, status)
-         if (status /= 0) exit
-         if (self%rate(event) <= 0.0_wp) exit
-         h_new = h - self%g(event)/self%rate(event)
-         ! at round-off the function no longer falls
-         is_found = abs(h_new - h) <= near*full .and. abs(self%g(event)) >= 0.25_wp*before
-         is_found = is_found .or. abs(h_new - h) <= eps*h
-         if (is_found .or. h_new <= 0.0_wp .or. h_new > 1.5_wp*full) exit
-         before = abs(self%g(event))
-         h_before = h
-         h = h_new
-      end do
-      if (is_found .and. abs(self%g(event)) > before) then
-         h = h_before  ! the last correction was noise
-         call step_by(self, system, h, status)
-         is_found = status == 0
-      end if
-      ! another function that became positive clearly earlier?
-      if (is_found) is_found = .not. any(self%g > near*full*abs(self%rate) .and. [(i /= event, i=1, size(self%g))])
-   end subroutine close_in
-
-   !> A grazing contact, or another function comes first: halve between "none positive" and "one positive".
-   subroutine halve(self, system, high, h, event, status)
-      class(one_step_t), intent(inout) :: self      !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: high                  !! place after the event, by the interpolant [1]
-      real(wp), intent(out) :: h                    !! length of the step to the event [s]
-      integer, intent(out) :: event                 !! the first event function, 0: none after all
-      integer, intent(out) :: status                !! of the evaluations
-
-      real(wp) :: h_high, h_low
-      integer :: i
-
-      event = 0
-      h_low = 0.0_wp
-      h_high = high*self%step%h
-      call step_by(self, system, h_high, status)
-      if (status == 0 .and. all(self%g <= 0.0_wp)) then
-         h_high = self%step%h
-         if (all(self%g1 <= 0.0_wp)) return
-      end if
-      do i = 1, n_halving
-         h = 0.5_wp*(h_low + h_high)
-         if (h_high - h_low <= eps*abs(self%step%t0 + h)) exit
-         call step_by(self, system, h, status)
-         if (status /= 0) exit
-         if (any(self%g > 0.0_wp)) then
-            h_high = h
-         else
-            h_low = h
-         end if
-      end do
-      h = h_high
-      if (status == 0) call step_by(self, system, h, status)
-      event = maxloc(self%g, dim=1)
-   end subroutine halve
-
    !> State within the last step by a shorter step of the method.
    subroutine one_step_refine(self, system, s, y, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
@@ -435,7 +324,7 @@ contains
       real(wp), intent(out) :: y(:)                 !! (n) state [any]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      call make_part(self, system, s*self%step%h, status)
+      call self%make_part(system, s*self%step%h, status)
       if (status /= 0) then
          status = advance_failed_evaluation
          return

@@ -87,7 +87,8 @@ contains
 
       if (status == advance_event) call system%last_events(method%t, method%step%y1, method%end_gap, method%end_rate)
       do k = 1, system%n_event
-         has_begun(k) = system%is_onset(k) .and. method%end_gap(k) > 0.0_wp .and. .not. method%is_waiting(k)
+         has_begun(k) = system%is_onset(k) .and. method%end_gap(k) > 0.0_wp .and. method%end_rate(k) > 0.0_wp &
+                        .and. .not. method%is_waiting(k)
       end do
       if (.not. any(has_begun)) then
          if (status == advance_event) return  ! the integrator begins anew

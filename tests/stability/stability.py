@@ -1,6 +1,6 @@
-"""Runs the hard cases in every way the table asks for, prints what came out and writes it as CSV.
+"""Runs the hard cases in every way the table asks for, prints what came out and writes it as CSV; then random scenes.
 
-Called by `make stability`. The exit code is 1 if one way falls short of its stated limit, else 0.
+Called by `make stability`. The exit code is 1 if one way falls short of its stated limit or a scene goes wrong, else 0.
 """
 
 import argparse
@@ -17,6 +17,7 @@ import time
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from cases import CASES, ROOT  # noqa: E402
+from random_runs import run_random  # noqa: E402
 from runs import Result, solve  # noqa: E402
 
 COLUMNS = (("case", 22), ("method", 38), ("tolerance", 9), ("error", 8), ("limit", 7), ("energy_drift", 8), ("violation", 8),
@@ -91,6 +92,24 @@ def run_all(program, cases, required_only):
     return results
 
 
+def wrong_scenes(program):
+    """Lines about random scenes that went wrong; says how many there were."""
+    scratch = pathlib.Path(tempfile.mkdtemp(prefix="gudgeon_random_"))
+    progress = Progress(1)
+
+    def tell(done, total, label):
+        progress.total = total
+        progress.tell(done, label)
+
+    try:
+        wrong, total = run_random(program, scratch, tell=tell)
+    finally:
+        progress.clear()
+        shutil.rmtree(scratch, ignore_errors=True)
+    print(f"\n{total} runs of random scenes, {len(wrong)} mistakes")
+    return wrong
+
+
 def write_csv(path, results):
     """The table for other programs."""
     names = [field.name for field in dataclasses.fields(Result)]
@@ -107,7 +126,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the program is")
     parser.add_argument("--csv", type=pathlib.Path, default=ROOT / "outputs" / "stability.csv", help="where the table goes")
     parser.add_argument("--required", action="store_true", help="leave out the ways that are shown only")
-    parser.add_argument("only", nargs="*", help="words: run the cases whose name or deck contains one")
+    parser.add_argument("only", nargs="*", help="words: run the cases whose name or deck contains one; random: random scenes")
     options = parser.parse_args()
     program = options.build / "gudgeon"
     if not program.exists():
@@ -119,7 +138,10 @@ def main():
     print(f"\n{judged} ways have limits, {len(failed)} fall short; {len(results) - judged} are shown only; {options.csv}")
     for result in failed:
         print(f"short: {result.case}, {result.method}, {result.tolerance}: {result.verdict}")
-    sys.exit(1 if failed else 0)
+    wrong = wrong_scenes(program.resolve()) if not options.only or "random" in options.only else []
+    for words in wrong:
+        print(f"wrong: {words}")
+    sys.exit(1 if failed or wrong else 0)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,138 @@
+!> Events of one-step methods: a step is shortened by re-stepping until it ends at its first event.
+submodule(one_step) one_step_events
+   use event_location, only: dismiss_event, first_of, note_events, time_resolution
+   implicit none (type, external)
+
+   real(wp), parameter :: near = 1.0e-9_wp   !! of a step: corrections below it may be noise [1]
+   integer, parameter :: n_newton = 16       !! re-steps towards an event
+   integer, parameter :: n_halving = 60      !! halvings if these do not converge
+
+contains
+
+   !> Shorten the step so that it ends at an event. A function of known noise that does not rise where it was found is at none.
+   module procedure go_to_event
+      real(wp) :: h
+      logical :: is_found
+
+      do while (event > 0)
+         call close_in(self, system, event, low, high, h, is_found, status)
+         if (status == 0 .and. .not. is_found) call halve(self, system, high, h, event, is_found, status)
+         if (status /= 0 .or. is_found) exit
+         call dismiss_event(system, self, event, low, high)
+      end do
+      if (status == 0 .and. is_found) then
+         call note_events(self, event, self%step%h)
+         self%step%h = h
+         self%t = self%step%t0 + h
+         self%step%y1 = self%trial
+      end if
+      if (status == 0) then  ! without an event the whole step stands
+         call system%evaluate(self%t, self%step%y1, self%step%f1, status)
+         self%n_evaluations = self%n_evaluations + 1
+      end if
+      status = merge(merge(advance_event, advance_step, is_found), advance_failed_evaluation, status == 0)
+   end procedure go_to_event
+
+   !> The state after a part of the step, with the event functions there, into `g` and `rate`.
+   subroutine step_by(self, system, h, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the part [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      call self%make_part(system, h, status)
+      if (status == 0) call self%look_at_events(system, self%step%t0 + h, self%trial, self%g, self%rate)
+   end subroutine step_by
+
+   !> Newton's iteration on the length of the step towards an event. Where another function has clearly been above its threshold
+   !> for longer, it goes on towards that one.
+   subroutine close_in(self, system, event, low, high, h, is_found, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(inout) :: event               !! the event function, by the interpolant; then the first one
+      real(wp), intent(in) :: low                   !! place before it, by the interpolant [1]
+      real(wp), intent(in) :: high                  !! place after it [1]
+      real(wp), intent(out) :: h                    !! length of the step to the event [s]
+      logical, intent(out) :: is_found              !! whether it was found, and no other one comes clearly earlier
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: before, full, h_before, h_new, resolution
+      integer :: earlier, i
+
+      full = self%step%h
+      resolution = time_resolution(self, full)
+      h = 0.5_wp*(low + high)*full
+      before = huge(1.0_wp)
+      h_before = h
+      is_found = .false.
+      do i = 1, n_newton
+         call step_by(self, system, h, status)
+         if (status /= 0) exit
+         earlier = first_of(self, resolution)
+         if (earlier > 0 .and. earlier /= event) then
+            event = earlier
+            before = huge(1.0_wp)
+         end if
+         if (self%rate(event) <= 0.0_wp) exit
+         h_new = h - self%g(event)/self%rate(event)
+         ! at round-off the function no longer falls
+         is_found = abs(h_new - h) <= near*full .and. abs(self%g(event)) >= 0.25_wp*before
+         is_found = is_found .or. abs(h_new - h) <= eps*h
+         if (is_found .or. h_new <= 0.0_wp .or. h_new > 1.5_wp*full) exit
+         before = abs(self%g(event))
+         h_before = h
+         h = h_new
+      end do
+      if (is_found .and. abs(self%g(event)) > before) then
+         h = h_before  ! the last correction was noise
+         call step_by(self, system, h, status)
+         is_found = status == 0
+      end if
+      ! it must rise, and no other one may have come and gone before
+      if (is_found) is_found = self%rate(event) > 0.0_wp
+      if (is_found) is_found = .not. any(self%g - self%noise > near*full*abs(self%rate) .and. [(i /= event, i=1, size(self%g))])
+   end subroutine close_in
+
+   !> A grazing contact, or a function that came and went before: halve between "none positive" and "one positive".
+   subroutine halve(self, system, high, h, event, is_found, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: high                  !! place after the event, by the interpolant [1]
+      real(wp), intent(out) :: h                    !! length of the step to the event [s]
+      integer, intent(inout) :: event               !! by the interpolant; then the first event function, or one that is at none
+      logical, intent(out) :: is_found              !! whether it rises there
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: h_high, h_low
+      integer :: i
+
+      is_found = .false.
+      h_low = 0.0_wp
+      h_high = high*self%step%h
+      call step_by(self, system, h_high, status)
+      if (status == 0 .and. all(self%g <= 0.0_wp)) then
+         h_high = self%step%h  ! the interpolant's maximum was not there
+         if (all(self%g1 <= self%threshold)) return
+      end if
+      do i = 1, n_halving
+         h = 0.5_wp*(h_low + h_high)
+         if (h_high - h_low <= eps*abs(self%step%t0 + h)) exit
+         call step_by(self, system, h, status)
+         if (status /= 0) exit
+         if (any(self%g > 0.0_wp)) then
+            h_high = h
+         else
+            h_low = h
+         end if
+      end do
+      h = h_high
+      if (status == 0) call step_by(self, system, h, status)
+      if (status /= 0) return
+      event = maxloc(self%g, dim=1, mask=self%rate > 0.0_wp .and. self%g > 0.0_wp)
+      is_found = event > 0
+      if (is_found) return
+      event = maxloc(self%g, dim=1)
+      is_found = self%noise(event) <= 0.0_wp  ! its rate may be poorer than the place
+   end subroutine halve
+
+end submodule one_step_events
