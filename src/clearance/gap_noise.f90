@@ -2,10 +2,10 @@
 !>
 !> r = c eps (|r_i| + |r_j| + (1 + |phi_i|) l_i + (1 + |phi_j|) l_j + s),   l how far surfaces are from the centres of mass, phi the
 !> angles: cosines of an angle that counts turns are as inexact as its last digit. s is what other bodies hand on through joints.
-!> Of the rates: c eps (|v_i| + |v_j| + |w_i| (|r_j - r_i| + l_i) + |w_j| l_j), and where the normal is the direction of a short
+!> Of the rates: c eps (|v_i| + |v_j| + |w_i| (|r_j - r_i| + l_i) + |w_j| l_j), and where the normal is the direction of an
 !> eccentricity, these velocities times r over the clearance.
 !>
-!> Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.1, with the constants of a dozen operations
+!> Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.1, the constants of a dozen operations
 !> gathered in c. Limits: bounds of what an evaluation rounds, not of what a motion has gathered.
 module gap_noise
    use clearance_set, only: clearance_set_t

@@ -92,9 +92,7 @@ module planar_system
    contains
       procedure :: evaluate => planar_evaluate
       procedure :: dae_residual => planar_dae_residual
-      procedure, private :: evaluate_terms
-      procedure, private :: find_accelerations
-      procedure, private :: ledger_rates
+      procedure, private :: evaluate_terms, find_accelerations, ledger_rates
       procedure :: weights => planar_weights
       procedure :: events => planar_events
       procedure :: last_events => planar_last_events
@@ -118,9 +116,7 @@ module planar_system
       procedure :: friction_events => planar_friction_events
       procedure :: turns => planar_turns
       procedure :: decide_slip => planar_decide_slip
-      procedure :: memory_size => planar_memory_size
-      procedure :: save => planar_save
-      procedure :: load => planar_load
+      procedure :: memory_size => planar_memory_size, save => planar_save, load => planar_load
    end type planar_system_t
 
    interface
@@ -289,7 +285,7 @@ module planar_system
       module subroutine planar_event_noise(self, noise)
          implicit none (type, external)
          class(planar_system_t), intent(in) :: self  !! the system
-         real(wp), intent(out) :: noise(:)           !! (n_event) bounds; zero of friction, whose events are not of positions [m or m/s]
+         real(wp), intent(out) :: noise(:)           !! (n_event) bounds; zero of friction, which has no positions [m or m/s]
       end subroutine planar_event_noise
 
       !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.

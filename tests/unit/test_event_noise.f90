@@ -1,4 +1,4 @@
-!> Events whose functions have noise far above the spacing of time: each once, together where they are together, none on the way off.
+!> Events whose functions have noise far above the spacing of time: each once, together where they are so, none on the way off.
 module test_event_noise
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
