@@ -42,8 +42,8 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench stability figures studies lint format docs clean help
-.PHONY: objects binary test_program bench_programs
+.PHONY: all install uninstall debug run test test-debian check bench stability fuzz figures studies lint format docs clean help
+.PHONY: objects binary test_program bench_programs fuzz_program
 
 all:
 	$(inner)$(MODE) binary
@@ -58,8 +58,8 @@ run:
 
 test:
 	@scripts/setup
-	$(inner)release binary test_program
-	$(inner)debug binary test_program
+	$(inner)release binary test_program fuzz_program
+	$(inner)debug binary test_program fuzz_program
 	@GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
 	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(PYTEST) tests
 
@@ -85,6 +85,14 @@ stability:
 	@scripts/setup
 	$(inner)release binary
 	@$(PYTHON) -B tests/stability/stability.py --build $(abspath $(BUILD)) $(STABILITY)
+
+# N mutants in each build; FUZZ='--run 0.5 --seed 2' for options of tests/fuzz/fuzz.py
+N ?= 1000
+fuzz:
+	$(inner)release binary fuzz_program
+	$(inner)debug binary fuzz_program
+	@$(PYTHON) -B tests/fuzz/fuzz.py --build $(abspath $(BUILD)) -n $(N) $(FUZZ)
+	@$(PYTHON) -B tests/fuzz/fuzz.py --build $(abspath $(BUILD)) --debug -n $(N) $(FUZZ)
 
 figures:
 	@scripts/setup
@@ -115,6 +123,7 @@ help:
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
+	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
 	@echo "make install    program, man page, completions, decks below PREFIX=/usr/local; make uninstall takes them away again"
@@ -136,7 +145,7 @@ else
 $(error MODE=$(MODE): release or debug)
 endif
 
-ifneq ($(filter binary test_program bench_programs objects,$(MAKECMDGOALS)),)
+ifneq ($(filter binary test_program bench_programs fuzz_program objects,$(MAKECMDGOALS)),)
 
 ifeq ($(shell command -v $(FC)),)
 $(error $(FC) not found: scripts/setup installs what is needed)
@@ -164,6 +173,7 @@ TEST_SOURCES := $(sort $(wildcard tests/unit/test_*.f90 tests/identity/test_*.f9
 TEST_HELPERS := $(sort $(filter-out $(TEST_SOURCES),$(wildcard tests/*.f90 tests/unit/*.f90 tests/identity/*.f90 \
                 tests/order/*.f90 tests/order/*.F90 tests/invariance/*.f90)))
 BENCH_MAINS := $(sort $(shell grep -li '^program ' /dev/null $(wildcard tests/bench/*.f90)))
+FUZZ_MAIN := tests/fuzz/many_decks.f90
 BENCH_HELPERS := $(sort $(filter-out $(BENCH_MAINS),$(wildcard tests/bench/*.f90)))
 GENERATED := $(B)/build_info.f90 $(B)/tests/run_tests.f90
 
@@ -233,7 +243,7 @@ LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
 # Files that change only when their content does: flags, list of objects, build_info, the test program.
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
 $(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench \
-  $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS)))))
+  $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) $(FUZZ_MAIN)))))
 $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS) $(LIBRARIES)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
   echo '$(OBJECTS) $(TEST_OBJECTS)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
@@ -241,7 +251,7 @@ $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAG
   awk -f scripts/testmain.awk $(TEST_SOURCES) > $(B)/tests/run_tests.f90.new; \
   $(call keep_if_equal,$(B)/tests/run_tests.f90))
 ifneq ($(shell awk -v obj=$(B)/obj -v mod=$(B)/mod -v gen=$(B) -f scripts/moddeps.awk $(SOURCES) $(MAIN) \
-  $(TEST_HELPERS) $(TEST_SOURCES) $(BENCH_HELPERS) $(BENCH_MAINS) $(GENERATED) > $(B)/deps.mk || echo failed),)
+  $(TEST_HELPERS) $(TEST_SOURCES) $(BENCH_HELPERS) $(BENCH_MAINS) $(FUZZ_MAIN) $(GENERATED) > $(B)/deps.mk || echo failed),)
 $(error the modules do not fit together, see above)
 endif
 
@@ -256,10 +266,11 @@ ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
 
-objects: $(OBJECTS) $(TEST_OBJECTS) $(if $(MAIN),$(MAIN_OBJECT)) $(call object,$(BENCH_MAINS))
+objects: $(OBJECTS) $(TEST_OBJECTS) $(if $(MAIN),$(MAIN_OBJECT)) $(call object,$(BENCH_MAINS) $(FUZZ_MAIN))
 binary: $(B)/gudgeon
 test_program: $(B)/tests/run_tests
 bench_programs: $(BENCH_PROGRAMS)
+fuzz_program: $(B)/tests/many_decks
 
 $(B)/gudgeon: $(MAIN_OBJECT) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
@@ -270,6 +281,10 @@ $(B)/tests/run_tests: $(TEST_OBJECTS) $(OBJECTS) $(B)/objects
 	@$(LINK)
 
 $(BENCH_PROGRAMS): $(B)/bench/%: $(B)/obj/tests/bench/%.o $(call object,$(BENCH_HELPERS)) $(OBJECTS) $(B)/objects
+	@echo "  LD $@"
+	@$(LINK)
+
+$(B)/tests/many_decks: $(call object,$(FUZZ_MAIN)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
 	@$(LINK)
 

@@ -38,7 +38,7 @@ program gudgeon
       case ("new")
          call new_deck(options, error)
       case ("list")
-         call list_kinds()
+         call list_kinds(options, error)
       case ("version")
          call show_version()
       case default

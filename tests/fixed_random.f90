@@ -6,7 +6,7 @@ module fixed_random
    use kinds, only: i8, wp
    implicit none (type, external)
    private
-   public :: random_t
+   public :: random_t, seed_of
 
    integer(i8), parameter :: modulus = 2147483647_i8  !! a prime
    integer(i8), parameter :: multiplier = 48271_i8    !! a primitive root of it
@@ -20,6 +20,21 @@ module fixed_random
    end type random_t
 
 contains
+
+   !> A seed that follows from a name and a number: what a test draws for a kind does not change when another kind is registered.
+   pure integer(i8) function seed_of(name, number) result(seed)
+      character(*), intent(in) :: name  !! of the kind, or of several
+      integer, intent(in) :: number     !! of the draw, from 0 on
+
+      integer(i8), parameter :: base = 257_i8  !! more than there are characters
+      integer :: k
+
+      seed = int(number, i8) + 1_i8
+      do k = 1, len(name)
+         seed = modulo(seed*base + int(iachar(name(k:k)), i8), modulus)
+      end do
+      seed = max(seed, 1_i8)
+   end function seed_of
 
    !> The next number, evenly distributed.
    function between(self, low, high) result(x)

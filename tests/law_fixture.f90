@@ -3,11 +3,11 @@ module law_fixture
    use bodies, only: material_t
    use contact_registry, only: new_normal_law
    use expression_compile, only: compile_expression, fault_t, symbol_t
-   use fixed_random, only: random_t
+   use fixed_random, only: random_t, seed_of
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: dim_contact_stiffness, dim_stiffness, kind_info_t, same_dimension
-   use kinds, only: i8, wp
+   use kinds, only: wp
    use normal_law, only: n_law_parameter, normal_law_t
    use surfaces, only: set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t
    use text, only: to_text
@@ -95,9 +95,9 @@ contains
       type(kind_info_t) :: info
       type(random_t) :: random
 
-      random%state = int(100*kind + row, i8)
       call new_normal_law(kind, law)
       info = law%info()
+      random%state = seed_of(info%name, row)
       call fill_item(info, row, random, item)
       call tame(info, item, .false.)
       call law%prepare(item)

@@ -3,6 +3,7 @@ module start_state
    use build_system, only: levels_as_written, levels_ideal, new_system
    use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
+   use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
    use guided_motion, only: guided_coordinates
    use kinds, only: wp
@@ -62,7 +63,11 @@ contains
       if (allocated(error)) return
       call new_system(scene, levels, twin, is_for_start=.true.)
       call assemble(twin, q, v, report, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         call deck_positions(scene, q, v)
+         call name_conflict(scene, levels, q, v, error)
+         return
+      end if
       if (present(shift)) then
          q = q + shift%q
          v = v + shift%v

@@ -11,6 +11,7 @@ module static
    use catalogue, only: catalogue_t
    use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
+   use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
@@ -109,7 +110,10 @@ contains
       else
          call assemble(system, q, v, report, error)
       end if
-      if (allocated(error)) return
+      if (allocated(error)) then
+         call name_conflict(scene, levels_ideal, q, 0.0_wp*v, error)
+         return
+      end if
       call find_dependent(system, q, v, report)
       system%is_redundant = size(report%dependent) > 0
    end subroutine assemble_at_rest

@@ -37,7 +37,7 @@ module command_words
       command_t("explain", "DECK", "what is modelled, what was dropped, every default taken", &
                 "--set --ideal --analysis --tolerance --method"), &
       command_t("new", "NAME", "write a commented deck NAME.deck to start from", ""), &
-      command_t("list", "", "all tables and settings a deck may hold", ""), &
+      command_t("list", "[KIND]", "all tables and settings a deck may hold, or a group: gudgeon list contact", ""), &
       command_t("help", "[KIND]", "this page, or a kind: gudgeon help joint revolute", "--manual --man --completion"), &
       command_t("version", "", "versions of the program and its libraries; also --version", "")]
       !! in the order of the help

@@ -1,13 +1,13 @@
 !> The command line: a verb, its operands and its options.
 module options
-   use command_words, only: options_of, verb_names, words_of_value
+   use command_words, only: find_option, options_of, option_info => option_t, verb_names, words_of_value
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: wp
    use numbers, only: number_length, read_number
    use text, only: append_text, join, nearest_word, split_blank, starts_with, text_t
    implicit none (type, external)
    private
-   public :: options_t, read_options
+   public :: options_t, read_options, usage_error
 
    !> What the user asked for.
    type :: options_t
@@ -37,8 +37,8 @@ contains
       type(options_t), intent(out) :: options              !! what was asked for
       type(error_t), allocatable, intent(out) :: error     !! unknown verb or option, missing value
 
-      character(:), allocatable :: known, word
-      integer :: k
+      character(:), allocatable :: known, value, word
+      integer :: k, sign
 
       allocate (options%operands(0), options%overrides(0))
       options%command = "gudgeon"
@@ -68,25 +68,39 @@ contains
             call append_text(options%operands, word)
             cycle
          end if
+         sign = index(word, "=")
+         if (sign > 0) then
+            value = word(sign + 1:)
+            word = word(1:sign - 1)
+         else if (allocated(value)) then
+            deallocate (value)
+         end if
          if (.not. any_word(word, known)) then
             call usage_error("unknown option '"//word//"' of "//options%verb, word, known, error)
             return
          end if
-         call take_option(options, word, k, error)
+         call take_option(options, word, value, k, error)
          if (allocated(error)) return
       end do
    end subroutine read_options
 
-   !> Take an option and its value.
-   subroutine take_option(options, word, k, error)
+   !> Take an option and its value, as in `--option value` or `--option=value`.
+   subroutine take_option(options, word, glued, k, error)
       type(options_t), intent(inout) :: options            !! what was asked for
       character(*), intent(in) :: word                     !! the option
+      character(:), allocatable, intent(in) :: glued       !! value behind an equals sign; unallocated: there is none
       integer, intent(inout) :: k                          !! number of the argument, moved past its value
       type(error_t), allocatable, intent(out) :: error     !! no value, or a bad one
 
       character(:), allocatable :: value
+      type(option_info) :: info
       logical :: is_finite
 
+      info = find_option(word)
+      if (allocated(glued) .and. info%value == "") then
+         call set_error(error, exit_usage, "option "//word//" takes no value, not '"//glued//"'")
+         return
+      end if
       select case (word)
       case ("--ideal"); options%is_ideal = .true.
       case ("--quiet"); options%is_quiet = .true.
@@ -94,12 +108,16 @@ contains
       case ("--manual"); options%is_manual = .true.
       case ("--man"); options%is_man = .true.
       case default
-         k = k + 1
-         if (k > command_argument_count()) then
+         if (allocated(glued)) then
+            value = glued
+         else
+            k = k + 1
+            if (k <= command_argument_count()) value = argument(k)
+         end if
+         if (.not. allocated(value)) then
             call set_error(error, exit_usage, "option "//word//" needs a value")
             return
          end if
-         value = argument(k)
          select case (word)
          case ("--out"); options%directory = value
          case ("--write")

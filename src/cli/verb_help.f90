@@ -13,9 +13,9 @@ module verb_help
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use man_page, only: write_man_page
-   use options, only: options_t
+   use options, only: options_t, usage_error
    use planar_report, only: energy_info
-   use text, only: append_text, join, nearest_word, text_t, to_text
+   use text, only: append_text, join, nearest_word, starts_with, text_t, to_text
    use version, only: program_version
    implicit none (type, external)
    private
@@ -47,13 +47,35 @@ contains
    end subroutine known_kinds
 
    !> `gudgeon list`: one line per kind.
-   subroutine list_kinds()
+   subroutine list_kinds(options, error)
+      type(options_t), intent(in) :: options               !! the command line: groups or kinds, none: all
+      type(error_t), allocatable, intent(out) :: error     !! no such group or kind
+
       type(kind_info_t), allocatable :: kinds(:)
-      integer :: k
+      character(:), allocatable :: known
+      logical, allocatable :: is_wanted(:)
+      integer :: dot, i, k
 
       call known_kinds(kinds)
+      allocate (is_wanted(size(kinds)), source=size(options%operands) == 0)
+      do i = 1, size(options%operands)
+         known = ""
+         associate (word => options%operands(i)%s)
+            do k = 1, size(kinds)
+               is_wanted(k) = is_wanted(k) .or. kinds(k)%name == word .or. starts_with(kinds(k)%name, word//".")
+               dot = index(kinds(k)%name, ".")
+               if (dot > 0) then
+                  if (index(known//" ", " "//kinds(k)%name(:dot - 1)//" ") == 0) known = known//" "//kinds(k)%name(:dot - 1)
+               end if
+               known = known//" "//kinds(k)%name
+            end do
+            if (any([(kinds(k)%name == word .or. starts_with(kinds(k)%name, word//"."), k=1, size(kinds))])) cycle
+            call usage_error("unknown kind '"//word//"'", word, known, error)
+            return
+         end associate
+      end do
       do k = 1, size(kinds)
-         call say(kinds(k)%name, second=kinds(k)%help, column=32)
+         if (is_wanted(k)) call say(kinds(k)%name, second=kinds(k)%help, column=32)
       end do
    end subroutine list_kinds
 

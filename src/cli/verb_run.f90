@@ -256,6 +256,7 @@ contains
       if (options%is_json) plan%show = show_json
       if (options%is_quiet) then
          plan%with_progress = .false.
+         plan%with_warnings = .false.
          if (.not. options%is_json) plan%show = show_nothing
       end if
    end subroutine make_plan

@@ -10,6 +10,9 @@ module cell_checks
    private
    public :: check_choice, check_count, check_range, is_name
 
+   real(wp), parameter :: least_magnitude = 1.0e-50_wp   !! of a number that is not zero, SI [any]
+   real(wp), parameter :: most_magnitude = 1.0e50_wp     !! of a number, so that products of some of them are finite, SI [any]
+
 contains
 
    !> Report superfluous cells.
@@ -53,7 +56,7 @@ contains
                       & help//"choices: "//join(list, " "))
    end subroutine check_choice
 
-   !> Report a number that is out of range.
+   !> Report a number that is out of the column's range, or of the one that the program computes in.
    subroutine check_range(column, x, unit, location, place, mistakes)
       type(column_t), intent(in) :: column            !! with bounds
       real(wp), intent(in) :: x                       !! the number, SI [any]
@@ -69,7 +72,12 @@ contains
       is_high = x > column%upper .or. (column%open_upper .and. .not. x < column%upper)
       if (column%lower <= -no_bound) is_low = .false.
       if (column%upper >= no_bound) is_high = .false.
-      if (.not. is_low .and. .not. is_high) return
+      if (.not. is_low .and. .not. is_high) then
+         if (.not. (abs(x) > 0.0_wp) .or. (abs(x) >= least_magnitude .and. abs(x) <= most_magnitude)) return
+         call mistakes%add(location, to_text(x)//" is out of range "//place, "computed with: 0, and "// &
+                           to_text(least_magnitude)//" to "//to_text(most_magnitude)//" of either sign in SI units")
+         return
+      end if
       suffix = ""
       if (unit /= "1") suffix = " "//unit
       lower = ""

@@ -11,9 +11,10 @@
 module deck_reader
    use cell_checks, only: is_name
    use deck_file, only: deck_version, read_deck
+   use deck_texts, only: deck_text, get_includes
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
-   use echo, only: all_defaults, deck_text, echo_items, echo_settings, echo_start, get_includes, get_parameters
+   use echo, only: all_defaults, echo_items, echo_settings, echo_start, get_parameters
    use settings, only: check_sections, has_section, read_settings
    use sweep_values, only: read_sweep, sweep_t, swept_t
    use tables, only: read_items

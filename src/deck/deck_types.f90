@@ -36,6 +36,7 @@ module deck_types
       type(symbol_t), allocatable :: parameters(:) !! (n) values of the parameters
       type(symbol_t), allocatable :: functions(:)  !! (n) named functions, once they are known
       type(text_t), allocatable :: parameter_text(:) !! (n) their values as written
+      type(location_t), allocatable :: parameter_change(:) !! (n) where the deck has the values that `--set` changed; else nowhere
       type(text_t), allocatable :: defaults(:)     !! (n_default or more) `kind item key = default`
       integer :: n_default = 0                     !! defaults in use
       logical :: is_readable = .true.              !! .false.: it is not a deck at all; that was reported

@@ -12,7 +12,7 @@ module echo
    use text, only: append_text, buffer_t, exact_text, replace, text_t
    implicit none (type, external)
    private
-   public :: all_defaults, deck_text, echo_items, echo_settings, echo_start, get_includes, get_parameters
+   public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters
 
 contains
 
@@ -238,31 +238,6 @@ contains
          lines(k)%s = deck%defaults(k)%s
       end do
    end function all_defaults
-
-   !> The deck's own text, verbatim.
-   pure function deck_text(deck) result(s)
-      type(deck_t), intent(in) :: deck  !! the deck
-      character(:), allocatable :: s    !! its text
-
-      s = ""
-      if (deck%n_source > 0) s = deck%sources(1)%text
-   end function deck_text
-
-   !> The included files, verbatim.
-   subroutine get_includes(deck, names, contents)
-      type(deck_t), intent(in) :: deck                        !! the deck
-      type(text_t), allocatable, intent(out) :: names(:)      !! (n) paths
-      type(text_t), allocatable, intent(out) :: contents(:)   !! (n) texts
-
-      integer :: k
-
-      allocate (names(0), contents(0))
-      do k = 2, deck%n_source
-         if (.not. deck%sources(k)%is_file) cycle
-         call append_text(names, deck%sources(k)%name)
-         call append_text(contents, deck%sources(k)%text)
-      end do
-   end subroutine get_includes
 
    !> The parameters as they were used.
    subroutine get_parameters(deck, names, values)

@@ -41,7 +41,7 @@ contains
          if (deck%sections(deck%lines(k)%section)%name == section_name) n = n + 1
       end do
       deallocate (deck%parameters, deck%parameter_text)
-      allocate (deck%parameters(n), deck%parameter_text(n))
+      allocate (deck%parameters(n), deck%parameter_text(n), deck%parameter_change(n))
       do i = 1, n
          deck%parameters(i)%name = ""
          deck%parameters(i)%kind = symbol_broken
@@ -122,6 +122,7 @@ contains
          call read_symbol(deck, deck%tokens%t(k + 2:overrides(j)%last), changed, mistakes)
          call compare(symbol, changed, span(deck%tokens%t(k + 2), deck%tokens%t(overrides(j)%last)), mistakes)
          deck%parameter_text(i)%s = as_written(deck, deck%tokens%t(k + 2:overrides(j)%last))
+         deck%parameter_change(i) = span(list(3), list(size(list)))
          symbol = changed
       end do
       deck%parameters(i) = symbol

@@ -13,7 +13,7 @@ module tables
    use quantities, only: is_numeric
    use table_header, only: header_t, is_broken, is_name_column, read_table_header
    use text, only: to_text
-   use tokens, only: span, token_equals, token_t, token_word
+   use tokens, only: span, token_equals, token_quoted, token_t, token_word
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
@@ -166,7 +166,8 @@ contains
       type(item_t), intent(inout) :: items(:)         !! (all) items, the n-th is named
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      character(:), allocatable :: word
+      character(:), allocatable :: note, word
+      type(location_t) :: at
       integer :: bad, count_before, previous
 
       count_before = mistakes%count()
@@ -183,8 +184,14 @@ contains
          if (len(word) == 0) then
             call mistakes%add(token%location, "an empty name in "//info%name, "a name is wanted here")
          else if (bad > 0) then
-            call mistakes%add(token%location, "'"//word//"' is not a name in "//info%name, &
-                            & "'"//word(bad:bad)//"' is not allowed", "names consist of letters, digits, _ and -")
+            at = token%location
+            at%first = at%first + bad - 1
+            at%last = at%first
+            if (token%kind == token_quoted) at = token%location
+            note = "not allowed"
+            if (iachar(word(bad:bad)) < 128) note = "'"//word(bad:bad)//"' is not allowed"
+            call mistakes%add(at, "'"//word//"' is not a name in "//info%name, note//" in a name", &
+                            & "names consist of the letters a to z and A to Z, digits, _ and -")
          else
             call mistakes%add(token%location, "'"//word//"' is not a name in "//info%name, "a letter or digit is missing")
          end if

@@ -4,6 +4,7 @@
 !> known. A token holds no text, only where it stands: `token_text` fetches it.
 module tokens
    use diagnostics, only: diagnostics_t
+   use foreign_signs, only: find_foreign_comment, find_foreign_sign
    use item, only: location_t
    use source_text, only: line_of, source_t
    use text, only: buffer_t
@@ -51,11 +52,17 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
       logical, intent(out) :: is_good                 !! whether the line could be cut
 
-      character(:), allocatable :: line
-      integer :: at, kind, last, previous, skip
+      character(:), allocatable :: line, message, note
+      integer :: at, kind, last, n, previous, skip
 
       line = line_of(source, number)
-      is_good = .true.
+      call find_foreign_sign(line, at, last, message, note)
+      is_good = at == 0
+      if (.not. is_good) then
+         call mistakes%add(location_t(file, number, at, last), message, note)
+         return
+      end if
+      n = list%n
       at = 1
       previous = token_equals
       do
@@ -65,6 +72,11 @@ contains
          at = at + skip
          if (skip > 0) previous = token_equals
          if (line(at:at) == "#") return
+         if (find_foreign_comment(line(at:))) then
+            call mistakes%add(location_t(file, number, at, len_trim(line)), "a comment begins with '#'", "not with this")
+            is_good = list%n > n
+            return
+         end if
          call measure(line, at, kind, last)
          if (kind == 0) then
             call complain(line(at:at), location_t(file, number, at, last), mistakes)

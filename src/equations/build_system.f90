@@ -7,7 +7,7 @@ module build_system
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use build_known, only: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
    use columns, only: column_of
-   use find_known, only: has_smooth_cells, joint_points
+   use find_known, only: has_smooth_cells, joint_bodies, joint_points, ties_bodies
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_slot_t
    use friction_law, only: memory_bristle, memory_slip
@@ -148,7 +148,7 @@ contains
 
       class(joint_set_t), allocatable :: set
       integer, allocatable :: chosen(:), i(:), j(:)
-      integer :: column(2), k, m, n
+      integer :: body(2), column(2), k, m, n
 
       n = 0
       if (.not. is_solved) n = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
@@ -158,10 +158,19 @@ contains
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
          call new_joint_set(k, set)
          allocate (i(size(chosen)), j(size(chosen)))
-         do m = 1, size(chosen)
-            call joint_points(scene, k, chosen(m), i(m), j(m))
-         end do
-         call set%new(scene%joints(k)%items(chosen), i, j, scene%points)
+         if (ties_bodies(scene, k)) then
+            do m = 1, size(chosen)
+               body = joint_bodies(scene, k, chosen(m))
+               i(m) = body(1)
+               j(m) = body(2)
+            end do
+            call set%new_of_bodies(scene%joints(k)%items(chosen), i, j)
+         else
+            do m = 1, size(chosen)
+               call joint_points(scene, k, chosen(m), i(m), j(m))
+            end do
+            call set%new(scene%joints(k)%items(chosen), i, j, scene%points)
+         end if
          call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
          call set%set_start(system%motion)
          deallocate (i, j)

@@ -5,7 +5,7 @@
 module find_guided
    use build_clearances, only: is_ideal
    use clearance_registry, only: n_clearance_kinds
-   use find_known, only: joint_points
+   use find_known, only: joint_bodies
    use joint_registry, only: n_joint_kinds
    use scene, only: scene_t
    implicit none (type, external)
@@ -31,7 +31,7 @@ contains
       integer, intent(in) :: levels                         !! how joints with clearance are taken
       type(guide_t), allocatable, intent(out) :: guides(:)  !! (guided bodies) how they are held
 
-      integer :: body(2), i, k, n_joint(0:scene%bodies%n), pass, point(2)
+      integer :: body(2), i, k, n_joint(0:scene%bodies%n), pass
 
       call count_joints(scene, levels, n_joint)
       allocate (guides(0))
@@ -39,8 +39,7 @@ contains
          do k = 1, n_joint_kinds
             if (scene%joints(k)%info%name /= merge(kind_turning//"     ", kind_sliding, pass == 1)) cycle
             do i = 1, size(scene%joints(k)%items)
-               call joint_points(scene, k, i, point(1), point(2))
-               body = scene%points%body(point)
+               body = joint_bodies(scene, k, i)
                if (is_known(body(1)) .eqv. is_known(body(2))) cycle
                if (is_known(body(1))) body(1) = body(2)
                if (n_joint(body(1)) == 1) guides = [guides, guide_t(body(1), k, i)]
@@ -55,22 +54,20 @@ contains
       integer, intent(in) :: levels                          !! how joints with clearance are taken
       integer, intent(out) :: n_joint(0:scene%bodies%n)      !! (0:bodies) their number
 
-      integer :: i, k, point(2)
+      integer :: i, k
 
       n_joint = 0
       do k = 1, n_joint_kinds
          if (scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
-            call joint_points(scene, k, i, point(1), point(2))
-            call count_pair
+            call count_pair(joint_bodies(scene, k, i))
          end do
       end do
       do k = 1, n_clearance_kinds
          associate (items => scene%clearances(k)%items)
             do i = 1, size(items)
                if (.not. is_ideal(scene, k, items(i), levels)) cycle
-               point = [items(i)%values(1)%index, items(i)%values(2)%index]
-               call count_pair
+               call count_pair(scene%points%body(items(i)%values(1:2)%index))
             end do
          end associate
       end do
@@ -78,11 +75,11 @@ contains
    contains
 
       !> One joint more at both bodies.
-      subroutine count_pair
-         associate (body => scene%points%body(point))
-            n_joint(body(1)) = n_joint(body(1)) + 1
-            n_joint(body(2)) = n_joint(body(2)) + 1
-         end associate
+      subroutine count_pair(body)
+         integer, intent(in) :: body(2)  !! (2) the bodies, 0: ground
+
+         n_joint(body(1)) = n_joint(body(1)) + 1
+         n_joint(body(2)) = n_joint(body(2)) + 1
       end subroutine count_pair
 
    end subroutine count_joints

@@ -10,7 +10,7 @@ module find_known
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: find_known_bodies, has_smooth_cells, joint_points, kind_number, link_t
+   public :: find_known_bodies, has_smooth_cells, joint_bodies, joint_points, kind_number, link_t, ties_bodies
 
    !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
    type :: link_t
@@ -49,14 +49,13 @@ contains
       logical, intent(in) :: is_known(0:)     !! (0:bodies) which bodies are known
       type(link_t), intent(in) :: links(:)    !! (known bodies) how they are fixed
 
-      integer :: i, k, n, point(2)
+      integer :: i, k, n
 
       n = 0
       do k = 1, n_joint_kinds
          if (scene%joints(k)%info%is_start_only) cycle
          do i = 1, size(scene%joints(k)%items)
-            call joint_points(scene, k, i, point(1), point(2))
-            if (all(is_known(scene%points%body(point)))) n = n + 1
+            if (all(is_known(joint_bodies(scene, k, i)))) n = n + 1
          end do
       end do
       do k = 1, n_clearance_kinds
@@ -122,17 +121,41 @@ contains
       logical, intent(inout) :: is_known(0:)                   !! (0:bodies) which bodies are known
       type(link_t), allocatable, intent(inout) :: links(:)     !! links, grown
 
-      integer :: body(2), point(2)
+      integer :: body(2)
 
-      call joint_points(scene, link%kind, link%item, point(1), point(2))
-      body = scene%points%body(point)
+      body = joint_bodies(scene, link%kind, link%item)
       if (is_known(body(1)) .eqv. is_known(body(2))) return
       links = [links, link]
       links(size(links))%body = merge(body(2), body(1), is_known(body(1)))
       is_known(body) = .true.
    end subroutine add_if_new
 
-   !> Points i and j of a row of a joint table; a driver's are those of its joint.
+   !> Whether the rows of a kind tie bodies and not points of them.
+   pure logical function ties_bodies(scene, kind)
+      type(scene_t), intent(in) :: scene   !! the scene, whose tables know their kinds
+      integer, intent(in) :: kind          !! number of the kind
+
+      ties_bodies = scene%joints(kind)%info%columns(1)%refers_to == "bodies"
+   end function ties_bodies
+
+   !> Bodies i and j of a row of a joint table, 0: ground; a driver's are those of its joint.
+   pure recursive function joint_bodies(scene, kind, row) result(body)
+      type(scene_t), intent(in) :: scene   !! the scene
+      integer, intent(in) :: kind          !! number of the kind
+      integer, intent(in) :: row           !! row of its table
+      integer :: body(2)                   !! (2) their numbers
+
+      associate (table => scene%joints(kind))
+         if (table%info%columns(1)%name == "joint") then
+            body = joint_bodies(scene, kind_number(scene, table%info%columns(1)%refers_to), table%items(row)%values(1)%index)
+         else
+            body = table%items(row)%values(1:2)%index
+            if (.not. ties_bodies(scene, kind)) body = scene%points%body(body)
+         end if
+      end associate
+   end function joint_bodies
+
+   !> Points i and j of a row of a joint table whose rows tie points; a driver's are those of its joint.
    pure subroutine joint_points(scene, kind, row, i, j)
       type(scene_t), intent(in) :: scene   !! the scene
       integer, intent(in) :: kind          !! number of the kind

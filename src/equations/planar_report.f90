@@ -11,10 +11,12 @@ module planar_report
    use planar_system, only: planar_system_t
    implicit none (type, external)
    private
-   public :: build_catalogue, energy_info, fill_catalogue, report_state
+   public :: build_catalogue, energy_info, fill_catalogue, joint_channels, report_state
 
    character(*), parameter :: contact_channels = " penetration penetration_rate normal_force friction_force state "
       !! channels of a loose joint that belong to its contact
+   character(*), parameter :: joint_channels = " force moment violation violation_rate coordinate displacement power "
+      !! channels of joints and drivers that are filled here; any other one its kind fills by itself
 
 contains
 
@@ -251,6 +253,7 @@ contains
 
       real(wp) :: force(2), moment, rate, value
       integer :: column, i, k, row
+      logical :: is_known
 
       do k = 1, size(system%joints)
          associate (set => system%joints(k)%set)
@@ -269,8 +272,6 @@ contains
                      else
                         values(:, column) = force
                      end if
-                  case ("tension")
-                     values(1, column) = system%lambda(row)
                   case ("moment")
                      call reaction_on_i(system, set, i, force, moment)
                      values(1, column) = merge(-moment, moment, is_driver)
@@ -283,6 +284,8 @@ contains
                      values(1, column) = value
                   case ("power")
                      values(1, column) = sum(system%lambda(row:last)*system%rows%phi_t(row:last))
+                  case default
+                     call set%report(channel, i, system%motion, system%lambda(row:last), values(:, column), is_known)
                   end select
                end associate
             end do

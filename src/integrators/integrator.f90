@@ -62,6 +62,8 @@ module integrator
       real(wp) :: onset_limit = default_limit  !! greatest penetration at an onset with `onset_reject` [m]
    end type controls_t
 
+   real(wp), parameter :: most_counted = 9.0e18_wp  !! steps or evaluations that can be counted [1]
+
    !> An integrator with its state.
    type, abstract :: integrator_t
       type(controls_t) :: controls              !! what the user set
@@ -386,9 +388,10 @@ contains
       call add_number(info, "initial_step", dim_time, "first step tried; 0: chosen", default="0 s", lower=0.0_wp)
       call add_number(info, "minimum_step", dim_time, "least step; 0: what arithmetic allows", default="0 s", lower=0.0_wp)
       call add_number(info, "maximum_step", dim_time, "greatest step; 0: no limit", default="0 s", lower=0.0_wp)
-      call add_number(info, "maximum_steps", dim_none, "accepted steps allowed; 0: no limit", default="0", lower=0.0_wp)
+      call add_number(info, "maximum_steps", dim_none, "accepted steps allowed; 0: no limit", default="0", lower=0.0_wp, &
+                      upper=most_counted)
       call add_number(info, "maximum_evaluations", dim_none, "evaluations of the right-hand side allowed; 0: no limit", &
-                      default="0", lower=0.0_wp)
+                      default="0", lower=0.0_wp, upper=most_counted)
       call add_word(info, "norm", "error norm: over natural scales (scaled), or as INORM: mixed 0, absolute 1, relative 2, " &
                     //"euclidean 3", default="scaled", choices="scaled mixed absolute relative euclidean")
       call add_number(info, "floor", dim_none, "least |y| in the relative norm (FLOOR)", default="1", lower=0.0_wp, &
@@ -402,8 +405,10 @@ contains
       call add_number(info, "hinit", dim_time, "IMSL name of initial_step", default="0 s", lower=0.0_wp)
       call add_number(info, "hmin", dim_time, "IMSL name of minimum_step", default="0 s", lower=0.0_wp)
       call add_number(info, "hmax", dim_time, "IMSL name of maximum_step", default="0 s", lower=0.0_wp)
-      call add_number(info, "mxstep", dim_none, "IMSL name of maximum_steps", default="0", lower=0.0_wp)
-      call add_number(info, "mxfcn", dim_none, "IMSL name of maximum_evaluations", default="0", lower=0.0_wp)
+      call add_number(info, "mxstep", dim_none, "IMSL name of maximum_steps", default="0", lower=0.0_wp, &
+                      upper=most_counted)
+      call add_number(info, "mxfcn", dim_none, "IMSL name of maximum_evaluations", default="0", lower=0.0_wp, &
+                      upper=most_counted)
       call add_number(info, "inorm", dim_none, "IMSL number of the norm, 0 to 3; -1: the word of norm", default="-1", &
                       lower=-1.0_wp, upper=3.0_wp)
    end subroutine add_control_columns

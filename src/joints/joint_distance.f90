@@ -34,6 +34,7 @@ module joint_distance
       procedure :: set_start => distance_set_start
       procedure :: evaluate => distance_evaluate
       procedure :: coordinate => distance_coordinate
+      procedure :: report => distance_report
    end type joint_distance_t
 
 contains
@@ -109,6 +110,20 @@ contains
 
       call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, value, rate)
    end subroutine distance_coordinate
+
+   !> The tension, which is the multiplier of the row.
+   subroutine distance_report(self, channel, k, motion, lambda, values, is_known)
+      class(joint_distance_t), intent(in) :: self   !! the set
+      character(*), intent(in) :: channel           !! the channel
+      integer, intent(in) :: k                      !! item
+      type(motion_t), intent(in) :: motion          !! positions and velocities
+      real(wp), intent(in) :: lambda(:)             !! (1) multiplier of the item [N]
+      real(wp), intent(inout) :: values(:)          !! (1) tension [N]
+      logical, intent(out) :: is_known              !! whether it is the tension
+
+      is_known = channel == "tension"
+      if (is_known) values(1) = lambda(1)
+   end subroutine distance_report
 
    !> One row: the distance is l(t).
    pure subroutine write_distance_row(row, motion, body, s_i, s_j, l, l_dot, l_dot_dot, rows)

@@ -57,9 +57,11 @@ module joint_set
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure :: new => joint_new
+      procedure :: new_of_bodies => joint_new_of_bodies
       procedure :: set_start => joint_set_start
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
+      procedure :: report => joint_report
       procedure :: coordinate => joint_coordinate
       procedure :: prescription => joint_prescription
       procedure :: time_of_turns => joint_time_of_turns
@@ -112,21 +114,36 @@ contains
       integer, intent(in) :: point_j(:)           !! (n) point of body j
       type(points_t), intent(in) :: points        !! all points
 
+      integer :: k
+
+      call self%new_of_bodies(items, points%body(point_i), points%body(point_j))
+      do k = 1, self%n
+         self%s_i(:, k) = points%s(:, point_i(k))
+         self%s_j(:, k) = points%s(:, point_j(k))
+      end do
+   end subroutine joint_new
+
+   !> Set up the common part of a kind that ties bodies and not points: the points are the centres of mass.
+   subroutine joint_new_of_bodies(self, items, body_i, body_j)
+      class(joint_set_t), intent(inout) :: self   !! the set
+      type(item_t), intent(in) :: items(:)        !! (n) rows of the table
+      integer, intent(in) :: body_i(:)            !! (n) body i, 0: ground
+      integer, intent(in) :: body_j(:)            !! (n) body j, 0: ground
+
       type(kind_info_t) :: info
       integer :: k
 
       info = self%info()
       self%n = size(items)
       self%n_row_item = info%n_row
-      allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n))
+      allocate (self%names(self%n), self%body(2, self%n))
+      allocate (self%s_i(3, self%n), self%s_j(3, self%n), source=0.0_wp)
       do k = 1, self%n
          self%names(k)%s = items(k)%name
-         self%body(1, k) = points%body(point_i(k))
-         self%body(2, k) = points%body(point_j(k))
-         self%s_i(:, k) = points%s(:, point_i(k))
-         self%s_j(:, k) = points%s(:, point_j(k))
       end do
-   end subroutine joint_new
+      self%body(1, :) = body_i
+      self%body(2, :) = body_j
+   end subroutine joint_new_of_bodies
 
    !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
    subroutine joint_set_start(self, motion)
@@ -159,6 +176,20 @@ contains
 
       p = point_position(motion, self%body(1, k), self%s_i(:, k))
    end function joint_reaction_point
+
+   !> Values of a channel that the kind has beside those of every joint and driver: none, unless the kind says otherwise.
+   !> A channel of `info()` that nobody fills is a mistake of the kind; the tests of the registry find it.
+   subroutine joint_report(self, channel, k, motion, lambda, values, is_known)
+      class(joint_set_t), intent(in) :: self   !! the set
+      character(*), intent(in) :: channel      !! the channel
+      integer, intent(in) :: k                 !! item
+      type(motion_t), intent(in) :: motion     !! positions and velocities
+      real(wp), intent(in) :: lambda(:)        !! (rows of an item) multipliers of the item [N or N.m]
+      real(wp), intent(inout) :: values(:)     !! (components) values, as they were if the channel is not known [any]
+      logical, intent(out) :: is_known         !! whether the kind knows the channel
+
+      is_known = .false.
+   end subroutine joint_report
 
    !> Coordinate and rate of a driver: of j relative to i, counter-clockwise positive.
    subroutine joint_coordinate(self, k, motion, value, rate)

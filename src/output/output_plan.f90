@@ -36,6 +36,7 @@ module output_plan
       logical :: with_summary = .true.                 !! write summary.txt and summary.json
       logical :: with_figures = .true.                 !! make the figures at the end
       logical :: with_progress = .true.                !! show how far the run is on the standard error
+      logical :: with_warnings = .true.                !! print warnings on the standard error
       integer :: show = show_summary                   !! what to print at the end, one of the above
    contains
       procedure :: complete => complete_plan

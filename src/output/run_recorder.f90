@@ -290,7 +290,7 @@ contains
       if (self%plan%show == show_json) call print_text(json, second)
       call join_errors(error, second)
       if (self%plan%show == show_summary .and. summary%status /= status_failed) return
-      if (.not. self%plan%with_summary) return
+      if (.not. (self%plan%with_summary .and. self%plan%with_warnings)) return
       do k = 1, size(outcome%warnings)
          call write_error("warning: "//printable(outcome%warnings(k)%s)//new_line("a"))
       end do

@@ -53,7 +53,7 @@ contains
          end associate
       end do
       associate (norm => item%values(column_of(info, "norm")), inorm => item%values(column_of(info, "inorm")))
-         if (inorm%number < 0.0_wp) return
+         if (inorm%number < 0.0_wp .or. inorm%number > real(ubound(norms, 1), wp)) return
          if (abs(inorm%number - anint(inorm%number)) > 0.0_wp) then
             call diagnostics%add(inorm%location, "'inorm' must be 0, 1, 2 or 3", "not a whole number")
          else if (norm%given .and. norm%text /= trim(norms(nint(inorm%number)))) then

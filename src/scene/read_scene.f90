@@ -163,11 +163,12 @@ contains
       type(directory_t), intent(inout) :: directory       !! names of the laws are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      integer :: i, k, n
+      integer :: before, i, k, n
 
       allocate (scene%laws(0), scene%frictions(0), directory%laws(0), directory%frictions(0))
       do k = 1, n_law_kinds
          scene%law_tables(k)%info = law_info(k)
+         before = diagnostics%count()
          call read_items(deck, scene%law_tables(k)%info, scene%law_tables(k)%items, diagnostics)
          associate (items => scene%law_tables(k)%items)
             n = size(scene%laws)
@@ -175,6 +176,7 @@ contains
             call report_doubled(items, directory%laws, diagnostics)
             do i = 1, size(items)
                call new_normal_law(k, scene%laws(n + i)%law)
+               if (diagnostics%count() > before) cycle  ! no law is made of rows with mistakes
                call scene%laws(n + i)%law%prepare(items(i))
                if (scene%laws(n + i)%law%mistake() == "") cycle
                call diagnostics%add(items(i)%location, scene%laws(n + i)%law%mistake(), "in this row")
@@ -184,6 +186,7 @@ contains
       end do
       do k = 1, n_friction_kinds
          scene%friction_tables(k)%info = friction_info(k)
+         before = diagnostics%count()
          call read_items(deck, scene%friction_tables(k)%info, scene%friction_tables(k)%items, diagnostics)
          associate (items => scene%friction_tables(k)%items)
             n = size(scene%frictions)
@@ -191,6 +194,7 @@ contains
             call report_doubled(items, directory%frictions, diagnostics)
             do i = 1, size(items)
                call new_friction_law(k, scene%frictions(n + i)%law)
+               if (diagnostics%count() > before) cycle
                call scene%frictions(n + i)%law%prepare(items(i))
                if (scene%frictions(n + i)%law%mistake() == "") cycle
                call diagnostics%add(items(i)%location, scene%frictions(n + i)%law%mistake(), "in this row")

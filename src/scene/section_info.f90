@@ -97,7 +97,7 @@ contains
                       //"converged, of the size of the bodies or a radian; it goes on to round-off", default="1e-10", &
                       lower=0.0_wp, upper=1.0e-4_wp, open_lower=.true.)
       call add_number(info, "maximum_iterations", dim_none, "corrections of the positions allowed at an instant", default="25", &
-                      lower=1.0_wp)
+                      lower=1.0_wp, upper=1.0e9_wp)
    end function kinematic_info
 
    !> The section [analysis.static].
@@ -112,7 +112,8 @@ contains
                     //"bodies, the ideal joints assembled", default="ideal", choices="ideal given")
       call add_number(info, "tolerance", dim_none, "greatest load left unbalanced, of the largest load", default="1e-10", &
                       lower=0.0_wp, upper=1.0e-4_wp, open_lower=.true.)
-      call add_number(info, "maximum_iterations", dim_none, "steps of the search allowed", default="500", lower=1.0_wp)
+      call add_number(info, "maximum_iterations", dim_none, "steps of the search allowed", default="500", lower=1.0_wp, &
+                      upper=1.0e9_wp)
    end function static_info
 
    !> The section [output].

@@ -147,7 +147,7 @@ def finished(program, *options, changes=()):
     """A run of the dry slider-crank without figures, made once for all tests that ask for the same."""
     directory = scratch()
     deck = written(directory, plain_deck(changes))
-    done = call(program, "run", deck, "--out", directory / "out", "--quiet", *options)
+    done = call(program, "run", deck, "--out", directory / "out", *options)
     return Run(directory / "out", done)
 
 

@@ -42,9 +42,16 @@ def test_json_is_all_there_is_on_stdout(gudgeon, short):
 
 
 def test_quiet(gudgeon, short):
-    """--quiet: nothing on standard error but what must not be kept silent."""
-    lines = call(gudgeon, "run", short, "--out", scratch() / "out", "--quiet").stderr.splitlines()
-    assert len(lines) == 1 and lines[0].startswith("warning: ") and "quasi-static" in lines[0]
+    """--quiet: nothing is printed but errors; warnings are in the summary."""
+    out = scratch() / "out"
+    done = call(gudgeon, "run", short, "--out", out, "--quiet")
+    assert done.stdout == "" and done.stderr == ""
+    assert ["quasi-static" in words for words in Run(out).summary["warnings"]] == [True]
+    assert "quasi-static" in (out / "summary.txt").read_text()
+    done = call(gudgeon, "run", short, "--out", out, "--json")
+    assert done.stderr.startswith("warning: ") and "quasi-static" in done.stderr
+    done = call(gudgeon, "run", short, "--out", out, "--quiet", "--set", "cc=1mm", expect=DECK_MISTAKE)
+    assert "cc" in done.stderr
 
 
 def test_summary_tells_cost_and_error(gudgeon):
@@ -103,6 +110,40 @@ def test_list(gudgeon):
     text = call(gudgeon, "list").stdout
     for word in ("revolute", "translational", "lankarani_nikravesh", "hertz", "ambrosio", "verner"):
         assert word in text, word
+
+
+def test_list_of_a_group(gudgeon):
+    """list GROUP and list KIND name a part; a word that is neither is a mistake with the nearest one."""
+    lines = call(gudgeon, "list", "friction", "joint.rigid").stdout.splitlines()
+    assert len(lines) > 3 and all(line.startswith(("friction.", "joint.rigid ")) for line in lines)
+    done = call(gudgeon, "list", "frictoin", expect=USAGE)
+    assert "unknown kind 'frictoin'" in done.stderr and "did you mean 'friction'" in done.stderr and done.stdout == ""
+    assert "unknown kind 'foo'" in call(gudgeon, "list", "foo", expect=USAGE).stderr
+
+
+def test_values_behind_an_equals_sign(gudgeon, short):
+    """--option=value is --option value, for every option that has one; an option without a value takes none."""
+    first, second = scratch() / "out", scratch() / "out"
+    call(gudgeon, "run", short, "--out", first, "--set", "c=0.2mm", "--tolerance", "1e-6", "--method", "adams", "--analysis", "dynamic",
+         "--write", "channels", "--quiet")
+    call(gudgeon, "run", short, f"--out={second}", "--set=c=0.2mm", "--tolerance=1e-6", "--method=adams", "--analysis=dynamic",
+         "--write=channels", "--quiet")
+    assert (Run(first).contacts["time"] == Run(second).contacts["time"]).all() and len(Run(first).contacts) > 0
+    assert Run(second).summary["method"] == "adams" and Run(second).summary["tolerance"] == 1e-6
+    assert "takes no value" in call(gudgeon, "check", short, "--ideal=yes", expect=USAGE).stderr
+    assert "'--metod'" in call(gudgeon, "check", short, "--metod=rk4", expect=USAGE).stderr
+
+
+def test_deck_in_force(gudgeon, short):
+    """After --set the deck in run.h5 is the one that ran: run again, it gives the same; the file's value stands in a comment."""
+    included = written(scratch(), f'deck = 1\ninclude "{short}"\n')
+    for deck in (short, included):
+        out, again = scratch() / "out", scratch() / "out"
+        call(gudgeon, "run", deck, "--out", out, "--set", "c=0.2 mm", "--set", "law=hertz", "--quiet")
+        group = Run(out).read("deck") if deck is short else next(iter(Run(out).group("deck_includes").values()))
+        assert re.search(r"(?m)^c +=\s*0.2 mm +# --set; the file has 0.5 mm", group)
+        call(gudgeon, "run", written(scratch(), group), "--out", again, "--quiet")
+        assert (Run(out).contacts["time"] == Run(again).contacts["time"]).all() and len(Run(out).contacts) > 0
 
 
 def test_help(gudgeon):

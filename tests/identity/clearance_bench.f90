@@ -11,12 +11,12 @@ module clearance_bench
    use clearance_translational, only: clearance_translational_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use errors, only: error_t
-   use fixed_random, only: random_t
+   use fixed_random, only: random_t, seed_of
    use friction_law, only: friction_law_t, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
-   use kinds, only: i8, wp
+   use kinds, only: wp
    use law_fixture, only: tame
    use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_motion, set_some_acceleration
    use normal_law, only: n_law_parameter, normal_law_t
@@ -114,19 +114,22 @@ contains
       real(wp) :: delta(n_all), parameters(n_law_parameter), rate(n_all)
       integer :: c, k, m
 
-      random%state = int(1000*kind + 100*law_kind + 10*friction_kind + form, i8)
       call new_clearance_set(kind, bench%set)
       info = bench%set%info()
       call new_normal_law(law_kind, law)
       law_info = law%info()
-      call fill_item(law_info, 1, random, law_item)
-      call tame(law_info, law_item, .true.)  ! some laws are of other surfaces
-      call set_number(law_info, "restitution", 0.7_wp, law_item)
-      call law%prepare(law_item)
       bench%name = info%name//", "//law_info%name
       if (friction_kind > 0) then
          call new_friction_law(friction_kind, friction)
          friction_info = friction%info()
+         bench%name = bench%name//", "//friction_info%name
+      end if
+      random%state = seed_of(bench%name, form)
+      call fill_item(law_info, 1, random, law_item)
+      call tame(law_info, law_item, .true.)  ! some laws are of other surfaces
+      call set_number(law_info, "restitution", 0.7_wp, law_item)
+      call law%prepare(law_item)
+      if (friction_kind > 0) then
          call fill_item(friction_info, 1, random, law_item)
          call set_number(friction_info, "coefficient", 0.12_wp, law_item)
          call set_number(friction_info, "v0", 1.0e-4_wp, law_item)
@@ -136,7 +139,6 @@ contains
          call set_number(friction_info, "static_coefficient", 0.15_wp, law_item)
          call set_number(friction_info, "force", 1.0e4_wp, law_item)
          call friction%prepare(law_item)
-         bench%name = bench%name//", "//friction_info%name
       end if
       c = column_number(info, "form") + column_number(info, "faces")
       words = split_blank("corrected")

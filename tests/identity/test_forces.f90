@@ -6,7 +6,7 @@ module test_forces
    use differences, only: five_point, places
    use errors, only: error_t
    use expression, only: constant_expression
-   use fixed_random, only: random_t
+   use fixed_random, only: random_t, seed_of
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_set_t
    use generic_item, only: column_number, fill_item, make_expression
@@ -64,9 +64,9 @@ contains
       real(wp) :: q(3, n_body), v(3, n_body)
       integer :: c, k
 
-      random%state = int(100 + kind, i8)
       call new_force_set(kind, bench%set)
       info = bench%set%info()
+      random%state = seed_of(info%name, 0)
       bench%name = info%name
       bench%points%n = n_body
       allocate (bench%points%body(n_body), bench%points%s(3, n_body))

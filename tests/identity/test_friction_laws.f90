@@ -3,12 +3,12 @@ module test_friction_laws
    use check, only: check_close, check_equal, check_true, suite_t
    use contact_registry, only: n_friction_kinds, new_friction_law
    use errors, only: error_t
-   use fixed_random, only: random_t
+   use fixed_random, only: random_t, seed_of
    use friction_law, only: friction_law_t, memory_none
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
-   use kinds, only: i8, wp
+   use kinds, only: wp
    implicit none (type, external)
    private
    public :: run_test_friction_laws
@@ -36,10 +36,13 @@ contains
       class(friction_law_t), allocatable, intent(out) :: law      !! the law
       type(item_t), intent(out) :: item                           !! its row
 
+      type(kind_info_t) :: info
       type(random_t) :: random
       integer :: attempt
 
-      random%state = int(100*kind + row, i8)
+      call new_friction_law(kind, law)
+      info = law%info()
+      random%state = seed_of(info%name, row)
       do attempt = 1, 100
          call new_friction_law(kind, law)
          call fill_item(law%info(), row, random, item)

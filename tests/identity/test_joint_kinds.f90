@@ -8,16 +8,17 @@ module test_joint_kinds
    use differences, only: five_point, places
    use driver_position, only: driver_position_t
    use errors, only: error_t
-   use fixed_random, only: random_t
+   use fixed_random, only: random_t, seed_of
    use generic_item, only: fill_item
    use item, only: item_t
    use joint_distance, only: joint_distance_t
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t, new_rows, rows_t
    use kind_info, only: kind_info_t
-   use kinds, only: i8, wp
+   use kinds, only: not_a_number, wp
    use lapack, only: dgelsd
    use motion, only: motion_t, new_motion, set_planar_motion
+   use planar_report, only: joint_channels
    use span, only: span_of
    use text, only: text_t, to_text
    implicit none (type, external)
@@ -60,6 +61,7 @@ contains
       call suite%test("coinciding_points", test_coinciding_points)
       call suite%test("position_along_axis", test_position_along_axis)
       call suite%test("memory", test_memory)
+      call suite%test("own_channels", test_own_channels)
    end subroutine run_test_joint_kinds
 
    !> Items of a kind between ground and two bodies.
@@ -79,9 +81,9 @@ contains
 
       length = 1.0_wp
       if (present(unit_of_length)) length = unit_of_length
-      random%state = int(1000*kind + seed, i8)
       call new_joint_set(kind, bench%set)
       info = bench%set%info()
+      random%state = seed_of(info%name, seed)
       bench%name = info%name//" geometry "//to_text(seed)
       points%n = 2*n_item
       allocate (points%body(2*n_item), points%s(3, 2*n_item))
@@ -474,5 +476,34 @@ contains
          call check_equal(error, place, bench%set%memory_size(), bench%name//": numbers loaded")
       end do
    end subroutine test_memory
+
+   !> Every channel of a kind is filled: those of all joints and drivers by the report, its own by the kind.
+   subroutine test_own_channels(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(bench_t) :: bench
+      type(kind_info_t) :: info
+      real(wp) :: lambda(3), values(2)
+      integer :: c, kind
+      logical :: is_known
+
+      lambda = [3.0_wp, -5.0_wp, 7.0_wp]
+      do kind = 1, n_joint_kinds
+         call make_bench(kind, 1, bench)
+         info = bench%set%info()
+         if (.not. allocated(info%channels)) cycle
+         do c = 1, size(info%channels)
+            associate (channel => info%channels(c))
+               if (index(joint_channels, " "//channel%name//" ") > 0) cycle
+               values = not_a_number()
+               call bench%set%report(channel%name, 2, bench%motion, lambda(1:info%n_row), values(1:channel%components), is_known)
+               call check_true(error, is_known, bench%name//": knows its channel "//channel%name)
+               call check_true(error, all(ieee_is_finite(values(1:channel%components))), bench%name//": fills "//channel%name)
+            end associate
+         end do
+         call bench%set%report("no_such_channel", 1, bench%motion, lambda(1:info%n_row), values, is_known)
+         call check_true(error, .not. is_known, bench%name//": knows only its own")
+      end do
+   end subroutine test_own_channels
 
 end module test_joint_kinds

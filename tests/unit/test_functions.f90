@@ -5,7 +5,7 @@ module test_functions
    use differences, only: five_point, places
    use errors, only: error_t
    use expression, only: expression_t
-   use fixed_random, only: random_t
+   use fixed_random, only: random_t, seed_of
    use function_kind, only: function_kind_t, made_t
    use function_registry, only: n_function_kinds, new_function_kind
    use generic_item, only: fill_item
@@ -46,7 +46,7 @@ contains
          call new_function_kind(k, kind)
          info = kind%info()
          do seed = 1, 3
-            random%state = int(10*k + seed, i8)
+            random%state = seed_of(info%name, seed)
             call fill_item(info, seed, random, item)
             do i = 1, size(info%columns)
                ! c0, c1 ... of a polynomial have a dimension of their own each
