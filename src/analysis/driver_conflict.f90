@@ -21,7 +21,8 @@ module driver_conflict
 
 contains
 
-   !> Say which drivers or initial speeds contradict each other, if that is why a mechanism cannot be assembled; else leave the error as it is.
+   !> Say which drivers or initial speeds contradict each other, if that is why a mechanism cannot be assembled; else
+   !> the error stays as it is.
    subroutine name_conflict(scene, levels, q, v, error)
       type(scene_t), intent(in) :: scene                      !! the scene
       integer, intent(in) :: levels                           !! how joints with clearance are taken

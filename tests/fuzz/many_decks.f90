@@ -19,7 +19,8 @@ program many_decks
 
    options%write = "all"
    allocate (options%overrides(0))
-   call use_one_blas_thread()
+   call use_one_blas_thread(error)
+   if (allocated(error)) error stop error%code
    if (ieee_support_underflow_control(1.0_wp)) call ieee_set_underflow_mode(gradual=.false.)
    k = 0
    do
