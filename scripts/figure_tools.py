@@ -80,8 +80,13 @@ class Run:
 
     @property
     def time(self):
-        """Output instants [s]."""
+        """Instants of all rows, those at contacts too [s]."""
         return self.read("time")
+
+    @property
+    def is_spaced(self):
+        """Which rows are output instants, equally spaced: for means."""
+        return self.read("row_kind") == 0
 
     @property
     def contacts(self):

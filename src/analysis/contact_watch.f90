@@ -1,6 +1,12 @@
 !> Follows the contacts of a motion: their onset, their maxima, their end, one row for each.
+!>
+!> The greatest force of a contact is one that the motion had at an instant that can be reported: a maximum within a step, which is
+!> told at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or a
+!> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
-   use integrator, only: integrator_t
+   use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   use force_jumps, only: law_jumps, time_to_see
+   use integrator, only: integrator_t, onset_located
    use kinds, only: not_a_number, wp
    use memory, only: get, put
    use planar_system, only: n_ledger, planar_system_t
@@ -12,26 +18,15 @@ module contact_watch
    public :: close_open, contact_watch_t, new_contact_watch
 
    real(wp), parameter :: first_step = 0.01_wp   !! first step of a contact, of the duration of an elastic impact [1]
-   real(wp), parameter :: near = 1.0e-9_wp       !! error of a maximum, the square of what the parabola adds [1]
-   integer, parameter :: n_search = 8            !! places looked at in search of a maximum
-
-   !> A value and its rate.
-   type :: trend_t
-      real(wp) :: value = 0.0_wp  !! force or penetration [N or m]
-      real(wp) :: rate = 0.0_wp   !! its rate [N/s or m/s]
-   end type trend_t
-
-   !> Part of a step that holds a maximum: the value rises at its left end and falls at its right end.
-   type :: bracket_t
-      real(wp) :: place_a = 0.0_wp  !! left end, of the step [1]
-      real(wp) :: place_b = 1.0_wp  !! right end, of the step [1]
-      real(wp) :: h = 0.0_wp        !! length of the step [s]
-      type(trend_t) :: a            !! what is at the left end
-      type(trend_t) :: b            !! what is at the right end
-   end type bracket_t
+   real(wp), parameter :: noise = 1.0e-7_wp      !! of a force that a row has told: more than that is worth another row [1]
 
    !> What is known of each contact at the end of the last step.
    type :: contact_watch_t
+      type(peak_t), allocatable :: peaks(:)          !! (n_peak or more) greatest forces so far that lie within the last step
+      integer :: n_peak = 0                          !! how many
+      logical, allocatable :: owes_row(:)            !! (contacts) the present force is the greatest so far, and no row tells it
+      real(wp), allocatable :: told(:)               !! (contacts) the greatest force of the contact that a row tells [N]
+      real(wp) :: shift = 0.0_wp                     !! time from the last onset to where a force that jumps there is seen [s]
       type(trend_t), allocatable :: force(:)         !! (contacts) normal force
       type(trend_t), allocatable :: penetration(:)   !! (contacts) penetration
       real(wp), allocatable :: y(:)                  !! (n) scratch state [any]
@@ -39,6 +34,8 @@ module contact_watch
       real(wp), allocatable :: g(:), g_rate(:)       !! (contacts) scratch event functions and rates [m, m/s]
    contains
       procedure :: after_step
+      procedure :: note_row
+      procedure :: foresee
       procedure :: after_restart
       procedure :: handle_event
       procedure :: memory_size => watch_memory_size
@@ -53,6 +50,9 @@ contains
       type(planar_system_t), intent(in) :: system   !! the system
       type(contact_watch_t), intent(out) :: watch   !! the watch
 
+      allocate (watch%peaks(1))
+      allocate (watch%owes_row(system%n_contact), source=.false.)
+      allocate (watch%told(system%n_contact), source=0.0_wp)
       allocate (watch%force(system%n_contact), watch%penetration(system%n_contact))
       allocate (watch%y(system%n), watch%ydot(system%n), source=0.0_wp)
       allocate (watch%g(system%n_contact), watch%g_rate(system%n_contact), source=0.0_wp)
@@ -65,9 +65,12 @@ contains
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step; the system is at its end
 
       type(trend_t) :: force, penetration
+      type(peak_t) :: peak
+      real(wp) :: deepest
       integer :: i, k, number
       logical :: has_force_peak, has_peak
 
+      self%n_peak = 0
       do k = 1, size(system%clearances)
          if (system%clearances(k)%set%n_touching == 0) cycle
          call system%set_acceleration(method%step%f1)
@@ -75,171 +78,155 @@ contains
             if (.not. system%clearances(k)%set%contact(i)%is_touching) cycle
             number = system%clearances(k)%set%first_contact + i
             call look(system, k, i, force, penetration)
-            call keep_peaks(system, k, i, penetration%value, force%value)
             has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
             has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate < 0.0_wp
-            if (has_peak) call find_penetration_peak(self, system, method, k, i, self%penetration(number), penetration)
-            if (has_force_peak) call find_force_peak(self, system, method, k, i, self%force(number), force)
+            deepest = penetration%value
+            if (has_peak) then
+               call find_penetration_peak(system, method, k, i, self%penetration(number), penetration, self%y, deepest)
+            end if
+            peak%force = -1.0_wp
+            if (has_force_peak) then
+               call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
+            end if
             if (has_peak .or. has_force_peak) call system%set_state(method%t, method%step%y1, method%step%f1)
+            call keep_depth(system, k, i, max(deepest, penetration%value))
+            call keep_force(self, system, method, k, i, peak, force%value)
             self%force(number) = force
             self%penetration(number) = penetration
          end do
       end do
    end subroutine after_step
 
-   !> After events: forces that jumped with them begin anew, and count as peaks at once.
+   !> Raise the greatest penetration that a contact remembers.
+   subroutine keep_depth(system, slot, item, delta)
+      type(planar_system_t), intent(inout) :: system  !! the system
+      integer, intent(in) :: slot                     !! set of the contact
+      integer, intent(in) :: item                     !! contact of the set
+      real(wp), intent(in) :: delta                   !! penetration [m]
+
+      associate (contact => system%clearances(slot)%set%contact(item))
+         contact%peak_penetration = max(contact%peak_penetration, delta)
+      end associate
+   end subroutine keep_depth
+
+   !> Raise the greatest force that a contact remembers, by what the last step had. Where it stood at the start of the step and the
+   !> step does not go beyond it, the row that is owed is told now.
+   subroutine keep_force(self, system, method, slot, item, peak, at_end)
+      type(contact_watch_t), intent(inout) :: self    !! the watch
+      type(planar_system_t), intent(inout) :: system  !! the system
+      class(integrator_t), intent(in) :: method       !! the integrator, after a step
+      integer, intent(in) :: slot                     !! set of the contact
+      integer, intent(in) :: item                     !! contact of the set
+      type(peak_t), intent(in) :: peak                !! maximum within the step
+      real(wp), intent(in) :: at_end                  !! force at its end [N]
+
+      integer :: number
+
+      number = system%clearances(slot)%set%first_contact + item
+      associate (contact => system%clearances(slot)%set%contact(item))
+         if (peak%force > max(contact%peak_force, at_end)) then
+            if (peak%force > (1.0_wp + noise)*self%told(number)) call tell(peak)
+         else if (self%owes_row(number) .and. at_end <= contact%peak_force) then
+            call tell(peak_t(method%step%t0, contact%peak_force, method%step%y0))
+         end if
+         contact%peak_force = max(contact%peak_force, peak%force, at_end)
+         self%owes_row(number) = at_end >= contact%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
+      end associate
+
+   contains
+
+      !> Tell of a force.
+      subroutine tell(one)
+         type(peak_t), intent(in) :: one  !! the force and where it is
+
+         call add_peak(one, self%peaks, self%n_peak)
+         self%told(number) = one%force
+      end subroutine tell
+
+   end subroutine keep_force
+
+   !> A row was written at the present state: nothing is owed.
+   subroutine note_row(self)
+      class(contact_watch_t), intent(inout) :: self     !! the watch
+
+      where (self%owes_row) self%told = self%force%value
+      self%owes_row = .false.
+   end subroutine note_row
+
+   !> What the events at the end of the last step are going to be; to be asked before they are handled.
+   subroutine foresee(self, system, method, has_end, has_onset, has_jump)
+      class(contact_watch_t), intent(inout) :: self     !! the watch
+      type(planar_system_t), intent(inout) :: system    !! the system
+      class(integrator_t), intent(in) :: method         !! the integrator, at the events
+      logical, intent(out) :: has_end                   !! a contact ends
+      logical, intent(out) :: has_onset                 !! a contact begins
+      logical, intent(out) :: has_jump                  !! a normal force may jump
+
+      type(trend_t) :: force, penetration
+      integer :: i, k, n, number
+
+      has_end = .false.
+      has_onset = .false.
+      has_jump = .false.
+      self%shift = 0.0_wp
+      do n = 1, method%n_happened
+         number = method%happened(n)
+         if (number > system%n_contact) then
+            has_jump = has_jump .or. (system%first_turn > 0 .and. number > system%first_turn)
+            cycle
+         end if
+         call system%find_contact(number, k, i)
+         call system%set_motion(method%t, method%step%y1)
+         call look(system, k, i, force, penetration)
+         associate (set => system%clearances(k)%set)
+            if (set%contact(i)%is_touching) then
+               has_end = .true.
+               has_jump = has_jump .or. set%energy_jumps .or. law_jumps(set, i, penetration%rate, set%contact(i)%impact_speed)
+               cycle
+            end if
+            has_onset = .true.
+            has_jump = has_jump .or. set%energy_jumps .or. method%controls%onset /= onset_located
+            if (.not. law_jumps(set, i, penetration%rate, max(penetration%rate, 0.0_wp))) cycle
+            has_jump = .true.
+            self%shift = max(self%shift, time_to_see(system, method, penetration%value, penetration%rate))
+         end associate
+      end do
+   end subroutine foresee
+
+   !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after.
    subroutine after_restart(self, system, method)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(planar_system_t), intent(inout) :: system    !! the system, at the present state
       class(integrator_t), intent(in) :: method         !! the integrator, begun again
 
-      integer :: i, k, number
+      integer :: i, k, number, status
 
+      status = 1
+      if (self%shift > 0.0_wp) then
+         self%y = method%step%y1 + self%shift*method%step%f1
+         call system%evaluate(method%t + self%shift, self%y, self%ydot, status)
+         if (status == 0) call system%set_state(method%t + self%shift, self%y, self%ydot)
+      end if
+      if (status /= 0) then
+         self%shift = 0.0_wp
+         call system%set_state(method%t, method%step%y1, method%step%f1)
+      end if
       do k = 1, size(system%clearances)
-         if (.not. system%clearances(k)%set%energy_jumps .or. system%clearances(k)%set%n_touching == 0) cycle
-         call system%set_acceleration(method%step%f1)
+         if (system%clearances(k)%set%n_touching == 0) cycle
          do i = 1, system%clearances(k)%set%n_contact
-            if (.not. system%clearances(k)%set%contact(i)%is_touching) cycle
-            number = system%clearances(k)%set%first_contact + i
-            call look(system, k, i, self%force(number), self%penetration(number))
-            call keep_peaks(system, k, i, self%penetration(number)%value, self%force(number)%value)
+            associate (contact => system%clearances(k)%set%contact(i))
+               if (.not. contact%is_touching) cycle
+               number = system%clearances(k)%set%first_contact + i
+               call look(system, k, i, self%force(number), self%penetration(number))
+               call keep_depth(system, k, i, self%penetration(number)%value)
+               contact%peak_force = max(contact%peak_force, self%force(number)%value)
+               self%owes_row(number) = self%force(number)%value >= contact%peak_force .and. &
+                                       self%force(number)%value > (1.0_wp + noise)*self%told(number)
+            end associate
          end do
       end do
+      if (self%shift > 0.0_wp) call system%set_state(method%t, method%step%y1, method%step%f1)
    end subroutine after_restart
-
-   !> Force and penetration of a contact at the present motion.
-   subroutine look(system, slot, item, force, penetration)
-      type(planar_system_t), intent(in) :: system     !! the system, motion and accelerations set
-      integer, intent(in) :: slot                     !! set of the contact
-      integer, intent(in) :: item                     !! contact of the set
-      type(trend_t), intent(out) :: force             !! normal force
-      type(trend_t), intent(out) :: penetration       !! penetration
-
-      call system%clearances(slot)%set%watch(item, system%motion, penetration%value, penetration%rate, &
-                                             force%value, force%rate)
-   end subroutine look
-
-   !> Raise the peaks that a contact remembers.
-   subroutine keep_peaks(system, slot, item, delta, force)
-      type(planar_system_t), intent(inout) :: system  !! the system
-      integer, intent(in) :: slot                     !! set of the contact
-      integer, intent(in) :: item                     !! contact of the set
-      real(wp), intent(in) :: delta                   !! penetration [m]
-      real(wp), intent(in) :: force                   !! normal force [N]
-
-      associate (contact => system%clearances(slot)%set%contact(item))
-         contact%peak_force = max(contact%peak_force, force)
-         contact%peak_penetration = max(contact%peak_penetration, delta)
-      end associate
-   end subroutine keep_peaks
-
-   !> Maximum of the penetration within the last step, on its interpolant.
-   subroutine find_penetration_peak(self, system, method, slot, item, left, right)
-      class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(planar_system_t), intent(inout) :: system    !! the system
-      class(integrator_t), intent(in) :: method         !! the integrator, after a step
-      integer, intent(in) :: slot                       !! set of the contact
-      integer, intent(in) :: item                       !! contact of the set
-      type(trend_t), intent(in) :: left                 !! penetration at the start of the step
-      type(trend_t), intent(in) :: right                !! penetration at its end
-
-      type(bracket_t) :: bracket
-      type(trend_t) :: force, here
-      real(wp) :: place
-      integer :: k
-
-      bracket = bracket_t(h=method%step%h, a=left, b=right)
-      do k = 1, n_search
-         place = maximum_in(bracket)
-         call method%within(system, place, self%y)
-         call system%set_motion(method%step%t0 + place*method%step%h, self%y)
-         call look(system, slot, item, force, here)
-         call keep_peaks(system, slot, item, here%value + missing(here, bracket), 0.0_wp)
-         if (missing(here, bracket) <= sqrt(near)*abs(here%value)) exit
-         call narrow(place, here, bracket)
-      end do
-   end subroutine find_penetration_peak
-
-   !> Maximum of the normal force within the last step: each place looked at is reached by the method
-   !> itself, so that the force is as accurate as the step. What is still missing to the maximum of
-   !> the parabola through the place is added.
-   subroutine find_force_peak(self, system, method, slot, item, left, right)
-      class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(planar_system_t), intent(inout) :: system    !! the system
-      class(integrator_t), intent(inout) :: method      !! the integrator, after a step
-      integer, intent(in) :: slot                       !! set of the contact
-      integer, intent(in) :: item                       !! contact of the set
-      type(trend_t), intent(in) :: left                 !! force at the start of the step
-      type(trend_t), intent(in) :: right                !! force at its end
-
-      type(bracket_t) :: bracket
-      type(trend_t) :: here, penetration
-      real(wp) :: place
-      integer :: k, status
-
-      bracket = bracket_t(h=method%step%h, a=left, b=right)
-      do k = 1, n_search
-         place = maximum_in(bracket)
-         call method%refine(system, place, self%y, status)
-         if (status /= 0) return
-         call system%evaluate(method%step%t0 + place*method%step%h, self%y, self%ydot, status)
-         if (status /= 0) return
-         call system%set_state(method%step%t0 + place*method%step%h, self%y, self%ydot)
-         call look(system, slot, item, here, penetration)
-         call keep_peaks(system, slot, item, 0.0_wp, here%value + missing(here, bracket))
-         if (missing(here, bracket) <= sqrt(near)*abs(here%value)) exit
-         call narrow(place, here, bracket)
-      end do
-   end subroutine find_force_peak
-
-   !> Put a place in for that end of the bracket that is on its side of the maximum.
-   pure subroutine narrow(place, here, bracket)
-      real(wp), intent(in) :: place               !! a place between [1]
-      type(trend_t), intent(in) :: here           !! what is there
-      type(bracket_t), intent(inout) :: bracket   !! the bracket
-
-      if (here%rate >= 0.0_wp) then
-         bracket%place_a = place
-         bracket%a = here
-      else
-         bracket%place_b = place
-         bracket%b = here
-      end if
-   end subroutine narrow
-
-   !> What is missing to the maximum of a parabola with the curvature of the bracket.
-   pure real(wp) function missing(here, bracket) result(rest)
-      type(trend_t), intent(in) :: here        !! a place between
-      type(bracket_t), intent(in) :: bracket   !! the bracket
-
-      real(wp) :: time  ! length of the bracket [s]
-
-      time = (bracket%place_b - bracket%place_a)*bracket%h
-      rest = 0.5_wp*here%rate**2*time/max(bracket%a%rate - bracket%b%rate, tiny(1.0_wp))
-   end function missing
-
-   !> Place of the maximum of the cubic of Hermite through the ends of a bracket, kept off the ends.
-   pure real(wp) function maximum_in(bracket) result(place)
-      type(bracket_t), intent(in) :: bracket   !! the bracket
-
-      real(wp), parameter :: margin = 1.0e-3_wp  ! of the bracket [1]
-      real(wp) :: c2, c3, rate_a, rate_b, rise, root, s
-
-      rate_a = bracket%a%rate*bracket%h*(bracket%place_b - bracket%place_a)
-      rate_b = bracket%b%rate*bracket%h*(bracket%place_b - bracket%place_a)
-      rise = bracket%b%value - bracket%a%value
-      c2 = 3.0_wp*rise - 2.0_wp*rate_a - rate_b
-      c3 = rate_a + rate_b - 2.0_wp*rise
-      root = sqrt(max(c2*c2 - 3.0_wp*c3*rate_a, 0.0_wp))
-      s = 0.5_wp
-      if (c2 > 0.0_wp .and. c3 < 0.0_wp) then
-         s = -(c2 + root)/(3.0_wp*c3)
-      else if (root - c2 > 0.0_wp) then
-         s = rate_a/(root - c2)
-      end if
-      s = min(max(s, margin), 1.0_wp - margin)
-      place = bracket%place_a + s*(bracket%place_b - bracket%place_a)
-   end function maximum_in
 
    !> A located event: a contact begins or ends, turns, slips or sticks. Where the energy that the contacts store jumps with it,
    !> what is gone counts as lost in this contact: it is negative where the energy grows.
@@ -274,14 +261,14 @@ contains
          stored = 0.0_wp
          if (set%energy_jumps) stored = set%elastic_energy(system%motion)
          is_over = set%contact(i)%is_touching
+         self%owes_row(number) = .false.
+         self%told(number) = 0.0_wp
          if (is_over) then
             call set%end_contact(i, method%t, -rate, loss_of(system, method%step%y1, number), .true., row)
             step_hint = 0.0_wp
          else
             rate = max(rate, 0.0_wp)
             call set%begin_contact(i, method%t, rate, loss_of(system, method%step%y1, number))
-            self%force(number) = trend_t(0.0_wp, 0.0_wp)
-            self%penetration(number) = trend_t(0.0_wp, rate)
             step_hint = step_in_contact(rate)
          end if
          if (.not. (set%energy_jumps .and. system%with_ledger)) return
@@ -331,7 +318,7 @@ contains
    integer function watch_memory_size(self) result(n)
       class(contact_watch_t), intent(in) :: self  !! the watch
 
-      n = 4*size(self%force)
+      n = 6*size(self%force)
    end function watch_memory_size
 
    !> Write what the watch remembers.
@@ -344,6 +331,8 @@ contains
 
       do k = 1, size(self%force)
          call put(row, place, [self%force(k)%value, self%force(k)%rate, self%penetration(k)%value, self%penetration(k)%rate])
+         call put(row, place, self%owes_row(k))
+         call put(row, place, self%told(k))
       end do
    end subroutine watch_save
 
@@ -360,6 +349,8 @@ contains
          call get(row, place, self%force(k)%rate)
          call get(row, place, self%penetration(k)%value)
          call get(row, place, self%penetration(k)%rate)
+         call get(row, place, self%owes_row(k))
+         call get(row, place, self%told(k))
       end do
    end subroutine watch_load
 

@@ -83,6 +83,8 @@ contains
       call cpu_time(cpu_0)
       if (.not. allocated(error)) call integrate(system, method, y, plan, recorder, run, error)
       call cpu_time(cpu_1)
+      call run%sampler%finish(system, method, plan, run%watch, run%residual, recorder, late_error)
+      if (allocated(error) .and. allocated(late_error)) deallocate (late_error)  ! told already
       do
          call close_open(system, method, is_open, row)
          if (.not. is_open .or. allocated(late_error)) exit
@@ -96,9 +98,10 @@ contains
       run%summary%steps = method%n_steps
       run%summary%rejected_steps = method%n_rejected
       run%summary%rhs_evaluations = system%n_evaluations
-      run%summary%output_evaluations = method%n_output_evaluations + run%sampler%n_sample + int(run%sampler%n_strobe, i8)
+      run%summary%output_evaluations = method%n_output_evaluations + run%sampler%n_reports
       run%summary%factorisations = system%solver%n_factorisations
       run%summary%samples = int(run%sampler%n_sample)
+      run%summary%rows = run%sampler%n_row
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
       if (.not. allocated(error)) call audit(run%summary, limits, error)
       call warn(system, run)
@@ -138,7 +141,8 @@ contains
       run%balance_0 = energy%balance()
       run%potential_0 = energy%potential
       call look_at_step(system, method, run)
-      call run%sampler%take(system, method, plan, run%residual, recorder, error)
+      if (system%n_loose > 0) call run%watch%after_restart(system, method)
+      call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
       n_since_progress = 0
       do while (method%t < plan%end .and. .not. allocated(error))
          call method%advance(system, plan%end, status)
@@ -152,9 +156,9 @@ contains
             return
          end if
          if (system%n_loose > 0) call run%watch%after_step(system, method)
-         call run%sampler%take(system, method, plan, run%residual, recorder, error)
+         call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
          if (status == advance_event .and. .not. allocated(error)) then
-            call handle_events(system, method, recorder, run, error)
+            call handle_events(system, method, plan, recorder, run, error)
          end if
          n_since_progress = n_since_progress + 1
          if (n_since_progress == progress_every) then
@@ -194,9 +198,10 @@ contains
    end subroutine look_at_step
 
    !> Handle the events at the end of the last step, and go on from there.
-   subroutine handle_events(system, method, recorder, run, error)
+   subroutine handle_events(system, method, plan, recorder, run, error)
       type(planar_system_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator
+      type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(run_t), intent(inout) :: run                   !! state of the run
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
@@ -212,6 +217,8 @@ contains
          call describe_failure(system, method, events_without_end, error)
          return
       end if
+      call run%sampler%before_events(system, method, plan, run%watch, run%residual, recorder, error)
+      if (allocated(error)) return
       step_hint = 0.0_wp
       do k = 1, method%n_happened
          call run%watch%handle_event(system, method, method%happened(k), is_over, row, hint)
@@ -235,6 +242,7 @@ contains
          return
       end if
       call run%watch%after_restart(system, method)
+      call run%sampler%after_events(system, method, plan, run%watch, run%residual, recorder, error)
    end subroutine handle_events
 
    !> Decide whether contacts that have just begun slip or stick.

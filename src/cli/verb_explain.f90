@@ -17,6 +17,7 @@ module verb_explain
    use mobility, only: find_mobility, mobility_t
    use options, only: options_t
    use planar_system, only: planar_system_t
+   use row_plan, only: contact_rows_text
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium
@@ -354,9 +355,13 @@ contains
    subroutine explain_times(loaded)
       type(loaded_t), intent(in) :: loaded  !! the deck
 
+      character(:), allocatable :: words
+
       call say("from 0 to "//to_text(loaded%plan%end)//" s; output from "//to_text(loaded%plan%first_output)// &
                " s every "//to_text(loaded%plan%every)//" s, "// &
                counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
+      words = contact_rows_text(loaded%scene, loaded%system)
+      if (len(words) > 0) call say(words, 2)
    end subroutine explain_times
 
    !> Why `auto` has chosen the solver.

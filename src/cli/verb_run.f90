@@ -26,6 +26,7 @@ module verb_run
    use planar_system, only: planar_system_t
    use prescribed_motion, only: newton_t
    use recorder, only: summary_t
+   use row_plan, only: contact_rows_text, has_contact_rows
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
@@ -246,6 +247,8 @@ contains
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
       if (loaded%system%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
+      plan%with_contact_rows = has_contact_rows(loaded%scene, loaded%system)
+      plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
       plan%with_histories = options%write /= "numbers"
       plan%with_texts = options%write == "all"
       plan%with_figures = options%write == "all"

@@ -1,4 +1,4 @@
-!> The layout of run.h5, format 1.0: root attributes, deck, names, one growing dataset per quantity.
+!> The layout of run.h5, format 1.1: root attributes, deck, names, one growing dataset per quantity.
 !>
 !> A room appears if some item of it has a chosen channel, with all such items; a quantity appears
 !> if it is chosen for some item, and its dataset then holds all items of the room that appear.
@@ -11,13 +11,13 @@ module hdf5_layout
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
    use kinds, only: wp
    use output_plan, only: output_plan_t
-   use recorder, only: status_running
+   use recorder, only: row_kinds, status_running
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: dataset_t, make_quantities, make_root, make_time
+   public :: dataset_t, make_quantities, make_root, make_row_kind, make_time
 
-   integer, parameter :: format_version(2) = [1, 0]  !! major, minor: a reader must know the major number
+   integer, parameter :: format_version(2) = [1, 1]  !! major, minor: a reader must know the major number
 
    !> One quantity in the file, and its rows that are not yet there.
    type :: dataset_t
@@ -107,8 +107,24 @@ contains
 
       call new_dataset(file, "time", h5t_ieee_f64le, [0_hsize_t], id, status, chunk=[int(block, hsize_t)])
       if (status >= 0) status = c_set_scale(int(id, c_int64_t), "time"//c_null_char)
-      call describe(id, "s", "time of the output instant", "none", status)
+      call describe(id, "s", "time of the row", "none", status)
    end subroutine make_time
+
+   !> What each row is.
+   subroutine make_row_kind(file, block, time, dataset, status)
+      integer(hid_t), intent(in) :: file           !! the file
+      integer, intent(in) :: block                 !! rows of a chunk
+      integer(hid_t), intent(in) :: time           !! the dimension scale
+      type(dataset_t), intent(inout) :: dataset    !! the dataset
+      integer, intent(inout) :: status             !! negative: failed
+
+      dataset%is_state = .true.
+      allocate (dataset%shape(0), dataset%rows(1, block))
+      call new_dataset(file, "row_kind", h5t_std_i8le, [0_hsize_t], dataset%id, status, chunk=[int(block, hsize_t)])
+      call describe(dataset%id, "1", "what the row is", "none", status)
+      call text_attribute(dataset%id, "kinds", row_kinds, status)
+      if (status >= 0) status = c_attach_scale(int(dataset%id, c_int64_t), int(time, c_int64_t), 0)
+   end subroutine make_row_kind
 
    !> Names and datasets of everything chosen.
    subroutine make_quantities(file, catalogue, selection, block, time, datasets, status)

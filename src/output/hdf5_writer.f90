@@ -14,7 +14,7 @@ module hdf5_writer
    use hdf5, only: hid_t, hsize_t
    use hdf5_calls, only: new_group, open_library, text_attribute
    use hdf5_events, only: event_table_t
-   use hdf5_layout, only: dataset_t, make_quantities, make_root, make_time
+   use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
@@ -41,6 +41,7 @@ module hdf5_writer
       character(:), allocatable :: path                !! where it is
       integer(hid_t) :: file = -1                      !! the open file
       integer(hid_t) :: time = -1                      !! the open dataset of times
+      type(dataset_t) :: kinds                         !! what each row is
       type(dataset_t), allocatable :: datasets(:)      !! (n) quantities
       type(event_table_t) :: events                    !! table of events
       real(wp), allocatable :: times(:)                !! (block) times of the waiting rows [s]
@@ -92,6 +93,7 @@ contains
       end if
       call make_root(self%file, plan, status)
       if (status >= 0) call make_time(self%file, block, self%time, status)
+      if (status >= 0) call make_row_kind(self%file, block, self%time, self%kinds, status)
       if (status >= 0) call make_quantities(self%file, catalogue, selection, block, self%time, self%datasets, status)
       call self%events%make(self%file, catalogue, status)
       call new_group(self%file, "summary", group, status)
@@ -124,9 +126,10 @@ contains
    end function rows_of_block
 
    !> Keep a row; write the block and the new events if it is full.
-   subroutine sample_file(self, t, catalogue, events, error)
+   subroutine sample_file(self, t, kind, catalogue, events, error)
       class(hdf5_writer_t), intent(inout) :: self        !! the file
       real(wp), intent(in) :: t                          !! time [s]
+      integer, intent(in) :: kind                        !! what the row is
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(event_list_t), intent(in) :: events           !! all events so far
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
@@ -136,6 +139,7 @@ contains
       if (self%is_broken .or. .not. self%with_histories) return
       self%waiting = self%waiting + 1
       self%times(self%waiting) = t
+      self%kinds%rows(1, self%waiting) = real(kind, wp)
       do k = 1, size(self%datasets)
          associate (this => self%datasets(k), n => self%datasets(k)%components)
             at = 0
@@ -167,7 +171,7 @@ contains
       integer(i8) :: bytes
       integer :: k, status
 
-      bytes = 8_i8*size(self%times, kind=i8) + self%events%bytes(events)
+      bytes = 9_i8*size(self%times, kind=i8) + self%events%bytes(events)
       do k = 1, size(self%datasets)
          bytes = bytes + 8_i8*size(self%datasets(k)%rows, kind=i8)
       end do
@@ -175,6 +179,7 @@ contains
       if (allocated(error)) return
       status = 0
       call write_rows(self%time, [integer(hsize_t) ::], self%times(1:self%waiting), self%written, self%waiting, status)
+      call write_states(self%kinds, self%written, self%waiting, status)
       do k = 1, size(self%datasets)
          associate (this => self%datasets(k))
             if (this%is_state) then
@@ -229,7 +234,7 @@ contains
       self%is_broken = .true.
       saved = "nothing was saved"
       if (self%written > 0) saved = "saved and readable: "//to_text(self%written)// &
-                                    " output instants up to t = "//to_text(self%last_time)//" s"
+                                    " rows up to t = "//to_text(self%last_time)//" s"
       call set_error(error, exit_file, action//" "//self%path//": "//why//"; "//saved// &
                      ". Make room there, or write elsewhere with --out DIRECTORY.")
    end subroutine fail
@@ -280,6 +285,7 @@ contains
       do k = 1, size(self%datasets)
          if (self%datasets(k)%id >= 0) call h5dclose_f(self%datasets(k)%id, closed)
       end do
+      if (self%kinds%id >= 0) call h5dclose_f(self%kinds%id, closed)
       if (self%time >= 0) call h5dclose_f(self%time, closed)
       call self%events%close()
       call h5fclose_f(self%file, closed)

@@ -32,6 +32,8 @@ module output_plan
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       logical :: with_hdf5 = .true.                    !! write run.h5
       logical :: with_histories = .true.               !! write time histories to run.h5
+      logical :: with_contact_rows = .false.           !! write rows at the instants of contacts, besides the output instants
+      character(:), allocatable :: contact_rows        !! the same in words, for the summary; blank: there are no contacts
       logical :: with_texts = .true.                   !! write time histories and events as text
       logical :: with_summary = .true.                 !! write summary.txt and summary.json
       logical :: with_figures = .true.                 !! make the figures at the end
@@ -59,6 +61,7 @@ contains
       call fill(self%libraries, "unknown")
       call fill(self%command, "")
       call fill(self%suffix, "")
+      call fill(self%contact_rows, "")
       call fill_list(self%include_names)
       call fill_list(self%include_texts)
       call fill_list(self%channels)

@@ -17,7 +17,7 @@ module run_recorder
    use plot_table, only: plot_table_t
    use posix, only: is_pipe_gone, write_error, write_output
    use progress, only: progress_t
-   use recorder, only: event_t, recorder_t, status_failed, summary_t
+   use recorder, only: event_t, recorder_t, row_instant, status_failed, summary_t
    use statistics, only: number_t, statistics_t
    use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
@@ -47,6 +47,7 @@ module run_recorder
    contains
       procedure :: start => start_run
       procedure :: sample => sample_run
+      procedure :: contact_row => contact_row_run
       procedure :: strobe => strobe_run
       procedure :: event => event_run
       procedure :: progress => progress_run
@@ -80,6 +81,8 @@ contains
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
       end if
+      ! histories want them, and the extremes of the statistics
+      self%wants_contact_rows = self%plan%with_contact_rows .and. (self%plan%with_histories .or. self%statistics%plan%is_wanted)
       self%has_started = .true.
       call self%display%start(self%plan%with_progress)
    end subroutine start_run
@@ -161,15 +164,38 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
+      call keep_row(self, t, row_instant, catalogue, error)
+      call self%statistics%sample(t, catalogue)
+   end subroutine sample_run
+
+   !> Keep the current values as those of an instant of a contact.
+   subroutine contact_row_run(self, t, kind, catalogue, error)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      integer, intent(in) :: kind                        !! what it is
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+
+      call keep_row(self, t, kind, catalogue, error)
+      call self%statistics%note_extremes(t, catalogue)
+   end subroutine contact_row_run
+
+   !> A row of the time histories.
+   subroutine keep_row(self, t, kind, catalogue, error)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      integer, intent(in) :: kind                        !! what it is
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+
       type(error_t), allocatable :: second
 
       self%last_time = t
-      if (self%plan%with_hdf5) call self%hdf5%sample(t, catalogue, self%events, error)
-      if (self%plan%with_texts) call self%texts%sample(t, catalogue, self%events, second)
-      call self%statistics%sample(t, catalogue)
+      if (self%plan%with_hdf5) call self%hdf5%sample(t, kind, catalogue, self%events, error)
+      if (self%plan%with_texts) call self%texts%sample(t, kind, catalogue, self%events, second)
       call join_errors(error, second)
       if (allocated(error)) self%is_broken = .true.
-   end subroutine sample_run
+   end subroutine keep_row
 
    !> Keep the current values as those of an instant once per period.
    subroutine strobe_run(self, t, catalogue)

@@ -1,5 +1,5 @@
 !> Numbers of a motion after its transient: of channels on the output instants, of contacts from their events, and the
-!> channels once per period of the drive.
+!> channels once per period of the drive. Extremes take the rows at contacts too.
 !>
 !> Of a channel x at the output instants t_k from the end of the transient on: mean and RMS by the trapezoidal rule,
 !> $$ \bar x = \frac{1}{t_n - t_1} \sum_k \tfrac12 (x_k + x_{k+1}) (t_{k+1} - t_k), \quad x_{rms}^2 = \overline{x^2}, $$
@@ -76,6 +76,7 @@ module statistics
    contains
       procedure :: start => start_statistics
       procedure :: sample => sample_statistics
+      procedure :: note_extremes
       procedure :: strobe => strobe_statistics
       procedure :: numbers => numbers_of_run
       procedure :: spectrum_of
@@ -165,9 +166,8 @@ contains
             self%integral_2(k) = self%integral_2(k) + 0.5_wp*step*(x**2 + self%x_last(k)**2)
          end if
          self%x_last(k) = x
-         self%lowest(k) = min(self%lowest(k), x)
-         self%highest(k) = max(self%highest(k), x)
       end do
+      call self%note_extremes(t, catalogue)
       self%n_sample = self%n_sample + 1
       self%t_last = t
       if (size(self%spectra) == 0) return
@@ -176,6 +176,23 @@ contains
          self%series(k, self%n_sample) = value_of(catalogue, self%spectra(k))
       end do
    end subroutine sample_statistics
+
+   !> Least and greatest values of an instant, which may be one of a contact.
+   subroutine note_extremes(self, t, catalogue)
+      class(statistics_t), intent(inout) :: self  !! what is gathered
+      real(wp), intent(in) :: t                   !! time [s]
+      type(catalogue_t), intent(in) :: catalogue  !! values at t
+
+      real(wp) :: x
+      integer :: k
+
+      if (.not. self%plan%is_wanted .or. t < self%plan%after) return
+      do k = 1, size(self%channels)
+         x = value_of(catalogue, self%channels(k))
+         self%lowest(k) = min(self%lowest(k), x)
+         self%highest(k) = max(self%highest(k), x)
+      end do
+   end subroutine note_extremes
 
    !> An instant once per period; nothing is kept if no statistics are wanted.
    subroutine strobe_statistics(self, t, catalogue)

@@ -5,6 +5,7 @@ module text_table
    use errors, only: error_t
    use kinds, only: wp
    use output_plan, only: output_plan_t
+   use recorder, only: row_kinds
    use text, only: buffer_t
    use text_file, only: text_file_t
    implicit none (type, external)
@@ -14,11 +15,12 @@ module text_table
    integer, parameter :: number_width = 25                             !! characters of a number, with the blank after it
    character(*), parameter :: number_format = "(*(es24.16e3, 1x))"    !! of a row: 17 digits read back to the same number
 
-   !> A file and its rows that are not yet there.
+   !> A file and its rows that are not yet there. Where rows may be those of contacts, the last column says what each is.
    type :: text_table_t
       type(text_file_t) :: file                    !! the file
       type(scalar_t), allocatable :: columns(:)    !! (n) numbers of a row, without the time
-      real(wp), allocatable :: rows(:, :)          !! (1 + n, block) rows to be written, time first [any]
+      logical :: with_kinds = .false.              !! whether there is a column of kinds, after the others
+      real(wp), allocatable :: rows(:, :)          !! (1 + n or 2 + n, block) rows to be written, time first [any]
    contains
       procedure :: start => start_table
       procedure :: put => put_row
@@ -28,10 +30,11 @@ module text_table
 contains
 
    !> Make the file with its heading.
-   subroutine start_table(self, path, columns, block, plan, catalogue, error)
+   subroutine start_table(self, path, columns, with_kinds, block, plan, catalogue, error)
       class(text_table_t), intent(inout) :: self         !! the table
       character(*), intent(in) :: path                   !! the file
       type(scalar_t), intent(in) :: columns(:)           !! (n) numbers of a row
+      logical, intent(in) :: with_kinds                  !! whether there is a column of kinds
       integer, intent(in) :: block                       !! rows kept in memory
       type(output_plan_t), intent(in) :: plan            !! what the file says of the run
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
@@ -43,7 +46,8 @@ contains
 
       self%file%path = path
       self%columns = columns
-      allocate (self%rows(size(columns) + 1, block))
+      self%with_kinds = with_kinds
+      allocate (self%rows(size(columns) + merge(2, 1, with_kinds), block))
       call heading%add(file_heading(plan))
       previous = ""
       do k = 1, size(columns)
@@ -59,10 +63,12 @@ contains
             previous = name
          end associate
       end do
+      if (with_kinds) call heading%line("# row_kind: "//row_kinds)
       call heading%add("""time [s]""")
       do k = 1, size(columns)
          call heading%add(" """//column_label(catalogue, columns(k))//"""")
       end do
+      if (with_kinds) call heading%add(" ""row_kind [1]""")
       call heading%line("")
       call self%file%append(heading%get(), error)
    end subroutine start_table
@@ -103,10 +109,11 @@ contains
    end function column_label
 
    !> Keep a row.
-   subroutine put_row(self, at, t, catalogue)
+   subroutine put_row(self, at, t, kind, catalogue)
       class(text_table_t), intent(inout) :: self  !! the table
       integer, intent(in) :: at                   !! place of the row in memory
       real(wp), intent(in) :: t                   !! time [s]
+      integer, intent(in) :: kind                 !! what the row is
       type(catalogue_t), intent(in) :: catalogue  !! values at t
 
       integer :: k
@@ -117,6 +124,7 @@ contains
             self%rows(k + 1, at) = catalogue%groups(column%group)%data(column%component, column%item)
          end associate
       end do
+      if (self%with_kinds) self%rows(size(self%columns) + 2, at) = real(kind, wp)
    end subroutine put_row
 
    !> Write the rows in memory.

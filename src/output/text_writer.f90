@@ -121,8 +121,16 @@ contains
          end if
       end if
       self%names(n)%s = name
-      call self%tables(n)%start(plan%directory//"/"//name, columns, self%block, plan, catalogue, error)
+      call self%tables(n)%start(plan%directory//"/"//name, columns, with_kinds(plan, catalogue), self%block, plan, catalogue, error)
    end subroutine add_table
+
+   !> Whether there may be rows at contacts: the ideal twin may have none.
+   pure logical function with_kinds(plan, catalogue)
+      type(output_plan_t), intent(in) :: plan       !! what the files say of the run
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+
+      with_kinds = plan%with_contact_rows .and. size(catalogue%rooms(room_contacts)%names) > 0
+   end function with_kinds
 
    !> The chosen numbers of an item and, of a clearance joint, of its contacts.
    function columns_of_item(catalogue, selection, room, item) result(columns)
@@ -186,9 +194,10 @@ contains
    end subroutine start_events
 
    !> Keep a row of every table; write them if the block is full.
-   subroutine sample_files(self, t, catalogue, events, error)
+   subroutine sample_files(self, t, kind, catalogue, events, error)
       class(text_writer_t), intent(inout) :: self        !! the files
       real(wp), intent(in) :: t                          !! time [s]
+      integer, intent(in) :: kind                        !! what the row is
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(event_list_t), intent(in) :: events           !! all events so far
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
@@ -199,7 +208,7 @@ contains
       if (self%is_broken) return
       self%waiting = self%waiting + 1
       do k = 1, size(self%tables)
-         call self%tables(k)%put(self%waiting, t, catalogue)
+         call self%tables(k)%put(self%waiting, t, kind, catalogue)
       end do
       call system_clock(now, rate)
       if (self%waiting == self%block .or. real(now - self%flushed_at, wp) > longest_wait*real(rate, wp)) then

@@ -5,9 +5,12 @@ module section_info
    use kind_info, only: add_duration, add_flag, add_number, add_vector, add_word, add_words, dim_acceleration, dim_length, &
       dim_none, dim_time, kind_info_t
    use kinds, only: wp
+   use text, only: to_text
    implicit none (type, external)
    private
-   public :: dynamic_info, kinematic_info, output_info, scene_info, static_info, word_options
+   public :: dynamic_info, kinematic_info, most_row_contacts, output_info, scene_info, static_info, word_options
+
+   integer, parameter :: most_row_contacts = 64  !! contacts of a scene that gets rows at their instants by itself
 
 contains
 
@@ -127,6 +130,9 @@ contains
       call add_number(info, "every", dim_time, "output interval; 0: a thousandth of what is written", default="0 s", lower=0.0_wp)
       call add_duration(info, "from", "first output instant, a time or `N turns of DRIVER`", default="0 s")
       call add_duration(info, "last", "only the last stretch, a time or `N turns of DRIVER`; 0: all", default="0 s")
+      call add_word(info, "contact_rows", "rows of the time histories at the onset, peak and end of every contact, besides the " &
+                    //"output instants: on, off (equally spaced rows only), or auto (on up to "//to_text(most_row_contacts)// &
+                    " contacts)", default="auto", choices="auto on off")
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
       call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel)", default="")
    end function output_info

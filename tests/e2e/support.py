@@ -90,6 +90,13 @@ def plain(value):
     return value
 
 
+def at_instants(file, path):
+    """A dataset of run.h5; of a time history, the rows that are output instants."""
+    dataset = file[path]
+    is_history = path in ("time", "row_kind") or "DIMENSION_LIST" in dataset.attrs
+    return dataset[()][file["row_kind"][()] == 0] if is_history else dataset[()]
+
+
 class Run:
     """What a run left behind."""
 
@@ -103,14 +110,19 @@ class Run:
         return json.loads((self.directory / "summary.json").read_text())
 
     def read(self, path):
-        """A dataset of run.h5."""
+        """A dataset of run.h5; of a time history, the output instants."""
+        with h5py.File(self.directory / "run.h5", "r") as file:
+            return plain(at_instants(file, path.strip("/")))
+
+    def rows(self, path):
+        """A time history of run.h5 with all its rows, those at contacts too."""
         with h5py.File(self.directory / "run.h5", "r") as file:
             return plain(file[path][()])
 
     def group(self, path):
-        """All datasets of a group, by name."""
+        """All datasets of a group, by name; of time histories, the output instants."""
         with h5py.File(self.directory / "run.h5", "r") as file:
-            return {name: plain(dataset[()]) for name, dataset in file[path].items()}
+            return {name: plain(at_instants(file, f"{path.strip('/')}/{name}")) for name in file[path]}
 
     def item(self, path, name):
         """The part of a dataset (n, items, ...) that belongs to one item by name."""

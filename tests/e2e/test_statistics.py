@@ -34,11 +34,13 @@ def numbers_of(run):
     return numbers
 
 
-def windowed(run, channel):
-    """The series of a channel from the end of the transient on."""
-    series = run.item("drivers/moment", "motor") if channel == CHANNELS[0] else run.item("bodies/velocity", "slider")[:, 0]
-    inside = run.time >= AFTER - 1e-12
-    return run.time[inside], series[inside]
+def windowed(run, channel, rows=False):
+    """The series of a channel from the end of the transient on: the output instants, or all rows."""
+    read = run.rows if rows else run.read
+    place = list(run.read("bodies/names")).index("slider")
+    series = read("drivers/moment")[:, 0] if channel == CHANNELS[0] else read("bodies/velocity")[:, place, 0]
+    inside = read("time") >= AFTER - 1e-12
+    return read("time")[inside], series[inside]
 
 
 def test_numbers_of_channels(gudgeon):
@@ -51,6 +53,7 @@ def test_numbers_of_channels(gudgeon):
         rms = np.sqrt(np.sum((x[1:] ** 2 + x[:-1] ** 2) / 2 * np.diff(t)) / span)
         assert_close(numbers[f"{channel}.mean"], mean, 1e-9 * rms, what=channel)
         assert_close(numbers[f"{channel}.rms"], rms, relative=1e-12, what=channel)
+        x = windowed(run, channel, rows=True)[1]
         assert numbers[f"{channel}.peak"] == np.abs(x).max()
         assert numbers[f"{channel}.min"] == x.min()
         assert numbers[f"{channel}.max"] == x.max()

@@ -66,9 +66,9 @@ def test_a_sweep_gives_the_numbers_of_single_runs(gudgeon):
             assert sweep["runs/values"][k].tobytes() == run.read("statistics/values").tobytes()
             rows = sweep["strobe/run"][:] == k + 1
             assert sweep["strobe/values"][rows].tobytes() == run.read("statistics/strobe").tobytes()
-            for path in ("time", "bodies/velocity", "clearances/force", "energy/residual", "events"):
+            for path in ("time", "row_kind", "bodies/velocity", "clearances/force", "energy/residual", "events"):
                 if path in sweep[f"channels/{k + 1}"]:
-                    assert sweep[f"channels/{k + 1}/{path}"][()].tobytes() == run.read(path).tobytes() or path == "events", path
+                    assert sweep[f"channels/{k + 1}/{path}"][()].tobytes() == run.rows(path).tobytes() or path == "events", path
             assert "bodies/velocity" in sweep[f"channels/{k + 1}"]
 
 

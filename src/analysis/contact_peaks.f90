@@ -1,0 +1,208 @@
+!> Maxima of the penetration and of the normal force of a contact within a step.
+!>
+!> A maximum lies where the rate changes from positive to negative. The place is sought as the maximum of the cubic of Hermite
+!> through the ends of a bracket, which narrows around it; every third place is the middle, for forces that are not smooth.
+module contact_peaks
+   use integrator, only: integrator_t
+   use kinds, only: wp
+   use planar_system, only: planar_system_t
+   implicit none (type, external)
+   private
+   public :: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+
+   real(wp), parameter :: near_depth = 3.0e-5_wp  !! what a parabola may add to a maximum of the penetration, of it [1]
+   real(wp), parameter :: near_force = 1.0e-8_wp  !! what may be missing to a maximum of the force, of it [1]
+   integer, parameter :: n_search = 24            !! places looked at in search of a maximum
+   integer, parameter :: n_halving = 3            !! one of so many is the middle
+
+   !> A value and its rate.
+   type :: trend_t
+      real(wp) :: value = 0.0_wp  !! force or penetration [N or m]
+      real(wp) :: rate = 0.0_wp   !! its rate [N/s or m/s]
+   end type trend_t
+
+   !> The greatest force found, and the state there.
+   type :: peak_t
+      real(wp) :: t = 0.0_wp            !! time [s]
+      real(wp) :: force = 0.0_wp        !! normal force; negative: none found [N]
+      real(wp), allocatable :: y(:)     !! (n) state [any]
+   end type peak_t
+
+   !> Part of a step that holds a maximum: the value rises at its left end and falls at its right end.
+   type :: bracket_t
+      real(wp) :: place_a = 0.0_wp  !! left end, of the step [1]
+      real(wp) :: place_b = 1.0_wp  !! right end, of the step [1]
+      real(wp) :: h = 0.0_wp        !! length of the step [s]
+      type(trend_t) :: a            !! what is at the left end
+      type(trend_t) :: b            !! what is at the right end
+   end type bracket_t
+
+contains
+
+   !> Force and penetration of a contact at the present motion.
+   subroutine look(system, slot, item, force, penetration)
+      type(planar_system_t), intent(in) :: system     !! the system, motion and accelerations set
+      integer, intent(in) :: slot                     !! set of the contact
+      integer, intent(in) :: item                     !! contact of the set
+      type(trend_t), intent(out) :: force             !! normal force
+      type(trend_t), intent(out) :: penetration       !! penetration
+
+      call system%clearances(slot)%set%watch(item, system%motion, penetration%value, penetration%rate, &
+                                             force%value, force%rate)
+   end subroutine look
+
+   !> Maximum of the penetration within the last step, on its interpolant. What is still missing to the maximum of the parabola
+   !> through the place is added.
+   subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest)
+      type(planar_system_t), intent(inout) :: system    !! the system
+      class(integrator_t), intent(in) :: method         !! the integrator, after a step
+      integer, intent(in) :: slot                       !! set of the contact
+      integer, intent(in) :: item                       !! contact of the set
+      type(trend_t), intent(in) :: left                 !! penetration at the start of the step
+      type(trend_t), intent(in) :: right                !! penetration at its end
+      real(wp), intent(inout) :: y(:)                   !! (n) scratch state [any]
+      real(wp), intent(out) :: greatest                 !! the greatest penetration found [m]
+
+      type(bracket_t) :: bracket
+      type(trend_t) :: force, here
+      real(wp) :: place
+      integer :: k
+
+      greatest = 0.0_wp
+      bracket = bracket_t(h=method%step%h, a=left, b=right)
+      do k = 1, n_search
+         place = place_in(bracket, k)
+         call method%within(system, place, y)
+         call system%set_motion(method%step%t0 + place*method%step%h, y)
+         call look(system, slot, item, force, here)
+         greatest = max(greatest, here%value + missing(here, bracket))
+         if (missing(here, bracket) <= near_depth*abs(here%value)) exit
+         call narrow(place, here, bracket)
+      end do
+   end subroutine find_penetration_peak
+
+   !> Maximum of the normal force within the last step: each place looked at is reached by the method
+   !> itself, so that the force is as accurate as the step.
+   subroutine find_force_peak(system, method, slot, item, left, right, y, ydot, peak)
+      type(planar_system_t), intent(inout) :: system    !! the system
+      class(integrator_t), intent(inout) :: method      !! the integrator, after a step
+      integer, intent(in) :: slot                       !! set of the contact
+      integer, intent(in) :: item                       !! contact of the set
+      type(trend_t), intent(in) :: left                 !! force at the start of the step
+      type(trend_t), intent(in) :: right                !! force at its end
+      real(wp), intent(inout) :: y(:)                   !! (n) scratch state [any]
+      real(wp), intent(inout) :: ydot(:)                !! (n) scratch derivative [any]
+      type(peak_t), intent(inout) :: peak               !! the greatest force that was found
+
+      type(bracket_t) :: bracket
+      type(trend_t) :: here, penetration
+      real(wp) :: place, t
+      integer :: k, status
+
+      peak%force = -1.0_wp
+      bracket = bracket_t(h=method%step%h, a=left, b=right)
+      do k = 1, n_search
+         place = place_in(bracket, k)
+         t = method%step%t0 + place*method%step%h
+         call method%refine(system, place, y, status)
+         if (status /= 0) return
+         call system%evaluate(t, y, ydot, status)
+         if (status /= 0) return
+         call system%set_state(t, y, ydot)
+         call look(system, slot, item, here, penetration)
+         if (here%value > peak%force) then
+            peak%t = t
+            peak%force = here%value
+            peak%y = y
+         end if
+         if (missing(here, bracket) <= near_force*abs(here%value)) exit
+         call narrow(place, here, bracket)
+      end do
+   end subroutine find_force_peak
+
+   !> Put a peak in its place in a list, by time; one at a time that is there already is told with it.
+   subroutine add_peak(peak, list, n)
+      type(peak_t), intent(in) :: peak                       !! the peak
+      type(peak_t), allocatable, intent(inout) :: list(:)    !! (n or more) peaks by time
+      integer, intent(inout) :: n                            !! how many
+
+      integer :: k, place
+
+      place = 1
+      do k = 1, n
+         if (list(k)%t >= peak%t) exit
+         place = k + 1
+      end do
+      if (place <= n) then
+         if (list(place)%t <= peak%t) return
+      end if
+      if (n == size(list)) list = [list, list]
+      do k = n, place, -1
+         list(k + 1) = list(k)
+      end do
+      list(place) = peak
+      n = n + 1
+   end subroutine add_peak
+
+   !> Put a place in for that end of the bracket that is on its side of the maximum.
+   pure subroutine narrow(place, here, bracket)
+      real(wp), intent(in) :: place               !! a place between [1]
+      type(trend_t), intent(in) :: here           !! what is there
+      type(bracket_t), intent(inout) :: bracket   !! the bracket
+
+      if (here%rate >= 0.0_wp) then
+         bracket%place_a = place
+         bracket%a = here
+      else
+         bracket%place_b = place
+         bracket%b = here
+      end if
+   end subroutine narrow
+
+   !> What is missing to the maximum of a parabola with the curvature of the bracket.
+   pure real(wp) function missing(here, bracket) result(rest)
+      type(trend_t), intent(in) :: here        !! a place between
+      type(bracket_t), intent(in) :: bracket   !! the bracket
+
+      real(wp) :: time  ! length of the bracket [s]
+
+      time = (bracket%place_b - bracket%place_a)*bracket%h
+      rest = 0.5_wp*here%rate**2*time/max(bracket%a%rate - bracket%b%rate, tiny(1.0_wp))
+   end function missing
+
+   !> Place to look at: the maximum of the cubic, or now and then the middle.
+   pure real(wp) function place_in(bracket, k) result(place)
+      type(bracket_t), intent(in) :: bracket   !! the bracket
+      integer, intent(in) :: k                 !! number of the place, from 1
+
+      if (modulo(k, n_halving) == 0) then
+         place = 0.5_wp*(bracket%place_a + bracket%place_b)
+      else
+         place = maximum_in(bracket)
+      end if
+   end function place_in
+
+   !> Place of the maximum of the cubic of Hermite through the ends of a bracket, kept off the ends.
+   pure real(wp) function maximum_in(bracket) result(place)
+      type(bracket_t), intent(in) :: bracket   !! the bracket
+
+      real(wp), parameter :: margin = 1.0e-3_wp  ! of the bracket [1]
+      real(wp) :: c2, c3, rate_a, rate_b, rise, root, s
+
+      rate_a = bracket%a%rate*bracket%h*(bracket%place_b - bracket%place_a)
+      rate_b = bracket%b%rate*bracket%h*(bracket%place_b - bracket%place_a)
+      rise = bracket%b%value - bracket%a%value
+      c2 = 3.0_wp*rise - 2.0_wp*rate_a - rate_b
+      c3 = rate_a + rate_b - 2.0_wp*rise
+      root = sqrt(max(c2*c2 - 3.0_wp*c3*rate_a, 0.0_wp))
+      s = 0.5_wp
+      if (c2 > 0.0_wp .and. c3 < 0.0_wp) then
+         s = -(c2 + root)/(3.0_wp*c3)
+      else if (root - c2 > 0.0_wp) then
+         s = rate_a/(root - c2)
+      end if
+      s = min(max(s, margin), 1.0_wp - margin)
+      place = bracket%place_a + s*(bracket%place_b - bracket%place_a)
+   end function maximum_in
+
+end module contact_peaks

@@ -1,0 +1,46 @@
+!> Whether a motion is reported at the instants of its contacts, besides the output instants.
+module row_plan
+   use columns, only: column_of
+   use planar_system, only: planar_system_t
+   use scene, only: analysis_dynamic, scene_t
+   use section_info, only: most_row_contacts
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: contact_rows_text, has_contact_rows
+
+contains
+
+   !> Whether there are rows at contacts.
+   logical function has_contact_rows(scene, system) result(has_rows)
+      type(scene_t), intent(in) :: scene           !! the scene
+      type(planar_system_t), intent(in) :: system  !! its system
+
+      has_rows = .false.
+      if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
+      select case (scene%output%values(column_of(scene%output_kind, "contact_rows"))%text)
+      case ("on")
+         has_rows = .true.
+      case ("auto")
+         has_rows = system%n_contact <= most_row_contacts
+      end select
+   end function has_contact_rows
+
+   !> The same in words, blank where there are no contacts.
+   function contact_rows_text(scene, system) result(words)
+      type(scene_t), intent(in) :: scene           !! the scene
+      type(planar_system_t), intent(in) :: system  !! its system
+      character(:), allocatable :: words           !! as `rows at the onset, peak and end of every contact (contact_rows = auto)`
+
+      words = ""
+      if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
+      associate (word => scene%output%values(column_of(scene%output_kind, "contact_rows"))%text)
+         words = "rows at the onset, peak and end of every contact"
+         if (.not. has_contact_rows(scene, system)) words = "no "//words
+         words = words//" (contact_rows = "//word
+         if (word == "auto") words = words//": up to "//to_text(most_row_contacts)//" contacts, here "//to_text(system%n_contact)
+      end associate
+      words = words//")"
+   end function contact_rows_text
+
+end module row_plan
