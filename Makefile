@@ -288,9 +288,9 @@ $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
 	@$(LINK)
 
-# tests are compiled once and run once
+# What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs.
 ifeq ($(MODE),release)
-$(TEST_OBJECTS): private FFLAGS += -O1
+$(TEST_OBJECTS) $(call object,$(filter src/scene/% src/cli/%,$(SOURCES))): private FFLAGS += -O1
 endif
 
 $(B)/obj/%.o: %.f90 $(B)/flags
