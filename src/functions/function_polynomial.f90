@@ -2,14 +2,17 @@
 !>
 !> f(t) = sum_k c_k (t - origin)^k,   k = 0 to 7
 !>
+!> With an `end` it reaches from the origin to there; `beyond` says what is before and after: hold (the value of the end),
+!> linear (the tangent of the end) or error (nothing). Without one it goes on for ever.
+!>
 !> Each coefficient has the dimension of the function over a time to its power. Source: Flores et al. (2008),
 !> section 2.2 (driver functions). Limits: degree 7.
 module function_polynomial
-   use curve, only: beyond_same
+   use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_same
    use dimension_text, only: dimension_name, unit_text
    use function_kind, only: function_kind_t, made_t
    use item, only: item_t
-   use kind_info, only: add_any_number, add_number, dim_time, dim_t, kind_info_t, same_dimension
+   use kind_info, only: add_any_number, add_number, add_word, dim_time, dim_t, kind_info_t, same_dimension
    use kinds, only: wp
    use text, only: to_text
    use units, only: dimension_power, dimension_product
@@ -19,6 +22,8 @@ module function_polynomial
 
    integer, parameter :: degree = 7            !! greatest power
    integer, parameter :: column_origin = 9     !! column of the origin, after those of the coefficients
+   integer, parameter :: column_end = 10       !! column of the end
+   integer, parameter :: column_beyond = 11    !! column of what is before the origin and after the end
 
    !> The kind.
    type, extends(function_kind_t) :: function_polynomial_t
@@ -42,6 +47,10 @@ contains
          call add_any_number(info, "c"//to_text(k), "coefficient of (t - origin)^"//to_text(k), default="0")
       end do
       call add_number(info, "origin", dim_time, "time from which the powers count", default="0 s")
+      call add_number(info, "end", dim_time, "time up to which the polynomial reaches, from the origin; left out: it goes on for " &
+                      //"ever, either way", default="")
+      call add_word(info, "beyond", "what is before the origin and after the end, if there is one", default="hold", &
+                    choices="hold linear error")
    end function polynomial_info
 
    !> The curve of a row.
@@ -56,6 +65,8 @@ contains
       allocate (made%curve%x(1), source=item%values(column_origin)%number)
       allocate (made%curve%c(0:degree, 1), source=0.0_wp)
       made%curve%beyond = beyond_same
+      if (item%values(column_end)%given) call take_end(item, made)
+      if (made%column > 0) return
       first = 0
       do k = 0, degree
          associate (value => item%values(k + 1))
@@ -74,6 +85,27 @@ contains
          end associate
       end do
    end subroutine polynomial_make
+
+   !> A polynomial that reaches from its origin to an end.
+   subroutine take_end(item, made)
+      type(item_t), intent(in) :: item     !! the row
+      type(made_t), intent(inout) :: made  !! the curve, or a mistake
+
+      associate (origin => item%values(column_origin)%number, end => item%values(column_end)%number)
+         if (end <= origin) then
+            made%column = column_end
+            made%message = "the end must be after the origin"
+            made%help = "the polynomial reaches from "//to_text(origin)//" s to its end"
+            return
+         end if
+         made%curve%x = [origin, end]
+      end associate
+      select case (item%values(column_beyond)%text)
+      case ("linear"); made%curve%beyond = beyond_linear
+      case ("error"); made%curve%beyond = beyond_error
+      case default; made%curve%beyond = beyond_hold
+      end select
+   end subroutine take_end
 
    !> The SI unit of a quantity over a time to some power.
    function unit_over_time(dimension, power) result(unit)

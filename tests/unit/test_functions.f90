@@ -53,6 +53,7 @@ contains
                if (info%columns(i)%is_any .and. scan(info%columns(i)%name, "0123456789") == 2) then
                   item%values(i)%dimensions(1) = dim_t(m=1, s=real(1 - i, wp))
                end if
+               if (info%columns(i)%name == "end") item%values(i)%number = 3.0_wp  ! behind every origin, and where it is looked at
             end do
             call kind%make(item, made)
             call check_equal(error, made%column, 0, info%name//": no mistake")
@@ -116,6 +117,10 @@ contains
                       "{rise(t)}", expression, error)
       call check_jet(error, expression, t, [2.0_wp + 1.5_wp - 0.4_wp*0.125_wp, 3.0_wp - 1.2_wp*0.25_wp, -2.4_wp*0.5_wp], &
                      "polynomial")
+      call read_force("[function.polynomial]"//nl//"name c0 c1[N/s] origin end beyond"//nl// &
+                      "held 2N 3 0.1s 0.5s -"//nl//"on 2N 3 0.1s 0.5s linear"//nl//"ahead 2N 3 0.7s 1s -", &
+                      "{held(t) + 10*on(t) + 100*ahead(t)}", expression, error)
+      call check_jet(error, expression, t, [3.2_wp + 35.0_wp + 200.0_wp, 30.0_wp, 0.0_wp], "polynomials that end")
       call read_force("[function.harmonic]"//nl//"name amplitude angular_frequency phase[deg] offset"//nl// &
                       "sway {size} {w} 30 1kN", "{2*sway(t)}", expression, error)
       call check_jet(error, expression, t, 2.0_wp*[1000.0_wp + 2.0_wp*sin(1.8_wp + pi/6.0_wp), 6.0_wp*cos(1.8_wp + pi/6.0_wp), &
