@@ -5,13 +5,15 @@ module deck_scene
    use check, only: check_true
    use consistent_start, only: assembly_t
    use deck_reader, only: deck_t, diagnostics_t, read_deck
-   use dynamic, only: limits_t, run_dynamic
+   use dynamic, only: run_dynamic
    use errors, only: error_t, exit_file, set_error
+   use guards, only: new_guards
    use integrator, only: integrator_t
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use read_scene, only: scene_from_deck
    use recorder, only: event_t, recorder_t, summary_t
+   use run_audit, only: limits_t
    use scene, only: scene_t
    use scratch_deck, only: remove_scratch, write_scratch
    use start_state, only: find_start
@@ -122,6 +124,7 @@ contains
       type(limits_t) :: bounds
 
       if (present(limits)) bounds = limits
+      call new_guards(loaded%scene, loaded%system, bounds%guards)
       call run_dynamic(loaded%system, loaded%method, loaded%y, loaded%plan, bounds, keeper, summary, error)
    end subroutine run_to_end
 

@@ -1,22 +1,23 @@
 !> Motion in time: drives an integrator from event to event and hands everything to a recorder.
 module dynamic
    use contact_watch, only: close_open, contact_watch_t, new_contact_watch
-   use errors, only: error_t, exit_audit, set_error
-   use integrator, only: advance_event, integrator_t
+   use errors, only: error_t
+   use guards, only: guards_t
+   use integrator, only: advance_event, advance_failed_evaluation, integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
-   use law_validity, only: warn_of_laws
    use planar_energy, only: energy_of, energy_t
    use planar_system, only: planar_system_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
-   use run_failure, only: constraints_lost, describe_failure, events_without_end
+   use run_audit, only: audit, limits_t, warn_of_errors
+   use run_failure, only: constraints_lost, describe_failure, events_without_end, guard_reached
    use sampling, only: new_sampler, sampler_t
    use slip_watch, only: decide_next
-   use text, only: append_text, real_text
+   use stop_condition, only: stop_t
    use time_plan, only: time_plan_t
    implicit none (type, external)
    private
-   public :: limits_t, run_dynamic
+   public :: run_dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
    integer, parameter :: most_idle = 1000          !! events that may follow one another while hardly any time passes
@@ -24,20 +25,14 @@ module dynamic
    real(wp), parameter :: idle = 1.0e-12_wp        !! hardly any time: part of the present time [1]
    real(wp), parameter :: lost_length = 0.1_wp     !! violation beyond all measure: a length, of the size of the bodies [1]
    real(wp), parameter :: lost_angle = 1.0_wp      !! an angle [rad]
-   real(wp), parameter :: careful_energy = 1.0e-3_wp     !! residual of the largest energy that is worth a warning [1]
-   real(wp), parameter :: careful_violation = 1.0e-4_wp  !! violation, of the size of the bodies or a radian, that is [1]
-
-   !> What the results must fulfil.
-   type :: limits_t
-      real(wp) :: energy = 0.0_wp      !! greatest residual of the ledger over the largest energy, 0: none [1]
-      real(wp) :: violation = 0.0_wp   !! greatest violation of a constraint, 0: none [m]
-   end type limits_t
 
    !> The state of a run.
    type :: run_t
       type(sampler_t) :: sampler                 !! what is reported, and when
       type(contact_watch_t) :: watch             !! contacts
       type(summary_t) :: summary                 !! cost and errors so far
+      type(guards_t) :: guards                   !! what ends it early or is told of it
+      type(stop_t) :: stop                       !! conditions that end it by intent
       real(wp) :: balance_0 = 0.0_wp             !! balance of the ledger at the start [J]
       real(wp) :: potential_0 = 0.0_wp           !! potential energy at the start [J]
       real(wp) :: residual = 0.0_wp              !! of the ledger at the last step [J]
@@ -71,6 +66,8 @@ contains
       logical :: is_open
 
       call system_clock(clock_0, ticks)
+      run%guards = limits%guards
+      run%stop = limits%stop
       call new_sampler(system, plan, run%sampler)
       call new_contact_watch(system, run%watch)
       run%summary%method = method_name(method)
@@ -94,7 +91,7 @@ contains
       call system_clock(clock_1)
       run%summary%cpu_seconds = cpu_1 - cpu_0 - run%aside - run%sampler%aside
       run%summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
-      run%summary%time_end = method%t
+      run%summary%time_end = merge(run%stop%t, method%t, run%stop%met > 0)
       run%summary%steps = method%n_steps
       run%summary%rejected_steps = method%n_rejected
       run%summary%rhs_evaluations = system%n_evaluations
@@ -104,9 +101,11 @@ contains
       run%summary%rows = run%sampler%n_row
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
       if (.not. allocated(error)) call audit(run%summary, limits, error)
-      call warn(system, run)
+      call warn_of_errors(system, run%worst, run%worst_row, run%lost, run%summary)
+      call run%guards%warn(system, run%summary%warnings)
       run%summary%status = status_complete
       run%summary%message = ""
+      if (run%stop%met > 0) run%summary%message = run%stop%message()
       if (allocated(error)) then
          run%summary%status = status_failed
          run%summary%message = error%message
@@ -137,14 +136,17 @@ contains
          call describe_failure(system, method, status, error)
          return
       end if
+      call run%guards%begin(system)
       energy = energy_of(system, y)
       run%balance_0 = energy%balance()
       run%potential_0 = energy%potential
       call look_at_step(system, method, run)
       if (system%n_loose > 0) call run%watch%after_restart(system, method)
+      call look_for_stop(system, method, run, error)
+      if (allocated(error)) return
       call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
       n_since_progress = 0
-      do while (method%t < plan%end .and. .not. allocated(error))
+      do while (method%t < plan%end .and. run%stop%met == 0 .and. .not. allocated(error))
          call method%advance(system, plan%end, status)
          if (status < 0) then
             call describe_failure(system, method, status, error)
@@ -156,8 +158,13 @@ contains
             return
          end if
          if (system%n_loose > 0) call run%watch%after_step(system, method)
-         call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
-         if (status == advance_event .and. .not. allocated(error)) then
+         call run%guards%look(system, method%t)
+         call look_for_stop(system, method, run, error)
+         if (.not. allocated(error)) call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
+         if (allocated(run%guards%reason) .and. .not. allocated(error)) then
+            call describe_failure(system, method, guard_reached, error, run%guards%reason)
+         end if
+         if (status == advance_event .and. run%stop%met == 0 .and. .not. allocated(error)) then
             call handle_events(system, method, plan, recorder, run, error)
          end if
          n_since_progress = n_since_progress + 1
@@ -195,7 +202,27 @@ contains
       run%summary%energy_residual_max = max(run%summary%energy_residual_max, abs(run%residual))
       run%summary%energy_max = max(run%summary%energy_max, energy%kinetic + energy%elastic &
                                    + abs(energy%potential - run%potential_0))
+      call run%guards%look_at_energy(run%residual, run%summary%energy_max, energy%magnitude())
    end subroutine look_at_step
+
+   !> Whether a condition ends the run within the last step.
+   subroutine look_for_stop(system, method, run, error)
+      type(planar_system_t), intent(inout) :: system      !! the system
+      class(integrator_t), intent(inout) :: method        !! the integrator
+      type(run_t), intent(inout) :: run                   !! state of the run
+      type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
+
+      real(wp) :: cpu_0, cpu_1
+      integer :: status
+
+      if (run%stop%n == 0) return
+      call cpu_time(cpu_0)
+      call run%stop%look(system, method, run%residual, run%sampler%catalogue, status)
+      if (run%stop%met > 0) run%sampler%until = run%stop%t
+      if (status /= 0) call describe_failure(system, method, advance_failed_evaluation, error)
+      call cpu_time(cpu_1)
+      run%aside = run%aside + (cpu_1 - cpu_0)
+   end subroutine look_for_stop
 
    !> Handle the events at the end of the last step, and go on from there.
    subroutine handle_events(system, method, plan, recorder, run, error)
@@ -277,53 +304,5 @@ contains
       info = method%info()
       name = info%name
    end function method_name
-
-   !> What a careful reader of the results should know.
-   subroutine warn(system, run)
-      type(planar_system_t), intent(in) :: system  !! the system
-      type(run_t), intent(inout) :: run            !! warnings are added to its summary
-
-      if (system%with_ledger) then  ! else the residual is a NaN, which must not be compared
-         if (run%summary%energy_residual_max > careful_energy*run%summary%energy_max .and. run%summary%energy_max > 0.0_wp) then
-            call append_text(run%summary%warnings, "the energy ledger does not close: its residual reached "// &
-                             real_text(run%summary%energy_residual_max/run%summary%energy_max, 3)// &
-                             " of the largest energy; try a smaller tolerance")
-         end if
-         if (run%lost < -careful_energy*run%summary%energy_max) then
-            call append_text(run%summary%warnings, "contacts made up to "//real_text(-run%lost, 3)//" J out of nothing: a law "// &
-                             "without a potential, as faces = blend and book are; foundation has one")
-         end if
-      end if
-      if (run%worst > careful_violation) then
-         call append_text(run%summary%warnings, "'"//system%row_name(run%worst_row)//"' was violated by "// &
-                          real_text(run%worst, 3)// &
-                          trim(merge(" rad                      ", " of the size of the bodies", &
-                                     system%rows%is_angle(run%worst_row)))// &
-                          "; a jump in a driver, or too large a tolerance?")
-      end if
-      call warn_of_laws(system, run%summary%warnings)
-   end subroutine warn
-
-   !> Compare the results with the deck's limits.
-   subroutine audit(summary, limits, error)
-      type(summary_t), intent(in) :: summary             !! results
-      type(limits_t), intent(in) :: limits               !! limits
-      type(error_t), allocatable, intent(out) :: error   !! a limit is exceeded
-
-      if (limits%energy > 0.0_wp .and. summary%ledger) then
-         if (.not. summary%energy_residual_max <= limits%energy*summary%energy_max) then
-            call set_error(error, exit_audit, "audit failed: the ledger's residual reached "// &
-                           real_text(summary%energy_residual_max/summary%energy_max, 3)//" of the largest energy, allowed are "// &
-                           real_text(limits%energy, 3)//new_line("a")//"  = everything was saved; try a smaller tolerance")
-            return
-         end if
-      end if
-      if (limits%violation > 0.0_wp .and. .not. summary%violation_max <= limits%violation) then
-         call set_error(error, exit_audit, "audit failed: a constraint was violated by "// &
-                        real_text(summary%violation_max, 3)//" m (or rad), allowed are "// &
-                        real_text(limits%violation, 3)//new_line("a")// &
-                        "  = everything was saved; try a smaller tolerance or greater gains of the stabilisation")
-      end if
-   end subroutine audit
 
 end module dynamic

@@ -8,20 +8,22 @@ module run_failure
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: constraints_lost, describe_failure, events_without_end
+   public :: constraints_lost, describe_failure, events_without_end, guard_reached
 
    ! failures beside those of `advance`
    integer, parameter :: constraints_lost = -100    !! a violation beyond all measure
    integer, parameter :: events_without_end = -101  !! event follows event while hardly any time passes
+   integer, parameter :: guard_reached = -102       !! what no mechanism does, as the guards say
 
 contains
 
    !> Say when, where and why the integration cannot go on, and what to try.
-   subroutine describe_failure(system, method, status, error)
+   subroutine describe_failure(system, method, status, error, reason)
       type(planar_system_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator
       integer, intent(in) :: status                       !! how it failed
       type(error_t), allocatable, intent(out) :: error    !! the message
+      character(*), intent(in), optional :: reason        !! of a guard: what it says
 
       real(wp), allocatable :: ydot(:)
       character(:), allocatable :: message, where_singular
@@ -42,6 +44,8 @@ contains
          message = "the constraints are lost: a joint is open by a tenth of the size of the bodies, or an angle is off by a radian"
       case (events_without_end)
          message = "one event follows another at '"//last_event(system, method)//"' and no time passes"
+      case (guard_reached)
+         message = reason
       case default
          message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
          if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular
@@ -132,6 +136,8 @@ contains
          words = "allow more, or a larger tolerance"
       case (constraints_lost, events_without_end)
          words = "try a smaller tolerance"
+      case (guard_reached)
+         words = "look for loads, drivers or clearances that no mechanism has, or set the guard otherwise in section [guards]"
       case (advance_failed_evaluation)
          words = "look for a dead point, or for a load or driver that does not exist at that time"
       case default

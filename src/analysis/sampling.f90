@@ -25,6 +25,7 @@ module sampling
       integer :: n_row(n_row_kind) = 0           !! rows at contacts, by kind
       integer(i8) :: n_reports = 0               !! evaluations made for all these
       real(wp) :: aside = 0.0_wp                 !! CPU time spent [s]
+      real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
       integer(i8), private :: n_last_sample = 0  !! number of the last output instant, from 0
       real(wp), private :: t_row = -1.0_wp       !! time of the last row [s]
       logical, private :: has_onset = .false.    !! of the events in hand: a contact begins
@@ -62,22 +63,23 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
 
-      real(wp) :: cpu_0, cpu_1, t, t_peak
+      real(wp) :: cpu_0, cpu_1, reached, t, t_peak
       integer :: k, status
 
+      reached = min(method%t, self%until)
       if (self%n_strobe < size(plan%strobes)) then
-         if (plan%strobes(self%n_strobe + 1) <= method%t) call take_strobes(self, system, method, plan, residual, recorder, error)
+         if (plan%strobes(self%n_strobe + 1) <= reached) call take_strobes(self, system, method, plan, residual, recorder, error)
          if (allocated(error)) return
       end if
       t = next_instant(self, plan)
-      if (t > method%t .and. watch%n_peak == 0) return
+      if (t > reached .and. watch%n_peak == 0) return
       call cpu_time(cpu_0)
       if (t < method%t) call method%prepare_output(system, status)
       k = 1
       do
          t_peak = huge(1.0_wp)
          if (k <= watch%n_peak) t_peak = watch%peaks(k)%t
-         if (min(t, t_peak) > method%t) exit
+         if (min(t, t_peak) > reached) exit
          if (t_peak < t) then
             call put_row(self, system, method, plan, t_peak, watch%peaks(k)%y, row_peak, residual, recorder, error)
             k = k + 1
@@ -166,7 +168,7 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      if (any(watch%owes_row) .and. self%t_row < method%t) then
+      if (any(watch%owes_row) .and. self%t_row < method%t .and. method%t <= self%until) then
          call put_row(self, system, method, plan, method%t, method%step%y1, row_peak, residual, recorder, error)
       end if
       call watch%note_row()
@@ -208,14 +210,15 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
 
-      real(wp) :: cpu_0, cpu_1, t
+      real(wp) :: cpu_0, cpu_1, reached, t
       integer :: status
 
+      reached = min(method%t, self%until)
       call cpu_time(cpu_0)
       if (plan%strobes(self%n_strobe + 1) < method%t) call method%prepare_output(system, status)
       do while (self%n_strobe < size(plan%strobes))
          t = plan%strobes(self%n_strobe + 1)
-         if (t > method%t) exit
+         if (t > reached) exit
          call method%state_at(system, t, self%y)
          call report(self, system, method, t, self%y, residual, error)
          if (allocated(error)) return

@@ -65,8 +65,6 @@ module clearance_set
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
       type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
       type(grip_t) :: grip                                  !! what the contacts remember of their friction
-      real(wp), allocatable :: greatest_speed(:)            !! (n_contact) impact speed of the fastest contact so far [m/s]
-      real(wp), allocatable :: greatest_penetration(:)      !! (n_contact) penetration of the deepest contact so far [m]
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure, nopass :: contact_labels => clearance_contact_labels
@@ -224,7 +222,6 @@ contains
       self%n_contact = self%n*self%n_contact_item
       allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n))
       allocate (self%clearance(self%n), self%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
-      allocate (self%greatest_speed(self%n_contact), self%greatest_penetration(self%n_contact), source=0.0_wp)
       allocate (self%pairs(self%n))
       allocate (self%contact(self%n_contact))
       allocate (self%law, source=law)
@@ -373,7 +370,6 @@ contains
       real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now [J]
 
       self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
-      self%greatest_speed(k) = max(self%greatest_speed(k), impact_speed)
       self%n_touching = self%n_touching + 1
       call self%grip%forget(k)
    end subroutine clearance_begin_contact
@@ -389,7 +385,6 @@ contains
       type(event_t), intent(out) :: event            !! the row
 
       associate (contact => self%contact(k))
-         self%greatest_penetration(k) = max(self%greatest_penetration(k), contact%peak_penetration)
          event%time = contact%onset
          event%kind = "contact"
          event%item = self%names(self%item_of(k))%s
@@ -432,7 +427,7 @@ contains
    integer function clearance_memory_size(self) result(n)
       class(clearance_set_t), intent(in) :: self  !! the set
 
-      n = 10*self%n_contact
+      n = 8*self%n_contact
       if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
    end function clearance_memory_size
 
@@ -448,8 +443,7 @@ contains
          associate (contact => self%contact(k))
             call put(row, place, contact%is_touching)
             call put(row, place, [contact%onset, contact%impact_speed, contact%peak_force, &
-                                  contact%peak_penetration, contact%loss_at_onset, self%greatest_speed(k), &
-                                  self%greatest_penetration(k), contact%rest_speed])
+                                  contact%peak_penetration, contact%loss_at_onset, contact%rest_speed])
             call put(row, place, contact%course)
          end associate
       end do
@@ -472,8 +466,6 @@ contains
             call get(row, place, contact%peak_force)
             call get(row, place, contact%peak_penetration)
             call get(row, place, contact%loss_at_onset)
-            call get(row, place, self%greatest_speed(k))
-            call get(row, place, self%greatest_penetration(k))
             call get(row, place, contact%rest_speed)
             call get(row, place, contact%course)
          end associate

@@ -16,11 +16,12 @@ module load
    use planar_report, only: build_catalogue
    use planar_system, only: planar_system_t
    use read_scene, only: scene_from_deck
+   use run_limits, only: check_conditions
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
-   use text, only: append_text, join, nearest_word, text_t
+   use text, only: append_text, join, nearest_word, text_t, to_text
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
@@ -74,6 +75,7 @@ contains
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       call check_words(loaded%scene, catalogue, mistakes)
+      call check_conditions(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
 
@@ -150,6 +152,7 @@ contains
          case default
             call set_tolerance(scene%static_kind, scene%static)
          end select
+         if (allocated(error)) return
       end if
       if (allocated(options%method) .and. scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --method is for [analysis.dynamic], not for [analysis."// &
@@ -177,6 +180,11 @@ contains
          associate (value => settings%values(column_of(kind, "tolerance")))
             value%number = options%tolerance
             value%given = .true.
+         end associate
+         associate (column => kind%columns(column_of(kind, "tolerance")))
+            if (options%tolerance >= column%lower .and. options%tolerance <= column%upper) return
+            call set_error(error, exit_usage, "option --tolerance needs a number from "//to_text(column%lower)//" to "// &
+                           to_text(column%upper)//" for ["//kind%name//"], not "//to_text(options%tolerance))
          end associate
       end subroutine set_tolerance
 

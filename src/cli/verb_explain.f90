@@ -8,6 +8,7 @@ module verb_explain
    use deck_reader, only: all_defaults
    use errors, only: error_t
    use explain_dropped, only: say_dropped
+   use explain_guards, only: say_guards
    use imsl_names, only: is_imsl_name
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -110,6 +111,7 @@ contains
       call explain_loose(loaded, y)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method(loaded)
+      call say_guards(loaded)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
       defaults = all_defaults(loaded%deck)
       call say("")

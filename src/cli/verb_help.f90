@@ -8,8 +8,8 @@ module verb_help
    use errors, only: error_t, exit_usage, set_error
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
-   use kind_info, only: cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, cell_reference, &
-      cell_vector, cell_words, column_t, kind_info_t, no_bound
+   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
+      cell_reference, cell_vector, cell_words, column_t, kind_info_t, no_bound
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use man_page, only: write_man_page
@@ -261,6 +261,8 @@ contains
          words = words//" [s]"
       case (cell_flag)
          words = words//" (on or off)"
+      case (cell_condition)
+         words = words//" (CHANNEL > NUMBER or CHANNEL < NUMBER ...)"
       case (cell_words)
          words = words//" (a list)"
       case (cell_reference)

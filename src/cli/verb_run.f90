@@ -7,7 +7,7 @@ module verb_run
    use columns, only: column_of
    use consistent_start, only: assembly_t
    use deck_reader, only: deck_text, get_includes
-   use dynamic, only: limits_t, run_dynamic
+   use dynamic, only: run_dynamic
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
    use integrator, only: integrator_t, read_controls
@@ -27,6 +27,8 @@ module verb_run
    use prescribed_motion, only: newton_t
    use recorder, only: summary_t
    use row_plan, only: contact_rows_text, has_contact_rows
+   use run_audit, only: limits_t
+   use run_limits, only: limits_of, twin_limits
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
@@ -70,7 +72,9 @@ contains
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
+      type(catalogue_t) :: catalogue
       type(error_t), allocatable :: twin_error
+      type(limits_t) :: limits
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(run_recorder_t) :: keeper
@@ -94,8 +98,10 @@ contains
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))
       end if
+      call build_catalogue(loaded%system, catalogue)
+      call limits_of(loaded%scene, loaded%system, catalogue, limits, plan%warnings)
       keeper%plan = plan
-      call run_dynamic(loaded%system, method, y, loaded%plan, limits_of(loaded%scene), keeper, summary, error)
+      call run_dynamic(loaded%system, method, y, loaded%plan, limits, keeper, summary, error)
       call directory%close()
    end subroutine run_motion
 
@@ -182,15 +188,6 @@ contains
       call read_controls(scene%dynamic_kind, scene%dynamic, method%controls)
    end subroutine new_method
 
-   !> Limits of the audit.
-   function limits_of(scene) result(limits)
-      type(scene_t), intent(in) :: scene  !! the scene
-      type(limits_t) :: limits            !! limits
-
-      limits%energy = scene%dynamic%values(column_of(scene%dynamic_kind, "energy_limit"))%number
-      limits%violation = scene%dynamic%values(column_of(scene%dynamic_kind, "violation_limit"))%number
-   end function limits_of
-
    !> The mechanism with ideal joints, text files only, for the figures.
    subroutine run_twin(loaded, plan, error)
       type(loaded_t), intent(in) :: loaded                 !! the deck
@@ -216,7 +213,7 @@ contains
       keeper%plan%with_figures = .false.
       keeper%plan%with_progress = .false.
       keeper%plan%show = show_nothing
-      call run_dynamic(system, method, y, loaded%plan, limits_t(), keeper, summary, error)
+      call run_dynamic(system, method, y, loaded%plan, twin_limits(loaded%scene, system), keeper, summary, error)
    end subroutine run_twin
 
    !> What the recorder is told.

@@ -27,6 +27,7 @@ module surfaces
       real(wp) :: sigma_i = 0.0_wp           !! (1 - nu^2)/E of the material of i [1/Pa]
       real(wp) :: sigma_j = 0.0_wp           !! (1 - nu^2)/E of the material of j [1/Pa]
       real(wp) :: speed_limit = huge(1.0_wp) !! impact speed up to which contact is quasi-static; huge: not known [m/s]
+      real(wp) :: strength = huge(1.0_wp)    !! greatest pressure that both surfaces bear; huge: not known [Pa]
       real(wp) :: inverse_mass = 0.0_wp      !! 1/m_i + 1/m_j of the bodies, 0 for the ground [1/kg]
    end type surfaces_t
 
@@ -41,6 +42,9 @@ contains
       surfaces%sigma_i = (1.0_wp - material_i%poisson**2)/material_i%young
       surfaces%sigma_j = (1.0_wp - material_j%poisson**2)/material_j%young
       surfaces%speed_limit = min(speed_limit(material_i), speed_limit(material_j))
+      surfaces%strength = huge(1.0_wp)
+      if (material_i%strength > 0.0_wp) surfaces%strength = material_i%strength
+      if (material_j%strength > 0.0_wp) surfaces%strength = min(surfaces%strength, material_j%strength)
    end subroutine set_materials
 
    !> Impact speed up to which contact is quasi-static.

@@ -9,7 +9,8 @@ module kind_info
    private
    public :: channel_t, column_t, dim_t, kind_info_t
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
-   public :: cell_file, cell_list, cell_words
+   public :: cell_condition, cell_file, cell_list, cell_words
+   public :: add_condition
    public :: add_any_number, add_file, add_list
    public :: add_channel, add_column, add_duration, add_expression, add_flag, add_number, add_reference
    public :: add_vector, add_word, add_words, same_dimension
@@ -68,6 +69,7 @@ module kind_info
 
    integer, parameter :: cell_list = 9        !! numbers with one unit, in quotes (tables only)
    integer, parameter :: cell_file = 10       !! a text file of two columns of numbers
+   integer, parameter :: cell_condition = 11  !! conditions on channels (settings only)
 
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]
 
@@ -265,6 +267,15 @@ contains
       if (present(default)) column%default = default
       call add_column(info, column)
    end subroutine add_words
+
+   !> Append a key that holds conditions on channels, any of which is enough; left out: none.
+   subroutine add_condition(info, name, help)
+      type(kind_info_t), intent(inout) :: info       !! the kind
+      character(*), intent(in) :: name               !! as written in the deck
+      character(*), intent(in) :: help               !! one line
+
+      call add_column(info, column_t(name=name, cell=cell_condition, help=help, default=""))
+   end subroutine add_condition
 
    !> Append a column that is on or off.
    subroutine add_flag(info, name, help, default)

@@ -4,21 +4,23 @@
 module cells
    use cell_checks, only: check_choice, check_count, check_range
    use cell_lists, only: read_options, read_word, read_words
+   use conditions, only: read_conditions
    use deck_types, only: deck_t, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: unit_text
    use expression, only: constant_expression, expression_t
    use item, only: value_t
-   use kind_info, only: cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, cell_reference, &
-                      & cell_vector, cell_word, cell_words, column_t, dim_none
+   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
+                      & cell_reference, cell_vector, cell_word, cell_words, column_t, dim_none
    use kinds, only: wp
+   use number_cell, only: read_number
    use number_lists, only: read_list
    use quantities, only: is_numeric, quantity_t, read_bare, read_brace, read_unit, report_dimension, report_not_a_number
    use tokens, only: span, token_brace, token_t, token_word
    use units, only: unit_t
    implicit none (type, external)
    private
-   public :: blank_value, read_number, read_value
+   public :: blank_value, read_value
 
 contains
 
@@ -28,7 +30,7 @@ contains
       type(value_t), intent(out) :: value   !! the empty value
 
       value%text = ""
-      allocate (value%words(0), value%places(0), value%options(0))
+      allocate (value%words(0), value%places(0), value%options(0), value%conditions(0))
       if (column%cell == cell_expression) value%expression = constant_expression(0.0_wp, column%dimension)
    end subroutine blank_value
 
@@ -62,6 +64,8 @@ contains
       case (cell_file)
          ! the table reads the file when all its rows are known
          call read_word(deck, place, list(1), value%text, mistakes)
+      case (cell_condition)
+         call read_conditions(deck, place, list, value, mistakes)
       case (cell_words)
          call read_words(deck, place, list, value, mistakes)
       case (cell_word)
@@ -83,37 +87,6 @@ contains
          value%flag = value%text == "on"
       end select
    end subroutine read_value
-
-   !> One number, bare, with its unit glued or beside it, or in braces.
-   subroutine read_number(deck, list, place, quantity, mistakes, header)
-      type(deck_t), intent(in) :: deck                !! the deck
-      type(token_t), intent(in) :: list(:)            !! (n) number, and its unit if that stands apart
-      character(*), intent(in) :: place               !! as `in column mass of bodies`
-      type(quantity_t), intent(out) :: quantity       !! the number
-      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
-      type(unit_t), intent(in), optional :: header    !! unit of bare numbers
-
-      character(:), allocatable :: word
-      type(expression_t) :: compiled
-      type(unit_t) :: unit
-      logical :: is_good
-
-      if (list(1)%kind == token_brace) then
-         call check_count(list, 1, place, mistakes, "the result of a brace carries its own unit")
-         call read_brace(deck, list(1), place, .false., compiled, quantity, mistakes)
-         return
-      end if
-      word = text_of(deck, list(1))
-      if (list(1)%kind /= token_word .or. .not. is_numeric(word)) then
-         call report_not_a_number(word, list(1)%location, place, mistakes, deck)
-      else if (size(list) > 1) then
-         call check_count(list, 2, place, mistakes)
-         call read_unit(text_of(deck, list(2)), list(2)%location, place, unit, is_good, mistakes)
-         if (is_good) call read_bare(word, list(1)%location, place, quantity, mistakes, unit)
-      else
-         call read_bare(word, list(1)%location, place, quantity, mistakes, header)
-      end if
-   end subroutine read_number
 
    !> A cell that holds one number.
    subroutine read_number_cell(deck, column, place, list, value, mistakes, header)

@@ -7,8 +7,8 @@ module echo
    use deck_types, only: deck_t
    use dimension_text, only: unit_text
    use item, only: item_t, value_t
-   use kind_info, only: cell_duration, cell_expression, cell_flag, cell_list, cell_number, cell_vector, cell_words, column_t, &
-                      & dim_none, dim_t, kind_info_t, same_dimension
+   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_flag, cell_list, cell_number, &
+                      & cell_vector, cell_words, column_t, dim_none, dim_t, kind_info_t, same_dimension
    use text, only: append_text, buffer_t, exact_text, replace, text_t
    implicit none (type, external)
    private
@@ -189,6 +189,15 @@ contains
       case (cell_flag)
          s = "off"
          if (value%flag) s = "on"
+      case (cell_condition)
+         s = ""
+         do i = 1, size(value%conditions)
+            associate (condition => value%conditions(i))
+               if (i > 1) s = s//" or "
+               s = s//quoted(condition%channel)//merge(" > ", " < ", condition%is_above)//exact_text(condition%limit)// &
+                   glued_unit(condition%dimension)
+            end associate
+         end do
       case (cell_words)
          s = ""
          do i = 1, size(value%words)

@@ -10,7 +10,7 @@ module item
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: item_t, location_t, option_t, value_t
+   public :: condition_t, item_t, location_t, option_t, value_t
 
    !> A stretch of deck text.
    type :: location_t
@@ -30,6 +30,16 @@ module item
       type(location_t) :: location          !! of the whole option
    end type option_t
 
+   !> A condition `channel > limit`.
+   type :: condition_t
+      character(:), allocatable :: channel  !! the word before the sign
+      logical :: is_above = .true.          !! `>`: the channel must be greater, `<`: less
+      real(wp) :: limit = 0.0_wp            !! what it is compared with, SI [any]
+      type(dim_t) :: dimension = dim_none   !! of the limit
+      type(location_t) :: location          !! of the channel
+      type(location_t) :: limit_location    !! of the limit
+   end type condition_t
+
    !> One cell, or the right-hand side of one setting.
    type :: value_t
       logical :: given = .false.                     !! .false.: the column's default was taken
@@ -43,6 +53,7 @@ module item
       type(text_t), allocatable :: words(:)          !! of a list of words
       type(location_t), allocatable :: places(:)     !! (words or rows) where each entry of a list stands
       type(option_t), allocatable :: options(:)      !! after a word
+      type(condition_t), allocatable :: conditions(:)  !! (n) conditions, any of which is enough
       type(expression_t), allocatable :: expression  !! of an expression cell, constant ones too
       integer :: index = 0                           !! of a reference: number of the item, set by the scene
       type(location_t) :: location                   !! where it stands

@@ -1,6 +1,6 @@
 !> Parameters of a deck: numbers with units, words, expressions over earlier ones, and overrides.
 module parameters
-   use cells, only: read_number
+   use number_cell, only: read_number
    use deck_types, only: deck_t, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name

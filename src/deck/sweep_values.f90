@@ -5,7 +5,7 @@
 !> ratios. The key `combine` says how several parameters go together, `keep` what is kept of each run.
 !> Cases are numbered from 1; in a grid the last parameter changes fastest.
 module sweep_values
-   use cells, only: blank_value, read_number, read_value
+   use cells, only: blank_value, read_value
    use deck_types, only: deck_t, find_section, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
@@ -13,6 +13,7 @@ module sweep_values
    use item, only: item_t, location_t
    use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
+   use number_cell, only: read_number
    use numbers, only: number_length
    use quantities, only: is_numeric, quantity_t, read_bare
    use table_header, only: column_index

@@ -24,6 +24,7 @@ module planar_energy
    contains
       procedure :: mechanical
       procedure :: balance
+      procedure :: magnitude
    end type energy_t
 
 contains
@@ -42,6 +43,15 @@ contains
       balance = self%mechanical() - (self%drive_work + self%load_work + self%stabilisation_work) &
                 + self%dissipated_contact + self%dissipated_friction + self%dissipated_damper
    end function balance
+
+   !> Size of what the balance adds up, for its round-off.
+   pure real(wp) function magnitude(self)
+      class(energy_t), intent(in) :: self  !! energies
+
+      magnitude = self%kinetic + abs(self%potential) + abs(self%elastic) + abs(self%drive_work) + abs(self%load_work) &
+                  + abs(self%stabilisation_work) + abs(self%dissipated_contact) + abs(self%dissipated_friction) &
+                  + abs(self%dissipated_damper)
+   end function magnitude
 
    !> Mechanical energy of the present motion.
    real(wp) function mechanical_energy(system) result(total)

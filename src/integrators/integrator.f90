@@ -11,7 +11,7 @@ module integrator
    use interpolation, only: inner_places, interpolate, step_t
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_none, dim_time, kind_info_t
-   use kinds, only: i8, wp
+   use kinds, only: i8, least_tolerance, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
    implicit none (type, external)
@@ -383,7 +383,7 @@ contains
       type(kind_info_t), intent(inout) :: info  !! settings of an analysis
 
       call add_number(info, "tolerance", dim_none, "local error allowed (TOL), relative to the mechanism's size and speed", &
-                      default="1e-8", lower=0.0_wp, upper=0.01_wp, open_lower=.true.)
+                      default="1e-8", lower=least_tolerance, upper=0.01_wp)
       call add_number(info, "step", dim_time, "length of fixed steps; 0: variable steps", default="0 s", lower=0.0_wp)
       call add_number(info, "initial_step", dim_time, "first step tried; 0: chosen", default="0 s", lower=0.0_wp)
       call add_number(info, "minimum_step", dim_time, "least step; 0: what arithmetic allows", default="0 s", lower=0.0_wp)

@@ -40,6 +40,7 @@ module bodies
       real(wp) :: young = 0.0_wp          !! modulus of elasticity [Pa]
       real(wp) :: poisson = 0.0_wp        !! ratio of Poisson [1]
       real(wp) :: density = 0.0_wp        !! density, 0 if unknown [kg/m^3]
+      real(wp) :: strength = 0.0_wp       !! greatest pressure that a surface bears, 0 if unknown [Pa]
    end type material_t
 
 contains
@@ -94,6 +95,8 @@ contains
       call add_number(info, "poisson", dim_none, "ratio of Poisson", lower=-1.0_wp, upper=0.5_wp, open_lower=.true.)
       call add_number(info, "density", dim_density, "density, for the validity of quasi-static contact; 0: not checked", &
                       default="0 kg/m^3", lower=0.0_wp)
+      call add_number(info, "strength", dim_pressure, "greatest contact pressure that its surface bears (1.6 times the yield " &
+                      //"strength for balls, 1.8 for cylinders); 0: not checked", default="0 Pa", lower=0.0_wp)
    end function material_info
 
    !> Bodies from their rows.
@@ -154,6 +157,7 @@ contains
          materials(k)%young = items(k)%values(1)%number
          materials(k)%poisson = items(k)%values(2)%number
          materials(k)%density = items(k)%values(3)%number
+         materials(k)%strength = items(k)%values(4)%number
       end do
    end subroutine new_materials
 

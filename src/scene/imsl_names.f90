@@ -1,5 +1,6 @@
 !> IMSL's names of the integrator's controls: folded into the plain ones, so that nothing is said twice.
 module imsl_names
+   use cell_checks, only: check_range
    use columns, only: column_of
    use diagnostics, only: diagnostics_t
    use item, only: item_t
@@ -44,6 +45,8 @@ contains
                own%number = other%number
                own%given = .true.
                own%location = other%location
+               call check_range(info%columns(column_of(info, trim(plain(k)))), own%number, "1", own%location, "in key "// &
+                                trim(imsl(k))//" of "//info%name, diagnostics)
             end if
             other%number = 0.0_wp
             other%given = .false.

@@ -9,6 +9,7 @@ module kind_list
    use friction_law, only: friction_law_t
    use function_kind, only: function_kind_t
    use function_registry, only: n_function_kinds, new_function_kind
+   use guard_info, only: guards_info
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
@@ -93,7 +94,7 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(11 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(12 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
@@ -128,10 +129,11 @@ contains
       kinds(n + 1) = dynamic_info()
       kinds(n + 2) = kinematic_info()
       kinds(n + 3) = static_info()
-      kinds(n + 4) = output_info()
-      kinds(n + 5) = statistics_info()
-      kinds(n + 6) = sweep_info()
-      kinds(n + 7) = ensemble_info()
+      kinds(n + 4) = guards_info()
+      kinds(n + 5) = output_info()
+      kinds(n + 6) = statistics_info()
+      kinds(n + 7) = sweep_info()
+      kinds(n + 8) = ensemble_info()
    end subroutine all_kinds
 
 end module kind_list

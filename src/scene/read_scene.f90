@@ -9,6 +9,7 @@ module read_scene
    use deck_types, only: add_default, deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
+   use guard_info, only: guards_info
    use imsl_names, only: fold_imsl_names
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
@@ -47,10 +48,12 @@ contains
 
       call all_kinds(kinds)
       call check_sections(deck, kinds, diagnostics)
+      scene%guards_kind = guards_info()
       scene%output_kind = output_info()
       call functions_from_deck(deck, scene, diagnostics)
       call read_settings(deck, scene_info(), scene%header, is_present, diagnostics)
       call read_analyses(deck, scene, diagnostics)
+      call read_settings(deck, scene%guards_kind, scene%guards, is_present, diagnostics)
       call read_settings(deck, scene%output_kind, scene%output, is_present, diagnostics)
       call read_studies(deck, scene, diagnostics)
       call read_tables(deck, scene, diagnostics)

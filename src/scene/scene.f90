@@ -70,6 +70,8 @@ module scene
       type(item_t) :: kinematic                              !! its settings, if the deck has it
       type(kind_info_t) :: static_kind                       !! keys of [analysis.static]
       type(item_t) :: static                                 !! its settings, defaults if the deck has none
+      type(kind_info_t) :: guards_kind                       !! keys of the guards
+      type(item_t) :: guards                                 !! what they are set to
       type(kind_info_t) :: output_kind                       !! keys of the output
       type(item_t) :: output                                 !! settings of the output
       logical :: has_statistics = .false.                    !! whether statistics are asked for

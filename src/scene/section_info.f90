@@ -4,7 +4,7 @@ module section_info
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: add_duration, add_flag, add_number, add_vector, add_word, add_words, dim_acceleration, dim_length, &
       dim_none, dim_time, kind_info_t
-   use kinds, only: wp
+   use kinds, only: least_tolerance, wp
    use text, only: to_text
    implicit none (type, external)
    private
@@ -98,7 +98,7 @@ contains
       call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
       call add_number(info, "tolerance", dim_none, "greatest violation of a constraint at which Newton's iteration has " &
                       //"converged, of the size of the bodies or a radian; it goes on to round-off", default="1e-10", &
-                      lower=0.0_wp, upper=1.0e-4_wp, open_lower=.true.)
+                      lower=least_tolerance, upper=1.0e-4_wp)
       call add_number(info, "maximum_iterations", dim_none, "corrections of the positions allowed at an instant", default="25", &
                       lower=1.0_wp, upper=1.0e9_wp)
    end function kinematic_info
@@ -114,7 +114,7 @@ contains
       call add_word(info, "start", "ideal: search from the mechanism with ideal joints; given: from where the deck puts the " &
                     //"bodies, the ideal joints assembled", default="ideal", choices="ideal given")
       call add_number(info, "tolerance", dim_none, "greatest load left unbalanced, of the largest load", default="1e-10", &
-                      lower=0.0_wp, upper=1.0e-4_wp, open_lower=.true.)
+                      lower=least_tolerance, upper=1.0e-4_wp)
       call add_number(info, "maximum_iterations", dim_none, "steps of the search allowed", default="500", lower=1.0_wp, &
                       upper=1.0e9_wp)
    end function static_info

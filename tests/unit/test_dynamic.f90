@@ -4,13 +4,13 @@ module test_dynamic
    use catalogue, only: room_bodies
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
-   use dynamic, only: limits_t
    use errors, only: error_t, exit_audit, exit_file, exit_integration
    use integrator, only: advance_event
    use kinds, only: i8, pi, wp
    use ode_system, only: ode_system_t
    use recorder, only: status_complete, status_failed, summary_t
    use rk4, only: rk4_t
+   use run_audit, only: limits_t
    implicit none (type, external)
    private
    public :: run_test_dynamic

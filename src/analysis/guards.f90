@@ -1,0 +1,364 @@
+!> What no mechanism does: a run that gets there warns, or ends. Looked at on the ends of steps.
+!>
+!> of a contact: a penetration beyond the clearance, the range of its law or a part of the smaller radius; an impact too
+!> fast for a quasi-static law; a force at which the pressure is beyond the strength of the material;
+!> of a body: its speed, its way from the start in sizes of the scene; of the ledger: energy made of nothing.
+!>
+!> Sources: of the limits of laws see `surfaces` and `normal_law`, of the pressure `contact_pressure`. Limits: peaks are those of
+!> the contacts' memory, so that they are as right as its; speeds and ways are those at the ends of steps.
+module guards
+   use clearance_set, only: clearance_set_t
+   use columns, only: column_of
+   use contact_pressure, only: force_at_pressure
+   use item, only: item_t
+   use kind_info, only: kind_info_t
+   use kinds, only: eps, wp
+   use normal_law, only: parameter_deepest
+   use planar_system, only: planar_system_t
+   use scene, only: scene_t
+   use text, only: append_text, real_text, text_t
+   implicit none (type, external)
+   private
+   public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
+      new_guards, scene_size
+
+   integer, parameter :: guard_penetration = 1   !! a penetration, part of the smaller radius
+   integer, parameter :: guard_clearance = 2     !! a penetration, the clearance
+   integer, parameter :: guard_law_range = 3     !! a penetration, the range of the law
+   integer, parameter :: guard_impact_speed = 4  !! an impact speed
+   integer, parameter :: guard_strength = 5      !! a normal force
+   integer, parameter :: n_contact_guard = 5     !! guards of a contact
+
+   character(*), parameter :: words_of(2:n_contact_guard) = [character(12) :: "clearance", "law_range", "impact_speed", "strength"]
+      !! keys of [guards]
+
+   real(wp), parameter :: noise = 1.0e6_wp       !! round-off of the ledger, in spacings of what it adds up [1]
+
+   !> Where a limit was passed.
+   type :: breach_t
+      logical :: is_there = .false.              !! it was passed
+      real(wp) :: first = 0.0_wp                 !! when it was passed first [s]
+      real(wp) :: value = 0.0_wp                 !! the greatest value [any]
+      real(wp) :: time = 0.0_wp                  !! when that was reached [s]
+   end type breach_t
+
+   !> The guards of a run. Without `new_guards` there are none.
+   type :: guards_t
+      logical :: is_set = .false.                !! there are guards
+      logical :: stops(n_contact_guard) = .false.       !! (guards of a contact) whether the run ends there
+      real(wp), allocatable :: limit(:, :)       !! (guards of a contact, contacts) limits; huge: none [m, m/s or N]
+      type(breach_t), allocatable :: breach(:, :)       !! (guards of a contact, contacts) where they were passed
+      real(wp) :: penetration = 0.0_wp           !! greatest penetration over the smaller radius, 0: no limit [1]
+      real(wp) :: energy = 0.0_wp                !! greatest residual over the largest energy, 0: no limit [1]
+      real(wp) :: speed = huge(1.0_wp)           !! greatest speed of a body [m/s]
+      real(wp) :: way = huge(1.0_wp)             !! way from the start that is worth a word [m]
+      real(wp) :: size = 0.0_wp                  !! of the scene [m]
+      real(wp), allocatable :: start(:, :)       !! (2, bodies) centres at the start [m]
+      type(breach_t), allocatable :: travel(:)   !! (bodies) ways beyond
+      character(:), allocatable :: reason        !! why the run must end; unallocated: it need not
+   contains
+      procedure :: begin => guards_begin
+      procedure :: look => guards_look
+      procedure :: look_at_energy => guards_look_at_energy
+      procedure :: warn => guards_warn
+   end type guards_t
+
+contains
+
+   !> Guards as the deck sets them.
+   subroutine new_guards(scene, system, guards)
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(planar_system_t), intent(in) :: system     !! the system that will run
+      type(guards_t), intent(out) :: guards           !! the guards
+
+      character(:), allocatable :: word
+      real(wp) :: travel
+      integer :: g, k
+
+      guards%is_set = .true.
+      associate (kind => scene%guards_kind, settings => scene%guards)
+         guards%penetration = number_of(kind, settings, "penetration")
+         guards%energy = number_of(kind, settings, "energy")
+         if (number_of(kind, settings, "speed") > 0.0_wp) guards%speed = number_of(kind, settings, "speed")
+         guards%size = scene_size(scene)
+         travel = number_of(kind, settings, "travel")
+         if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
+         allocate (guards%limit(n_contact_guard, system%n_contact), source=huge(1.0_wp))
+         do k = 1, size(system%clearances)
+            call set_limits(system%clearances(k)%set, guards)
+         end do
+         guards%stops(guard_penetration) = .true.
+         do g = 2, n_contact_guard
+            word = settings%values(column_of(kind, trim(words_of(g))))%text
+            guards%stops(g) = word == "stop"
+            if (word == "off") guards%limit(g, :) = huge(1.0_wp)
+         end do
+      end associate
+   end subroutine new_guards
+
+   !> A number of the section.
+   real(wp) function number_of(kind, settings, key)
+      type(kind_info_t), intent(in) :: kind    !! keys
+      type(item_t), intent(in) :: settings     !! what they are set to
+      character(*), intent(in) :: key          !! the key
+
+      number_of = settings%values(column_of(kind, key))%number
+   end function number_of
+
+   !> Limits of the contacts of a set.
+   subroutine set_limits(set, guards)
+      class(clearance_set_t), intent(in) :: set   !! the set
+      type(guards_t), intent(inout) :: guards     !! limits are set
+
+      integer :: c, m
+      real(wp) :: radius
+
+      do c = 1, set%n_contact
+         m = set%first_contact + c
+         associate (pair => set%pairs(set%item_of(c)), limit => guards%limit(:, m))
+            radius = pair%radius_j
+            if (pair%radius_i > 0.0_wp) radius = min(radius, pair%radius_i)
+            if (guards%penetration*radius > 0.0_wp) limit(guard_penetration) = guards%penetration*radius
+            if (set%is_round) limit(guard_clearance) = set%clearance(set%item_of(c))
+            limit(guard_law_range) = set%parameters(parameter_deepest, c)
+            limit(guard_impact_speed) = pair%speed_limit
+            limit(guard_strength) = force_at_pressure(pair, pair%strength)
+         end associate
+      end do
+   end subroutine set_limits
+
+   !> Size of a scene where the deck puts it: the diagonal of the box around all centres of mass and points; 0: a single place.
+   pure real(wp) function scene_size(scene) result(length)
+      type(scene_t), intent(in) :: scene    !! the scene
+
+      real(wp) :: greatest(2), least(2), place(2)
+      integer :: k
+
+      greatest = -huge(1.0_wp)
+      least = huge(1.0_wp)
+      do k = 1, scene%bodies%n
+         greatest = max(greatest, scene%bodies%r(1:2, k))
+         least = min(least, scene%bodies%r(1:2, k))
+      end do
+      do k = 1, scene%points%n
+         associate (s => scene%points%s(1:2, k), body => scene%points%body(k))
+            place = s
+            if (body > 0) then
+               associate (angle => scene%bodies%angle(body))
+                  place = scene%bodies%r(1:2, body) + [cos(angle)*s(1) - sin(angle)*s(2), sin(angle)*s(1) + cos(angle)*s(2)]
+               end associate
+            end if
+         end associate
+         greatest = max(greatest, place)
+         least = min(least, place)
+      end do
+      length = norm2(greatest - least)
+   end function scene_size
+
+   !> Before the first step.
+   subroutine guards_begin(self, system)
+      class(guards_t), intent(inout) :: self         !! the guards
+      type(planar_system_t), intent(in) :: system    !! the system, its motion that of the start
+
+      if (.not. self%is_set) return
+      allocate (self%breach(n_contact_guard, system%n_contact), self%travel(system%n_body))
+      self%start = system%motion%r(1:2, 1:system%n_body)
+   end subroutine guards_begin
+
+   !> After a step: contacts and bodies.
+   subroutine guards_look(self, system, t)
+      class(guards_t), intent(inout) :: self         !! the guards
+      type(planar_system_t), intent(in) :: system    !! the system, its motion that at the end of the step
+      real(wp), intent(in) :: t                      !! time there [s]
+
+      real(wp) :: values(n_contact_guard), way
+      integer :: c, k, m
+
+      if (.not. self%is_set) return
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            if (set%n_touching == 0) cycle
+            do c = 1, set%n_contact
+               if (.not. set%contact(c)%is_touching) cycle
+               m = set%first_contact + c
+               associate (contact => set%contact(c))
+                  values = [contact%peak_penetration, contact%peak_penetration, contact%peak_penetration, contact%impact_speed, &
+                            contact%peak_force]
+               end associate
+               if (any(values > self%limit(:, m))) call note(self, set, c, values, t)
+            end do
+         end associate
+      end do
+      associate (motion => system%motion)
+         do k = 1, system%n_body
+            if (motion%v(1, k)**2 + motion%v(2, k)**2 > self%speed**2) then
+               call end_run(self, "body '"//system%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
+                            motion%v(2, k)), 3)//" m/s, faster than the guard 'speed' allows: "//real_text(self%speed, 3)//" m/s")
+            end if
+            way = hypot(motion%r(1, k) - self%start(1, k), motion%r(2, k) - self%start(2, k))
+            if (way > self%way) call raise(self%travel(k), way, t)
+         end do
+      end associate
+   end subroutine guards_look
+
+   !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, and more
+   !> than the round-off of what it adds up.
+   subroutine guards_look_at_energy(self, residual, largest, added)
+      class(guards_t), intent(inout) :: self      !! the guards
+      real(wp), intent(in) :: residual            !! of the ledger [J]
+      real(wp), intent(in) :: largest             !! largest energy so far [J]
+      real(wp), intent(in) :: added               !! magnitude of what the ledger adds up [J]
+
+      if (.not. self%energy > 0.0_wp) return
+      if (abs(residual) <= self%energy*largest .or. abs(residual) <= noise*eps*added) return
+      call end_run(self, "the motion is not that of the mechanism: "//real_text(residual, 3)//" J were made of nothing, "// &
+                   real_text(abs(residual)/largest, 3)//" of the largest energy (guard 'energy')")
+   end subroutine guards_look_at_energy
+
+   !> The first reason stands.
+   subroutine end_run(self, reason)
+      class(guards_t), intent(inout) :: self      !! the guards
+      character(*), intent(in) :: reason          !! why the run must end
+
+      if (.not. allocated(self%reason)) self%reason = reason
+   end subroutine end_run
+
+   !> Raise a breach.
+   pure subroutine raise(breach, value, t)
+      type(breach_t), intent(inout) :: breach   !! the breach
+      real(wp), intent(in) :: value             !! value beyond the limit [any]
+      real(wp), intent(in) :: t                 !! time [s]
+
+      if (.not. breach%is_there) breach%first = t
+      if (.not. breach%is_there .or. value > breach%value) then
+         breach%value = value
+         breach%time = t
+      end if
+      breach%is_there = .true.
+   end subroutine raise
+
+   !> Note what a contact has passed, and whether the run ends with it.
+   subroutine note(self, set, c, values, t)
+      class(guards_t), intent(inout) :: self          !! the guards
+      class(clearance_set_t), intent(in) :: set       !! set of the contact
+      integer, intent(in) :: c                        !! contact of the set
+      real(wp), intent(in) :: values(n_contact_guard) !! (guards of a contact) what is compared [any]
+      real(wp), intent(in) :: t                       !! time [s]
+
+      integer :: g, m
+
+      m = set%first_contact + c
+      do g = 1, n_contact_guard
+         if (.not. values(g) > self%limit(g, m)) cycle
+         call raise(self%breach(g, m), values(g), t)
+         if (self%stops(g)) call end_run(self, joint_words(set, c)//": "//breach_words(self, g, m))
+      end do
+   end subroutine note
+
+   !> A contact in words.
+   function joint_words(set, c) result(words)
+      class(clearance_set_t), intent(in) :: set       !! set of the contact
+      integer, intent(in) :: c                        !! contact of the set
+      character(:), allocatable :: words              !! joint, contact and law
+
+      words = "joint '"//set%names(set%item_of(c))%s//"'"
+      associate (label => set%labels(modulo(c - 1, set%n_contact_item) + 1)%s)
+         if (label /= "") words = words//", contact "//label
+      end associate
+      words = words//", law '"//set%law%name//"'"
+   end function joint_words
+
+   !> What was passed, in words.
+   function breach_words(self, g, m) result(words)
+      class(guards_t), intent(in) :: self     !! the guards
+      integer, intent(in) :: g                !! guard
+      integer, intent(in) :: m                !! contact
+      character(:), allocatable :: words      !! value, limit and times
+
+      associate (breach => self%breach(g, m), limit => self%limit(g, m))
+         select case (g)
+         case (guard_penetration)
+            words = "a penetration of "//millimetres(breach%value)//", beyond "//real_text(self%penetration, 3)// &
+                    " of the smaller radius, "//millimetres(limit)//" (guard 'penetration')"
+         case (guard_clearance)
+            words = "penetrations of up to "//millimetres(breach%value)//", beyond the clearance itself, "//millimetres(limit)
+         case (guard_law_range)
+            words = "penetrations of up to "//millimetres(breach%value)//", but the law ends at "//millimetres(limit)// &
+                    " and was continued along its tangent"
+         case (guard_impact_speed)
+            words = "impacts of up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: strictly below "// &
+                    real_text(limit, 3)//" m/s (1e-5 sqrt(E/rho))"
+         case default
+            words = "normal forces of up to "//real_text(breach%value, 3)//" N, but the strength of the material is reached at "// &
+                    real_text(limit, 3)//" N"
+         end select
+         words = words//", at t = "//real_text(breach%time, 6)//" s"
+         if (breach%first < breach%time) words = words//", first at "//real_text(breach%first, 6)//" s"
+      end associate
+   end function breach_words
+
+   !> A length in words.
+   function millimetres(length) result(words)
+      real(wp), intent(in) :: length        !! [m]
+      character(:), allocatable :: words    !! in mm
+
+      words = real_text(1.0e3_wp*length, 3)//" mm"
+   end function millimetres
+
+   !> Append a warning for each joint whose contacts passed a limit without ending the run, one for each limit, and one for the
+   !> body that went farthest.
+   subroutine guards_warn(self, system, warnings)
+      class(guards_t), intent(in) :: self                        !! the guards
+      type(planar_system_t), intent(in) :: system                !! the system
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+
+      character(:), allocatable :: words
+      integer :: c, g, i, k
+
+      if (.not. allocated(self%breach)) return
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            do i = 1, set%n
+               words = ""
+               do g = 1, n_contact_guard
+                  if (self%stops(g)) cycle
+                  c = greatest_of(self%breach(g, set%first_contact + (i - 1)*set%n_contact_item + 1: &
+                                              set%first_contact + i*set%n_contact_item))
+                  if (c == 0) cycle
+                  c = (i - 1)*set%n_contact_item + c
+                  if (words == "") then
+                     words = joint_words(set, c)//": "
+                  else
+                     words = words//"; "
+                  end if
+                  words = words//breach_words(self, g, set%first_contact + c)
+               end do
+               if (words /= "") call append_text(warnings, words)
+            end do
+         end associate
+      end do
+      k = greatest_of(self%travel)
+      if (k == 0) return
+      call append_text(warnings, "body '"//system%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
+                       " m from its start at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
+                       real_text(self%travel(k)%value/self%size, 3)// &
+                       " times the size of the scene: does a driver or load go on too long, or did it miss a surface?")
+   end subroutine guards_warn
+
+   !> The breach with the greatest value, 0: none.
+   pure integer function greatest_of(breaches) result(k)
+      type(breach_t), intent(in) :: breaches(:)   !! (any) breaches
+
+      integer :: i
+
+      k = 0
+      do i = 1, size(breaches)
+         if (.not. breaches(i)%is_there) cycle
+         if (k > 0) then
+            if (breaches(i)%value <= breaches(k)%value) cycle
+         end if
+         k = i
+      end do
+   end function greatest_of
+
+end module guards

@@ -1,0 +1,77 @@
+!> How right a run was: warnings of errors that a careful reader should know, and the limits of its deck.
+module run_audit
+   use errors, only: error_t, exit_audit, set_error
+   use guards, only: guards_t
+   use kinds, only: wp
+   use planar_system, only: planar_system_t
+   use recorder, only: summary_t
+   use stop_condition, only: stop_t
+   use text, only: append_text, real_text
+   implicit none (type, external)
+   private
+   public :: audit, limits_t, warn_of_errors
+
+   real(wp), parameter :: careful_energy = 1.0e-3_wp     !! residual of the largest energy that is worth a warning [1]
+   real(wp), parameter :: careful_violation = 1.0e-4_wp  !! violation, of the size of the bodies or a radian, that is [1]
+
+   !> What the results must fulfil, and what ends a run before its end.
+   type :: limits_t
+      real(wp) :: energy = 0.0_wp      !! greatest residual of the ledger over the largest energy, 0: none [1]
+      real(wp) :: violation = 0.0_wp   !! greatest violation of a constraint, 0: none [m]
+      type(guards_t) :: guards         !! what no mechanism does
+      type(stop_t) :: stop             !! conditions that end it by intent
+   end type limits_t
+
+contains
+
+   !> What a careful reader of the results should know.
+   subroutine warn_of_errors(system, worst, worst_row, lost, summary)
+      type(planar_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: worst                !! greatest violation, over the size of the bodies or one radian [1]
+      integer, intent(in) :: worst_row             !! the row it belongs to
+      real(wp), intent(in) :: lost                 !! least that contacts had lost: negative, they made energy [J]
+      type(summary_t), intent(inout) :: summary    !! warnings are added to it
+
+      if (system%with_ledger) then  ! else the residual is a NaN, which must not be compared
+         if (summary%energy_residual_max > careful_energy*summary%energy_max .and. summary%energy_max > 0.0_wp) then
+            call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &
+                             real_text(summary%energy_residual_max/summary%energy_max, 3)// &
+                             " of the largest energy; try a smaller tolerance")
+         end if
+         if (lost < -careful_energy*summary%energy_max) then
+            call append_text(summary%warnings, "contacts made up to "//real_text(-lost, 3)//" J out of nothing: a law "// &
+                             "without a potential, as faces = blend and book are; foundation has one")
+         end if
+      end if
+      if (worst > careful_violation) then
+         call append_text(summary%warnings, "'"//system%row_name(worst_row)//"' was violated by "// &
+                          real_text(worst, 3)// &
+                          trim(merge(" rad                      ", " of the size of the bodies", &
+                                     system%rows%is_angle(worst_row)))// &
+                          "; a jump in a driver, or too large a tolerance?")
+      end if
+   end subroutine warn_of_errors
+
+   !> Compare the results with the deck's limits.
+   subroutine audit(summary, limits, error)
+      type(summary_t), intent(in) :: summary             !! results
+      type(limits_t), intent(in) :: limits               !! limits
+      type(error_t), allocatable, intent(out) :: error   !! a limit is exceeded
+
+      if (limits%energy > 0.0_wp .and. summary%ledger) then
+         if (.not. summary%energy_residual_max <= limits%energy*summary%energy_max) then
+            call set_error(error, exit_audit, "audit failed: the ledger's residual reached "// &
+                           real_text(summary%energy_residual_max/summary%energy_max, 3)//" of the largest energy, allowed are "// &
+                           real_text(limits%energy, 3)//new_line("a")//"  = everything was saved; try a smaller tolerance")
+            return
+         end if
+      end if
+      if (limits%violation > 0.0_wp .and. .not. summary%violation_max <= limits%violation) then
+         call set_error(error, exit_audit, "audit failed: a constraint was violated by "// &
+                        real_text(summary%violation_max, 3)//" m (or rad), allowed are "// &
+                        real_text(limits%violation, 3)//new_line("a")// &
+                        "  = everything was saved; try a smaller tolerance or greater gains of the stabilisation")
+      end if
+   end subroutine audit
+
+end module run_audit

@@ -1,0 +1,101 @@
+!> `gudgeon explain`: the guards of a run, with the limits that they come to in this scene.
+module explain_guards
+   use catalogue, only: catalogue_t
+   use columns, only: column_of
+   use console, only: say
+   use guards, only: guard_clearance, guard_penetration, guard_strength, guards_t
+   use kinds, only: wp
+   use load, only: loaded_t
+   use planar_report, only: build_catalogue
+   use planar_system, only: planar_system_t
+   use run_audit, only: limits_t
+   use run_limits, only: limits_of
+   use scene, only: analysis_dynamic, scene_t
+   use text, only: real_text, text_t
+   implicit none (type, external)
+   private
+   public :: say_guards
+
+contains
+
+   !> Say what ends a motion early, and what it is told of.
+   subroutine say_guards(loaded)
+      type(loaded_t), intent(in) :: loaded   !! the deck
+
+      type(catalogue_t) :: catalogue
+      type(limits_t) :: limits
+      type(text_t), allocatable :: warnings(:)
+      integer :: k
+
+      if (loaded%scene%analysis /= analysis_dynamic) return
+      allocate (warnings(0))
+      call build_catalogue(loaded%system, catalogue)
+      call limits_of(loaded%scene, loaded%system, catalogue, limits, warnings)
+      call say("")
+      call say("guards")
+      associate (guards => limits%guards)
+         call say_contacts(loaded%scene, loaded%system, guards)
+         if (loaded%system%with_ledger .and. guards%energy > 0.0_wp) then
+            call say("ends where "//real_text(guards%energy, 3)//" of the largest energy is made of nothing (energy)", 2)
+         end if
+         if (guards%speed < huge(1.0_wp)) call say("ends where a body is faster than "//real_text(guards%speed, 3)// &
+                                                   " m/s (speed)", 2)
+         if (guards%way < huge(1.0_wp)) call say("warns where a body is "//real_text(guards%way, 3)//" m from its start, "// &
+                                                 real_text(guards%way/guards%size, 3)//" sizes of the scene (travel)", 2)
+      end associate
+      do k = 1, limits%stop%n
+         call say("ends by intent when "//limits%stop%list(k)%words, 2)
+      end do
+      do k = 1, size(warnings)
+         call say(warnings(k)%s, 2)
+      end do
+   end subroutine say_guards
+
+   !> The guards of the contacts, joint by joint.
+   subroutine say_contacts(scene, system, guards)
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(planar_system_t), intent(in) :: system     !! the system that will run
+      type(guards_t), intent(in) :: guards            !! the guards
+
+      integer :: i, k, m
+
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set)
+            do i = 1, set%n
+               m = set%first_contact + (i - 1)*set%n_contact_item + 1
+               associate (limit => guards%limit(:, m), name => set%names(i)%s)
+                  if (limit(guard_penetration) < huge(1.0_wp)) then
+                     call say(name//": ends at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
+                              real_text(guards%penetration, 3)//" of the smaller radius (penetration)", 2)
+                  end if
+                  if (limit(guard_clearance) < huge(1.0_wp)) then
+                     call say(name//": "//verb_of(scene, "clearance")//" at a penetration of "// &
+                              real_text(1.0e3_wp*limit(guard_clearance), 3)//" mm, its clearance (clearance)", 2)
+                  end if
+                  if (limit(guard_strength) < huge(1.0_wp)) then
+                     call say(name//": "//verb_of(scene, "strength")//" at a normal force of "// &
+                              real_text(limit(guard_strength), 3)//" N, the strength of the material (strength)", 2)
+                  end if
+               end associate
+            end do
+         end associate
+      end do
+      if (system%n_contact == 0) return
+      call say(verb_of(scene, "law_range")//" where a penetration leaves the range of its law (law_range)", 2)
+      call say(verb_of(scene, "impact_speed")//" where an impact is too fast for a quasi-static law (impact_speed)", 2)
+   end subroutine say_contacts
+
+   !> What a guard does.
+   function verb_of(scene, key) result(verb)
+      type(scene_t), intent(in) :: scene    !! the scene
+      character(*), intent(in) :: key       !! key of [guards]
+      character(:), allocatable :: verb     !! warns, ends, or says nothing
+
+      select case (scene%guards%values(column_of(scene%guards_kind, key))%text)
+      case ("stop"); verb = "ends"
+      case ("warn"); verb = "warns"
+      case default; verb = "says nothing"
+      end select
+   end function verb_of
+
+end module explain_guards

@@ -1,0 +1,142 @@
+!> What ends a motion before its end, and what its results must fulfil: from the settings of a scene to `limits_t`.
+module run_limits
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_t
+   use channels, only: list_scalars, match_word, selection_t
+   use columns, only: column_of
+   use dimension_text, only: dimension_name
+   use diagnostics, only: diagnostics_t
+   use guards, only: new_guards
+   use item, only: condition_t
+   use kind_info, only: dim_none, dim_t, same_dimension
+   use planar_system, only: planar_system_t
+   use run_audit, only: limits_t
+   use scene, only: scene_t
+   use stop_condition, only: stop_t
+   use text, only: append_text, real_text, text_t
+   use units, only: parse_unit, unit_t
+   implicit none (type, external)
+   private
+   public :: check_conditions, limits_of, twin_limits
+
+contains
+
+   !> Limits of a run. Conditions on channels that its joints, taken as ideal, do not have are left out, with a warning.
+   subroutine limits_of(scene, system, catalogue, limits, warnings)
+      type(scene_t), intent(in) :: scene                        !! the scene
+      type(planar_system_t), intent(in) :: system               !! the system that will run
+      type(catalogue_t), intent(in) :: catalogue                !! what it can report
+      type(limits_t), intent(out) :: limits                     !! limits
+      type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) appended to
+
+      type(scalar_t), allocatable :: scalars(:)
+      character(:), allocatable :: hint, message
+      integer :: k
+
+      limits%energy = scene%dynamic%values(column_of(scene%dynamic_kind, "energy_limit"))%number
+      limits%violation = scene%dynamic%values(column_of(scene%dynamic_kind, "violation_limit"))%number
+      call new_guards(scene, system, limits%guards)
+      associate (conditions => scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions)
+         do k = 1, size(conditions)
+            call find_scalars(conditions(k), catalogue, scalars, message, hint)
+            if (message /= "") then
+               call append_text(warnings, "condition '"//words_of(conditions(k), catalogue)//"' left out: the joint is ideal")
+            else
+               associate (at => scalars(1))
+                  call limits%stop%add(words_of(conditions(k), catalogue), at%group, at%component, at%item, &
+                                       conditions(k)%is_above, conditions(k)%limit)
+               end associate
+            end if
+         end do
+      end associate
+   end subroutine limits_of
+
+   !> Limits of an ideal twin: its guards only.
+   function twin_limits(scene, system) result(limits)
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(planar_system_t), intent(in) :: system     !! the twin's system
+      type(limits_t) :: limits                        !! limits
+
+      call new_guards(scene, system, limits%guards)
+   end function twin_limits
+
+   !> Conditions must name one number of a channel of the scene, and compare it with a number of its dimension.
+   subroutine check_conditions(scene, catalogue, mistakes)
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(catalogue_t), intent(in) :: catalogue      !! what its loose joints can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
+
+      type(scalar_t), allocatable :: scalars(:)
+      type(dim_t) :: dimension
+      character(:), allocatable :: hint, message
+      integer :: k
+
+      associate (conditions => scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions)
+         do k = 1, size(conditions)
+            call find_scalars(conditions(k), catalogue, scalars, message, hint)
+            if (message /= "") then
+               call mistakes%add(conditions(k)%location, message, "not one number of this deck", hint)
+               cycle
+            end if
+            dimension = dimension_of(catalogue, scalars(1))
+            if (same_dimension(dimension, conditions(k)%dimension)) cycle
+            call mistakes%add(conditions(k)%limit_location, "wrong dimension in a condition on '"//conditions(k)%channel//"'", &
+                              "this is "//dimension_name(conditions(k)%dimension)//", "//dimension_name(dimension)// &
+                              " is wanted")
+         end do
+      end associate
+   end subroutine check_conditions
+
+   !> The number that the channel of a condition names.
+   subroutine find_scalars(condition, catalogue, scalars, message, hint)
+      type(condition_t), intent(in) :: condition              !! the condition
+      type(catalogue_t), intent(in) :: catalogue              !! what can be reported
+      type(scalar_t), allocatable, intent(out) :: scalars(:)  !! (n) numbers that it names, one if all is well
+      character(:), allocatable, intent(out) :: message       !! what is wrong, blank if nothing is
+      character(:), allocatable, intent(out) :: hint          !! what may have been meant
+
+      type(selection_t) :: selection
+
+      call match_word(condition%channel, catalogue, selection, message, hint)
+      if (message /= "") return
+      scalars = list_scalars(selection)
+      if (size(scalars) == 1) return
+      message = "'"//condition%channel//"' is not one number"
+      hint = "a component of one channel is wanted, as slider.position.x"
+   end subroutine find_scalars
+
+   !> Dimension of a channel.
+   type(dim_t) function dimension_of(catalogue, scalar) result(dimension)
+      type(catalogue_t), intent(in) :: catalogue    !! what can be reported
+      type(scalar_t), intent(in) :: scalar          !! the number
+
+      type(unit_t) :: unit
+      character(:), allocatable :: message
+      integer :: first, last
+
+      dimension = dim_none
+      associate (symbol => catalogue%groups(scalar%group)%channel%unit)
+         if (symbol == "1") return
+         call parse_unit(symbol, unit, message, first, last)
+         dimension = unit%dimension
+      end associate
+   end function dimension_of
+
+   !> A condition in words, its limit in the SI unit of the channel.
+   function words_of(condition, catalogue) result(words)
+      type(condition_t), intent(in) :: condition    !! the condition
+      type(catalogue_t), intent(in) :: catalogue    !! what can be reported
+      character(:), allocatable :: words            !! channel, sign, limit
+
+      type(scalar_t), allocatable :: scalars(:)
+      character(:), allocatable :: hint, message
+
+      words = condition%channel//merge(" > ", " < ", condition%is_above)//real_text(condition%limit, 6)
+      call find_scalars(condition, catalogue, scalars, message, hint)
+      if (message /= "") return
+      associate (symbol => catalogue%groups(scalars(1)%group)%channel%unit)
+         if (symbol /= "1") words = words//" "//symbol
+      end associate
+   end function words_of
+
+end module run_limits

@@ -1,0 +1,208 @@
+"""Section [guards]: what no mechanism does is told of or ends the run, and conditions end it by intent."""
+
+import math
+
+import pytest
+from support import DECK, Run, assert_close, call, changed, scratch, written
+
+INTEGRATION = 5
+G = 9.81  # m/s^2
+
+CRANK = """deck = 1
+[bodies]
+name   mass[kg]  inertia[kg.m^2]  x[mm]  y[mm]  angle[deg]
+crank  0.3       1e-4             25     0      0
+rod    0.2       1e-4             75     0      0
+slider 0.1       1e-4             100    0      0
+[points]
+name   body    xi[mm]  eta[mm]
+main   ground  0       0
+heel   crank   -25     0
+throw  crank   25      0
+big    rod     -25     0
+small  rod     25      0
+pin    slider  0       0
+fix    ground  100     0
+[joint.revolute]
+name   i     j
+main   main  heel
+bigend throw big
+[joint.rigid]
+name   i    j
+stand  fix  pin
+[driver.speed]
+name   joint  speed
+motor  main   1000rpm
+[material]
+name   young[GPa]  poisson
+steel  207         0.3
+[clearance.revolute]
+name   bearing  journal  bearing_radius[mm]  clearance[mm]  material  law
+loose  pin      small    10                  0.5            steel     hertz
+[contact.hertz]
+name
+hertz
+[analysis.dynamic]
+end = 1 s
+"""
+
+FALL = f"""deck = 1
+[scene]
+gravity = 0 -{G} m/s^2
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
+ball  2         0.01             0     0     0
+[points]
+name    body    xi[m]  eta[m]
+centre  ball    0      0
+floor   ground  0      -5
+[analysis.dynamic]
+end = 2 s
+start = given
+[output]
+every = 10 ms
+"""
+
+BALL = """[material]
+name   young[GPa]  poisson  strength[MPa]
+steel  207         0.3      2000
+[clearance.plane]
+name   plane  ball    axis  radius[mm]  material  law
+plate  floor  centre  y     20          steel     hertz
+[contact.hertz]
+name
+hertz
+"""
+
+OSCILLATOR = """deck = 1
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
+bob   1         1                1     0     10
+[points]
+name   body    xi[m]  eta[m]
+wall   ground  0      0
+eye    bob     0      0
+[joint.translational]
+name   i     j    axis
+rail   wall  eye  x
+[force.spring]
+name  i     j    stiffness[N/m]  free_length[m]
+coil  wall  eye  100             1
+[analysis.dynamic]
+end = 2 s
+start = given
+[output]
+every = 10 ms
+"""
+
+
+def run(program, text, *options, expect=0):
+    """Run a deck given as text, without figures."""
+    directory = scratch()
+    done = call(program, "run", written(directory, text), "--out", directory / "out", "--write", "channels", *options, expect=expect)
+    return Run(directory / "out", done)
+
+
+def guarded(text, *lines):
+    """A deck with a section [guards]."""
+    return text + "[guards]\n" + "".join(line + "\n" for line in lines)
+
+
+def test_mechanism_that_cannot_turn(gudgeon):
+    """A driven crank whose rod is too short for a turn presses its loose pin through the bearing: the run ends there."""
+    ended = run(gudgeon, CRANK, expect=INTEGRATION)
+    assert "joint 'loose', law 'hertz': a penetration of" in ended.done.stderr and "guard 'penetration'" in ended.done.stderr
+    assert "9.5 mm" in ended.done.stderr
+    # crank and rod of 50 mm, the bearing at 100 mm: 0.5 and 9.5 mm are passed when the crank pin is 60 mm from it
+    angle = 1000 * math.pi / 30 * ended.summary["time_end"]
+    assert_close(math.hypot(100 - 50 * math.cos(angle), 50 * math.sin(angle)), 60.0, absolute=0.01)
+    limited = run(gudgeon, guarded(CRANK, "penetration = 0.1"), expect=INTEGRATION)
+    assert "0.95 mm" in limited.done.stderr and limited.summary["time_end"] < ended.summary["time_end"]
+    told = run(gudgeon, guarded(changed(CRANK, "analysis.dynamic", end="5 ms"), "penetration = 0"))
+    assert any("beyond the clearance itself, 0.5 mm" in words and "first at" in words for words in told.summary["warnings"])
+
+
+@pytest.mark.parametrize("method", ["verner", "adams", "bdf", "ida"])
+def test_speed(gudgeon, method):
+    """Nothing goes on for ever: 1 km/s is passed after v/g."""
+    text = guarded(changed(FALL, "analysis.dynamic", end="1000 s", maximum_step="1 s"), "speed = 1 km/s", "travel = 0")
+    ended = run(gudgeon, text, "--method", method, expect=INTEGRATION)
+    assert "body 'ball'" in ended.done.stderr and "guard 'speed'" in ended.done.stderr
+    assert 0 <= ended.summary["time_end"] - 1000 / G <= 1.001
+
+
+def test_travel(gudgeon):
+    """A body that misses the floor is told of: where, when, how far."""
+    fell = run(gudgeon, guarded(changed(FALL, "analysis.dynamic", end="4 s", maximum_step="10 ms"), "travel = 10"))
+    words = [w for w in fell.summary["warnings"] if "'ball'" in w]
+    assert len(words) == 1 and "78.5 m from its start at t = 4 s" in words[0] and "15.7 times" in words[0]
+    assert run(gudgeon, FALL).summary["warnings"] == []
+
+
+def test_energy_of_nothing(gudgeon):
+    """A fixed step beyond the bound of stability of RK4 (2.83 periods over 2 pi): the oscillation grows without end."""
+    text = changed(OSCILLATOR, "analysis.dynamic", method="rk4", step="0.3 s", end="300 s")
+    ended = run(gudgeon, text, expect=INTEGRATION)
+    assert "made of nothing" in ended.done.stderr and "guard 'energy'" in ended.done.stderr
+    text = changed(OSCILLATOR, "analysis.dynamic", method="rk4", step="0.02 s", end="3 s")
+    assert run(gudgeon, text).summary["status"] == "complete"
+
+
+def test_strength(gudgeon):
+    """Hertz: the pressure reaches p at F = pi^3 p^3 R^2 / (6 E*^2); the ball's greatest force follows from its energy."""
+    modulus = 207e9 / (2 * (1 - 0.3**2))
+    limit = math.pi**3 * 2e9**3 * 0.02**2 / (6 * modulus**2)
+    stiffness = 4 / 3 * modulus * math.sqrt(0.02)
+    peak = stiffness * (2.5 * 0.5 * 2 * 0.3**2 / stiffness) ** 0.6
+    assert peak > limit
+    text = changed(FALL, "scene", gravity="0 0 m/s^2").replace("0     0     0\n[points]", "0     -4.979  0\n[points]")
+    text = text.replace("vx[m/s]", "vy[m/s]").replace("-4.979  0\n", "-4.979  -0.3\n") + BALL
+    told = run(gudgeon, text)
+    words = [w for w in told.summary["warnings"] if "strength" in w]
+    assert len(words) == 1 and "joint 'plate'" in words[0] and f"at {float(f'{limit:.3g}'):.0f} N" in words[0]
+    assert f"of up to {float(f'{peak:.3g}'):.0f} N" in words[0]
+    ended = run(gudgeon, guarded(text, "strength = stop"), expect=INTEGRATION)
+    assert "strength" in ended.done.stderr
+    assert "strength" not in " ".join(run(gudgeon, guarded(text, "strength = off")).summary["warnings"])
+
+
+@pytest.mark.parametrize("method", ["verner", "rk4", "adams", "bdf", "ida"])
+def test_stop_at_a_place(gudgeon, method):
+    """A fall of 3 m ends at sqrt(2 h / g), whatever the steps; the condition and the time are in the summary."""
+    text = guarded(FALL, "stop = ball.velocity.y < -100 m/s or ball.position.y < -3 m")
+    if method == "rk4":
+        text = changed(text, "analysis.dynamic", method="rk4", step="7 ms")
+    else:
+        text = changed(text, "analysis.dynamic", method=method, tolerance="1e-10")
+    stopped = run(gudgeon, text)
+    assert_close(stopped.summary["time_end"], math.sqrt(6 / G), absolute=2e-8)
+    assert stopped.summary["status"] == "complete"
+    assert "stopped by intent" in stopped.summary["message"] and "ball.position.y < -3 m" in stopped.summary["message"]
+    assert stopped.time[-1] <= stopped.summary["time_end"] < stopped.time[-1] + 0.01 + 1e-12
+
+
+def test_stop_within_a_step(gudgeon):
+    """x = 1 m + 1 m sin(10 t) is below 0.1 mm for 3 ms only, between the ends of longer steps."""
+    text = guarded(changed(OSCILLATOR, "analysis.dynamic", tolerance="1e-6"), "stop = bob.position.x < 0.0001 m")
+    stopped = run(gudgeon, text)
+    assert_close(stopped.summary["time_end"], (1.5 * math.pi - math.acos(0.9999)) / 10, absolute=1e-7)
+
+
+def test_stop_at_the_start_and_never(gudgeon):
+    """A condition that holds at t = 0 ends the run there; one that never holds changes nothing."""
+    assert run(gudgeon, guarded(FALL, "stop = ball.position.y < 1 m")).summary["time_end"] == 0.0
+    free, never = run(gudgeon, FALL), run(gudgeon, guarded(FALL, "stop = ball.position.y > 1 m"))
+    assert (free.read("bodies/position") == never.read("bodies/position")).all()
+    assert never.summary["message"] == ""
+
+
+def test_stop_on_a_contact(gudgeon):
+    """The penetration of a loose pin ends the run at that penetration; with --ideal the condition is left out and said so."""
+    text = changed(DECK.read_text(), "output", figures=None, every="0.1 us")
+    text = guarded(text, "stop = gudgeon.penetration > {0.02*c}")
+    stopped = run(gudgeon, text, "--tolerance", "1e-10")
+    depth = stopped.read("clearances/contacts/penetration")
+    assert 0.9e-5 < depth.max() <= 1.0e-5
+    ideal = run(gudgeon, text, "--ideal")
+    assert any("left out: the joint is ideal" in words for words in ideal.summary["warnings"])
+    assert "ends by intent when gudgeon.penetration > 1e-5 m" in call(gudgeon, "explain", written(scratch(), text)).stdout
