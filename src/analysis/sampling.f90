@@ -87,6 +87,7 @@ contains
             call method%state_at(system, t, self%y)
             call report(self, system, method, t, self%y, residual, error)
             if (.not. allocated(error)) call recorder%sample(t, self%catalogue, error)
+            if (allocated(error)) return
             self%t_row = t
             self%n_sample = self%n_sample + 1
             t = next_instant(self, plan)
@@ -196,6 +197,7 @@ contains
       call report(self, system, method, t + later, y, residual, error)
       if (allocated(error)) return
       call recorder%contact_row(t, kind, self%catalogue, error)
+      if (allocated(error)) return
       self%t_row = t
       self%n_row(kind) = self%n_row(kind) + 1
    end subroutine put_row
