@@ -5,7 +5,7 @@ module test_joint_kinds
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: points_t
    use check, only: check_close, check_equal, check_true, suite_t
-   use differences, only: five_point, places
+   use differences, only: five_point, places, six_places, six_point
    use driver_position, only: driver_position_t
    use errors, only: error_t
    use fixed_random, only: random_t, seed_of
@@ -356,19 +356,19 @@ contains
 
       type(bench_t) :: bench
       real(wp), allocatable :: rates(:)
-      real(wp) :: rate, unused, value(4)
+      real(wp) :: rate, unused, value(6)
       integer :: item, k, kind
 
       do kind = 1, n_joint_kinds
          call make_bench(kind, 1, bench)
          do item = 1, n_item
-            do k = 1, 4
-               call evaluate_after(bench, places(k)*step)
+            do k = 1, size(six_places)
+               call evaluate_after(bench, six_places(k)*step)
                call bench%set%coordinate(item, bench%motion, value(k), unused)
             end do
             call evaluate_after(bench, 0.0_wp)
             call bench%set%coordinate(item, bench%motion, unused, rate)
-            call check_close(error, rate, five_point(value, step), 1.0e-11_wp, bench%name//": rate of the coordinate")
+            call check_close(error, rate, six_point(value, step), 1.0e-11_wp, bench%name//": rate of the coordinate")
             if (.not. bench%set%is_driver) cycle
             rates = times_jacobian(bench%rows, bench%v)
             call check_close(error, rates(before + (item - 1)*bench%set%n_row_item + 1), rate, 1.0e-14_wp, &
