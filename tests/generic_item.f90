@@ -1,7 +1,7 @@
 !> Rows of any kind, filled from what the kind says of its columns: a registered kind is tested without more.
 module generic_item
    use expression, only: expression_t
-   use expression_compile, only: compile_expression, fault_t, symbol_t
+   use expression_compile, only: compile_expression, fault_t, symbols_t
    use fixed_random, only: random_t
    use item, only: item_t, value_t
    use kind_info, only: cell_expression, cell_file, cell_flag, cell_list, cell_number, cell_reference, cell_vector, cell_word, &
@@ -120,7 +120,7 @@ contains
       type(expression_t) :: compiled        !! the expression, with the dimension of the column
 
       type(fault_t), allocatable :: fault
-      type(symbol_t) :: none(0)
+      type(symbols_t) :: none
 
       call compile_expression(source, none, .true., compiled, fault)
       if (allocated(fault)) error stop "generic_item: the expression is wrong"

@@ -2,7 +2,7 @@
 module law_fixture
    use bodies, only: material_t
    use contact_registry, only: new_normal_law
-   use expression_compile, only: compile_expression, fault_t, symbol_t
+   use expression_compile, only: compile_expression, fault_t, symbols_t
    use fixed_random, only: random_t, seed_of
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
@@ -68,7 +68,7 @@ contains
       logical, intent(in) :: is_given        !! the row gives the stiffness
 
       type(fault_t), allocatable :: fault
-      type(symbol_t) :: none(0)
+      type(symbols_t) :: none
       integer :: c
 
       if (info%name == "contact.expression") then

@@ -1,6 +1,7 @@
 !> Motion in time: drives an integrator from event to event and hands everything to a recorder.
 module dynamic
    use contact_watch, only: close_open, contact_watch_t, new_contact_watch
+   use cpu_budget, only: cpu_budget_t
    use errors, only: error_t
    use guards, only: guards_t
    use integrator, only: advance_event, advance_failed_evaluation, integrator_t
@@ -10,7 +11,7 @@ module dynamic
    use planar_system, only: planar_system_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
    use run_audit, only: audit, limits_t, warn_of_errors
-   use run_failure, only: constraints_lost, describe_failure, events_without_end, guard_reached
+   use run_failure, only: constraints_lost, describe_failure, events_without_end, guard_reached, time_used_up
    use sampling, only: new_sampler, sampler_t
    use slip_watch, only: decide_next
    use stop_condition, only: stop_t
@@ -29,6 +30,7 @@ module dynamic
    !> The state of a run.
    type :: run_t
       type(sampler_t) :: sampler                 !! what is reported, and when
+      type(cpu_budget_t) :: budget               !! processor time left
       type(contact_watch_t) :: watch             !! contacts
       type(summary_t) :: summary                 !! cost and errors so far
       type(guards_t) :: guards                   !! what ends it early or is told of it
@@ -78,6 +80,7 @@ contains
       allocate (run%summary%warnings(0))
       call recorder%start(run%sampler%catalogue, error)
       call cpu_time(cpu_0)
+      call run%budget%begin(limits%cpu)
       if (.not. allocated(error)) call integrate(system, method, y, plan, recorder, run, error)
       call cpu_time(cpu_1)
       call run%sampler%finish(system, method, plan, run%watch, run%residual, recorder, late_error)
@@ -153,8 +156,8 @@ contains
             return
          end if
          call look_at_step(system, method, run)
-         if (run%is_lost) then
-            call describe_failure(system, method, constraints_lost, error)
+         if (run%is_lost .or. run%budget%is_spent()) then
+            call describe_failure(system, method, merge(constraints_lost, time_used_up, run%is_lost), error)
             return
          end if
          if (system%n_loose > 0) call run%watch%after_step(system, method)

@@ -10,6 +10,7 @@
 module kinematic
    use catalogue, only: catalogue_t
    use consistent_start, only: evaluate_rows, row_scale
+   use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
    use inverse_dynamics, only: find_loads, find_reactions
    use kinds, only: i8, not_a_number, wp
@@ -41,16 +42,18 @@ module kinematic
 contains
 
    !> Run from assembled positions at t = 0 to the end.
-   subroutine run_kinematic(system, q, plan, newton, recorder, summary, error)
+   subroutine run_kinematic(system, q, plan, newton, limit_cpu, recorder, summary, error)
       type(planar_system_t), intent(inout) :: system      !! the system, all joints ideal
       real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls
+      real(wp), intent(in) :: limit_cpu                   !! processor time allowed, 0: no limit [s]
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(summary_t), intent(out) :: summary             !! cost and errors
       type(error_t), allocatable, intent(out) :: error    !! a dead point, or a file could not be written
 
       type(catalogue_t) :: catalogue
+      type(cpu_budget_t) :: budget
       type(error_t), allocatable :: late_error
       real(wp) :: cpu_0, cpu_1
       integer(i8) :: clock_0, clock_1, ticks
@@ -68,7 +71,8 @@ contains
       end if
       call recorder%start(catalogue, error)
       call cpu_time(cpu_0)
-      if (.not. allocated(error)) call follow(system, q, plan, newton, recorder, catalogue, summary, error)
+      call budget%begin(limit_cpu)
+      if (.not. allocated(error)) call follow(system, q, plan, newton, budget, recorder, catalogue, summary, error)
       call cpu_time(cpu_1)
       call system_clock(clock_1)
       summary%cpu_seconds = cpu_1 - cpu_0
@@ -85,11 +89,12 @@ contains
    end subroutine run_kinematic
 
    !> From output instant to output instant.
-   subroutine follow(system, q, plan, newton, recorder, catalogue, summary, error)
+   subroutine follow(system, q, plan, newton, budget, recorder, catalogue, summary, error)
       type(planar_system_t), intent(inout) :: system      !! the system
       real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls and cost
+      type(cpu_budget_t), intent(in) :: budget            !! processor time left
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(catalogue_t), intent(inout) :: catalogue       !! what is reported
       type(summary_t), intent(inout) :: summary           !! cost and errors so far
@@ -114,6 +119,10 @@ contains
          if (allocated(error)) return
          summary%samples = summary%samples + 1
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
+         if (budget%is_spent() .and. k < last_instant(plan)) then
+            call budget%refuse(state%t, error)
+            return
+         end if
       end do
    end subroutine follow
 

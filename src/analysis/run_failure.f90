@@ -8,12 +8,13 @@ module run_failure
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: constraints_lost, describe_failure, events_without_end, guard_reached
+   public :: constraints_lost, describe_failure, events_without_end, guard_reached, time_used_up
 
    ! failures beside those of `advance`
    integer, parameter :: constraints_lost = -100    !! a violation beyond all measure
    integer, parameter :: events_without_end = -101  !! event follows event while hardly any time passes
    integer, parameter :: guard_reached = -102       !! what no mechanism does, as the guards say
+   integer, parameter :: time_used_up = -103        !! the processor time allowed
 
 contains
 
@@ -46,6 +47,8 @@ contains
          message = "one event follows another at '"//last_event(system, method)//"' and no time passes"
       case (guard_reached)
          message = reason
+      case (time_used_up)
+         message = "the processor time allowed (limit_cpu) is used up"
       case default
          message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
          if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular
@@ -132,7 +135,7 @@ contains
       character(:), allocatable :: words    !! what to try
 
       select case (status)
-      case (advance_too_many_steps, advance_too_many_evaluations)
+      case (advance_too_many_steps, advance_too_many_evaluations, time_used_up)
          words = "allow more, or a larger tolerance"
       case (constraints_lost, events_without_end)
          words = "try a smaller tolerance"

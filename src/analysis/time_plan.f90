@@ -6,12 +6,16 @@ module time_plan
    use kinds, only: i8, wp
    use planar_system, only: planar_system_t
    use scene, only: analysis_kinematic, analysis_static, scene_t
-   use text, only: append_text, join, nearest_word, text_t
+   use text, only: join, nearest_word, text_list_t, to_text
    implicit none (type, external)
    private
    public :: instant, last_instant, new_time_plan, time_plan_t
 
    real(wp), parameter :: intervals = 1000.0_wp  !! output intervals of a motion if the deck gives none [1]
+
+   !> What a user can do about too many instants.
+   character(*), parameter :: most_help = "each takes 8 bytes in run.h5 and up to 25 in a .dat file for every number kept; " &
+                              //"a greater 'instants_limit' in [output] allows them"
 
    !> Times of a motion and of its output.
    type :: time_plan_t
@@ -41,7 +45,8 @@ contains
       if (scene%analysis == analysis_kinematic) end = scene%kinematic%values(column_of(scene%kinematic_kind, "end"))
       associate (from => scene%output%values(column_of(scene%output_kind, "from")), &
                  stretch => scene%output%values(column_of(scene%output_kind, "last")), &
-                 every => scene%output%values(column_of(scene%output_kind, "every")))
+                 every => scene%output%values(column_of(scene%output_kind, "every")), &
+                 most => scene%output%values(column_of(scene%output_kind, "instants_limit")))
          plan%end = seconds(end, "end", -1.0_wp, system, diagnostics)
          plan%first_output = seconds(from, "from", -1.0_wp, system, diagnostics)
          last = seconds(stretch, "last", plan%end, system, diagnostics)
@@ -66,11 +71,29 @@ contains
             call diagnostics%add(every%location, "'every' is longer than what is written", "longer than the output window", &
                                  "there would be one instant and no curve")
          end if
+         if (diagnostics%count() == 0) then
+            associate (span => plan%end - plan%first_output, at => merge(every%location, most%location, every%given))
+               if (span >= most%number*plan%every) then
+                  call diagnostics%add(at, "there would be "//quotient_text(span, plan%every)// &
+                                       " output instants, allowed are "//to_text(most%number), "too many", most_help)
+               end if
+            end associate
+         end if
       end associate
       if (scene%has_statistics .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
          call plan_statistics(scene, system, plan, diagnostics)
       end if
    end subroutine new_time_plan
+
+   !> A quotient in words, which may be greater than any number of the machine.
+   pure function quotient_text(a, b) result(words)
+      real(wp), intent(in) :: a            !! positive [any]
+      real(wp), intent(in) :: b            !! positive [any]
+      character(:), allocatable :: words   !! as `1e12`
+
+      words = "more than 1e300"
+      if (b > a*1.0e-300_wp) words = to_text(a/b)
+   end function quotient_text
 
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.
    subroutine plan_statistics(scene, system, plan, diagnostics)
@@ -79,16 +102,16 @@ contains
       type(time_plan_t), intent(inout) :: plan            !! times
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      type(value_t) :: turns
-      integer :: k
+      real(wp), allocatable :: longer(:)
+      integer :: item, k, most, n, slot
       real(wp) :: t
 
+      most = nint(scene%output%values(column_of(scene%output_kind, "instants_limit"))%number)
       associate (after => scene%statistics%values(column_of(scene%statistics_kind, "after")), &
                  period => scene%statistics%values(column_of(scene%statistics_kind, "period")))
          plan%after = seconds(after, "after", -1.0_wp, system, diagnostics)
-         turns = period
-         t = 0.0_wp
-         if (period%given) t = seconds(period, "period", -1.0_wp, system, diagnostics)
+         slot = 0
+         if (period%given) call find_driver(period, "period", system, slot, item, diagnostics)
          if (diagnostics%count() > 0) return
          if (plan%after < 0.0_wp) then
             call diagnostics%add(after%location, "'after' must not be negative", "before the start", "a motion begins at t = 0")
@@ -97,24 +120,43 @@ contains
          else if (plan%after < plan%first_output*(1.0_wp - 1.0e-9_wp)) then
             call diagnostics%add(after%location, "'after' is before the first output instant", "nothing is sampled there", &
                                  "statistics are taken on the output instants: see 'from' and 'last' of [output]")
-         else if (period%given .and. t <= 0.0_wp) then
+         else if (period%given .and. period%number <= 0.0_wp) then
             call diagnostics%add(period%location, "the period must be positive", "no period")
          end if
          if (diagnostics%count() > 0 .or. .not. period%given) return
          k = 0
+         n = 0
+         deallocate (plan%strobes)
+         allocate (plan%strobes(64), source=0.0_wp)
          do
-            turns%number = period%number*real(k, wp)
-            t = turns%number
-            if (k > 0) t = seconds(turns, "period", -1.0_wp, system, diagnostics)
-            if (diagnostics%count() > 0) return
+            t = period%number*real(k, wp)
+            if (slot > 0 .and. k > 0) then
+               t = system%joints(slot)%set%time_of_turns(item, t)
+               if (t < 0.0_wp) call report_turns(period, diagnostics)
+               if (t < 0.0_wp) return
+            end if
             if (t > plan%end*(1.0_wp + 1.0e-12_wp)) exit
-            if (t >= plan%after*(1.0_wp - 1.0e-12_wp)) plan%strobes = [plan%strobes, min(t, plan%end)]
+            if (k >= most) then
+               call diagnostics%add(period%location, "there would be more than "//to_text(most)//" periods up to the end at "// &
+                                    to_text(plan%end)//" s", "too many", most_help)
+               return
+            end if
+            if (t >= plan%after*(1.0_wp - 1.0e-12_wp)) then
+               if (n == size(plan%strobes)) then
+                  allocate (longer(2*n), source=0.0_wp)
+                  longer(:n) = plan%strobes
+                  call move_alloc(longer, plan%strobes)
+               end if
+               n = n + 1
+               plan%strobes(n) = min(t, plan%end)
+            end if
             k = k + 1
          end do
-         associate (n => size(plan%strobes))
-            if (n > 1) plan%period = (plan%strobes(n) - plan%strobes(1))/real(n - 1, wp)
-            if (n > 1) return
-         end associate
+         plan%strobes = plan%strobes(:n)
+         if (n > 1) then
+            plan%period = (plan%strobes(n) - plan%strobes(1))/real(n - 1, wp)
+            return
+         end if
          call diagnostics%add(period%location, "there is less than one period between 'after' and the end", "too long")
       end associate
    end subroutine plan_statistics
@@ -144,38 +186,65 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
       real(wp) :: t                                       !! the time [s]
 
-      type(text_t), allocatable :: drivers(:)
+      integer :: before, item, slot
+
+      before = diagnostics%count()
+      call find_driver(value, key, system, slot, item, diagnostics)
+      t = merge(value%number, 0.0_wp, diagnostics%count() == before)
+      if (slot == 0) return
+      associate (set => system%joints(slot)%set)
+         if (t_end >= 0.0_wp) then
+            t = t_end - set%time_before(item, value%number, t_end)
+            if (t > t_end) t = -1.0_wp
+         else
+            t = set%time_of_turns(item, value%number)
+         end if
+      end associate
+      if (t < 0.0_wp) call report_turns(value, diagnostics)
+   end function seconds
+
+   !> A driver turns less than is asked for.
+   subroutine report_turns(value, diagnostics)
+      type(value_t), intent(in) :: value                  !! the setting
+      type(diagnostics_t), intent(inout) :: diagnostics   !! receives the mistake
+
+      call diagnostics%add(value%location, "driver '"//value%text//"' never makes so many turns", "never reached")
+   end subroutine report_turns
+
+   !> The driver whose turns a duration counts.
+   subroutine find_driver(value, key, system, slot, item, diagnostics)
+      type(value_t), intent(in) :: value                  !! the setting
+      character(*), intent(in) :: key                     !! its key
+      type(planar_system_t), intent(in) :: system         !! drivers
+      integer, intent(out) :: slot                        !! the driver's set, 0: a time, or a mistake
+      integer, intent(out) :: item                        !! its number there
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      type(text_list_t) :: drivers
       character(:), allocatable :: hint
       integer :: i, k
 
-      t = value%number
+      slot = 0
+      item = 0
       if (.not. allocated(value%text)) return
       if (value%text == "") return
-      allocate (drivers(0))
       do k = 1, size(system%joints)
          associate (set => system%joints(k)%set)
             if (.not. set%is_driver) cycle
             do i = 1, set%n
-               call append_text(drivers, set%names(i)%s)
+               call drivers%add(set%names(i)%s)
                if (set%names(i)%s /= value%text) cycle
-               if (t_end >= 0.0_wp) then
-                  t = t_end - set%time_before(i, value%number, t_end)
-                  if (t > t_end) t = -1.0_wp
-               else
-                  t = set%time_of_turns(i, value%number)
-               end if
-               if (t < 0.0_wp) then
-                  call diagnostics%add(value%location, "driver '"//value%text//"' never makes so many turns", "never reached")
-               end if
+               slot = k
+               item = i
                return
             end do
          end associate
       end do
-      t = 0.0_wp
       hint = "the deck has no drivers"
-      if (size(drivers) > 0) hint = "drivers: "//join(drivers, " ")
-      if (nearest_word(value%text, drivers) /= "") hint = "did you mean '"//nearest_word(value%text, drivers)//"'? "//hint
+      if (drivers%n > 0) hint = "drivers: "//join(drivers%get(), " ")
+      if (nearest_word(value%text, drivers%get()) /= "") hint = "did you mean '"//nearest_word(value%text, drivers%get())//"'? " &
+                                                              //hint
       call diagnostics%add(value%location, "unknown driver '"//value%text//"' in '"//key//"'", "no driver of this deck", hint)
-   end function seconds
+   end subroutine find_driver
 
 end module time_plan

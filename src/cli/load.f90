@@ -279,9 +279,9 @@ contains
          if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
          call names_of_numbers(list_scalars(selection), catalogue, list)
       end associate
-      allocate (names(0))
+      allocate (names(size(list)))
       do k = 1, size(list)
-         call append_text(names, list(k)%name)
+         names(k)%s = list(k)%name
       end do
    end function known_numbers
 

@@ -35,6 +35,7 @@ contains
 
       limits%energy = scene%dynamic%values(column_of(scene%dynamic_kind, "energy_limit"))%number
       limits%violation = scene%dynamic%values(column_of(scene%dynamic_kind, "violation_limit"))%number
+      limits%cpu = scene%dynamic%values(column_of(scene%dynamic_kind, "limit_cpu"))%number
       call new_guards(scene, system, limits%guards)
       associate (conditions => scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions)
          do k = 1, size(conditions)
@@ -51,12 +52,13 @@ contains
       end associate
    end subroutine limits_of
 
-   !> Limits of an ideal twin: its guards only.
+   !> Limits of an ideal twin: its processor time and guards only.
    function twin_limits(scene, system) result(limits)
       type(scene_t), intent(in) :: scene              !! the scene
       type(planar_system_t), intent(in) :: system     !! the twin's system
       type(limits_t) :: limits                        !! limits
 
+      limits%cpu = scene%dynamic%values(column_of(scene%dynamic_kind, "limit_cpu"))%number
       call new_guards(scene, system, limits%guards)
    end function twin_limits
 

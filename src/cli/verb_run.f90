@@ -3,7 +3,8 @@ module verb_run
    use build_info, only: compiler, git_sha1
    use build_system, only: levels_ideal, new_system
    use catalogue, only: catalogue_t
-   use channels, only: select_channels, selection_t
+   use channel_names, only: scalar_t
+   use channels, only: find_scalars, item_finder_t
    use columns, only: column_of
    use consistent_start, only: assembly_t
    use deck_reader, only: deck_text, get_includes
@@ -35,7 +36,7 @@ module verb_run
    use start_state, only: deck_positions, find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
-   use text, only: append_text, real_text, starts_with, text_t, to_text
+   use text, only: append_text, real_text, starts_with, text_list_t, text_t, to_text
    use version, only: program_version
    implicit none (type, external)
    private
@@ -136,6 +137,7 @@ contains
       type(run_recorder_t) :: keeper
       type(summary_t) :: summary
       real(wp), allocatable :: q(:)
+      real(wp) :: limit_cpu
 
       associate (kind => loaded%scene%kinematic_kind, values => loaded%scene%kinematic%values)
          newton%tolerance = values(column_of(kind, "tolerance"))%number
@@ -146,7 +148,8 @@ contains
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, keeper%plan)
-      call run_kinematic(loaded%system, q, loaded%plan, newton, keeper, summary, error)
+      limit_cpu = loaded%scene%kinematic%values(column_of(loaded%scene%kinematic_kind, "limit_cpu"))%number
+      call run_kinematic(loaded%system, q, loaded%plan, newton, limit_cpu, keeper, summary, error)
       call directory%close()
    end subroutine run_prescribed
 
@@ -284,6 +287,7 @@ contains
       type(output_plan_t), intent(inout) :: plan     !! words are set, dropped ones become warnings
 
       type(catalogue_t) :: catalogue
+      type(item_finder_t) :: finder
       character(:), allocatable :: reason
 
       reason = "the joint is ideal"
@@ -291,7 +295,7 @@ contains
          reason = "not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
       end if
       call build_catalogue(loaded%system, catalogue)
-      allocate (plan%channels(0), plan%figures(0))
+      call finder%start(catalogue)
       call keep("channel", "channels", plan%channels)
       call keep("figure", "figures", plan%figures)
 
@@ -301,10 +305,11 @@ contains
       subroutine keep(one, key, kept)
          character(*), intent(in) :: one                        !! what a word names
          character(*), intent(in) :: key                        !! key of [output]
-         type(text_t), allocatable, intent(inout) :: kept(:)    !! (any) words, grown
+         type(text_t), allocatable, intent(out) :: kept(:)      !! (any) words
 
-         type(selection_t) :: selection
+         type(scalar_t), allocatable :: scalars(:)
          character(:), allocatable :: hint, message
+         type(text_list_t) :: list
          integer :: bad, k
 
          associate (words => loaded%scene%output%values(column_of(loaded%scene%output_kind, key))%words)
@@ -312,15 +317,17 @@ contains
                if (one == "figure") then
                   call check_figures(words(k:k), catalogue, bad, message, hint)
                else
-                  call select_channels(words(k:k), catalogue, selection, bad, message, hint)
+                  call find_scalars(words(k)%s, catalogue, finder, scalars, message, hint)
+                  bad = merge(1, 0, len(message) > 0)
                end if
                if (bad == 0) then
-                  call append_text(kept, words(k)%s)
+                  call list%add(words(k)%s)
                else
                   call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: "//reason)
                end if
             end do
          end associate
+         kept = list%get()
       end subroutine keep
 
    end subroutine known_words

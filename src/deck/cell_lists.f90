@@ -7,7 +7,7 @@ module cell_lists
    use item, only: location_t, option_t, value_t
    use kind_info, only: dim_none, same_dimension
    use quantities, only: is_numeric, quantity_t, read_bare, read_brace, word_in_brace
-   use text, only: append_text, exact_text, join, nearest_word, split_blank, text_t
+   use text, only: exact_text, join, nearest_word, split_blank, text_list_t, text_t
    use tokens, only: span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private
@@ -51,14 +51,13 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       type(location_t) :: places(size(list))
+      type(text_list_t) :: words
       character(:), allocatable :: whole, word
       integer :: depth, first, k
 
       whole = ""
       depth = 0
       first = 1
-      deallocate (value%words)
-      allocate (value%words(0))
       do k = 1, size(list)
          if (depth == 0) first = k
          if (list(k)%kind == token_brace) then
@@ -71,11 +70,12 @@ contains
          if (depth > 0) cycle
          if (depth < 0) call mistakes%add(list(k)%location, "a parenthesis is not opened "//place)
          depth = 0
-         call append_text(value%words, whole)
-         places(size(value%words)) = span(list(first), list(k))
+         call words%add(whole)
+         places(words%n) = span(list(first), list(k))
          whole = ""
       end do
-      value%places = places(1:size(value%words))
+      value%words = words%get()
+      value%places = places(1:words%n)
       if (depth > 0) call mistakes%add(span(list(first), list(size(list))), "a parenthesis is not closed "//place)
    end subroutine read_words
 

@@ -4,9 +4,11 @@ module deck_file
    use diagnostics, only: diagnostics_t
    use file_path, only: beside, plain_path
    use item, only: location_t
+   use kinds, only: i8
+   use name_table, only: name_table_t
    use parameters, only: read_parameters
    use source_text, only: line_of, n_line_of, new_source, read_source, source_t
-   use text, only: starts_with, text_t
+   use text, only: starts_with, text_t, to_text
    use tokens, only: has_content, lex_line, token_equals, token_quoted, token_word
    implicit none (type, external)
    private
@@ -14,7 +16,8 @@ module deck_file
 
    character(*), parameter :: deck_version = "1"  !! of the format that is read
 
-   integer, parameter :: deepest = 16  !! files included by each other
+   integer, parameter :: deepest = 16                  !! files included by each other
+   integer(i8), parameter :: most_bytes = 256000000_i8  !! of a deck with all that it includes
 
    !> What the reader of lines has to remember.
    type :: reading_t
@@ -24,6 +27,8 @@ module deck_file
       logical :: is_new = .true.          !! no line with content was read in this file
       logical :: is_lost = .false.        !! a line outside any section was reported
       logical :: is_over = .false.        !! the rest is not worth reading
+      type(name_table_t) :: files         !! files read so far
+      integer(i8) :: n_byte = 0_i8        !! their size
    end type reading_t
 
 contains
@@ -47,12 +52,13 @@ contains
          call add_source(deck, source, number)
       end do
       deck%n_override = size(overrides)
-      allocate (deck%parameters(0), deck%parameter_text(0))
+      allocate (deck%parameter_text(0))
       if (len(message) > 0) then
          call mistakes%add(location_t(), "cannot read the deck '"//path//"'", message)
          deck%is_readable = .false.
          return
       end if
+      reading%n_byte = len(deck%sources(1)%text, i8)
       call read_lines(deck, 1, reading, mistakes)
       if (reading%is_new) call mistakes%add(location_of_end(deck), "the deck has no content", "there are comments only")
       deck%is_readable = .not. (reading%is_over .or. reading%is_new)
@@ -204,7 +210,7 @@ contains
       call mistakes%add(location, "the format version is missing", "the first line of a deck is: deck = "//deck_version)
    end subroutine report_version
 
-   !> Read an included file.
+   !> Read an included file, once: where it is included again nothing is left to read.
    recursive subroutine read_include(deck, first, n, location, reading, mistakes)
       type(deck_t), intent(inout) :: deck             !! the deck
       integer, intent(in) :: first                    !! first token of the line
@@ -228,14 +234,29 @@ contains
       end if
       path = plain_path(beside(deck%sources(location%file)%place, path))
       do k = 1, reading%depth
-         if (plain_path(deck%sources(reading%chain(k))%name) /= path .and. reading%depth < deepest) cycle
+         if (plain_path(deck%sources(reading%chain(k))%name) /= path) cycle
          call mistakes%add(deck%tokens%t(first + 1)%location, "'"//path//"' includes itself", &
                          & "this file is being read already")
          return
       end do
+      if (reading%depth == deepest) then
+         call mistakes%add(deck%tokens%t(first + 1)%location, "includes within includes, more than "//to_text(deepest)//" deep", &
+                         & "this one is not read", "a file that includes itself by another path, through a link?")
+         reading%is_over = .true.
+         return
+      end if
+      call reading%files%enter(path, deck%n_source + 1, k)
+      if (k > 0) return
       call read_source(path, source, message, may_be_stream=.false.)
       if (len(message) > 0) then
          call mistakes%add(deck%tokens%t(first + 1)%location, "cannot read the included file '"//path//"'", message)
+         return
+      end if
+      reading%n_byte = reading%n_byte + len(source%text, i8)
+      if (reading%n_byte > most_bytes) then
+         call mistakes%add(deck%tokens%t(first + 1)%location, "the deck is too large with its includes: more than "// &
+                         & to_text(most_bytes)//" bytes", "this file is one too many")
+         reading%is_over = .true.
          return
       end if
       call add_source(deck, source, number)

@@ -4,7 +4,7 @@
 !> that the text run again without `--set` is the same run. Everything else is verbatim.
 module deck_texts
    use deck_types, only: deck_t
-   use text, only: append_text, text_t
+   use text, only: text_list_t, text_t
    implicit none (type, external)
    private
    public :: deck_text, get_includes
@@ -26,14 +26,16 @@ contains
       type(text_t), allocatable, intent(out) :: names(:)      !! (n) paths
       type(text_t), allocatable, intent(out) :: contents(:)   !! (n) texts
 
+      type(text_list_t) :: paths, texts
       integer :: k
 
-      allocate (names(0), contents(0))
       do k = 2, deck%n_source
          if (.not. deck%sources(k)%is_file) cycle
-         call append_text(names, deck%sources(k)%name)
-         call append_text(contents, text_in_force(deck, k))
+         call paths%add(deck%sources(k)%name)
+         call texts%add(text_in_force(deck, k))
       end do
+      names = paths%get()
+      contents = texts%get()
    end subroutine get_includes
 
    !> A text with the values that the command line gives; parameters stand in it in the order of their list.
@@ -47,7 +49,7 @@ contains
 
       s = deck%sources(file)%text
       if (deck%n_override == 0) return
-      do k = size(deck%parameters), 1, -1
+      do k = deck%symbols%n_parameter, 1, -1
          associate (at => deck%parameter_change(k))
             if (at%file /= file) cycle
             first = deck%sources(file)%first(at%line) + at%first - 1

@@ -1,6 +1,6 @@
 !> A deck that has been read but not yet understood: texts, tokens, sections, parameters.
 module deck_types
-   use expression_compile, only: symbol_t
+   use expression_compile, only: symbols_t
    use item, only: location_t
    use source_text, only: n_line_of, source_t
    use text, only: text_t
@@ -8,7 +8,7 @@ module deck_types
    implicit none (type, external)
    private
    public :: add_default, add_line, add_section, add_source, deck_t, find_section, line_t, location_of_end, section_t
-   public :: symbols_of, text_of
+   public :: text_of
 
    !> A section header.
    type :: section_t
@@ -33,10 +33,9 @@ module deck_types
       integer :: n_section = 0                     !! sections in use
       type(line_t), allocatable :: lines(:)        !! (n_line or more) lines with cells
       integer :: n_line = 0                        !! lines in use
-      type(symbol_t), allocatable :: parameters(:) !! (n) values of the parameters
-      type(symbol_t), allocatable :: functions(:)  !! (n) named functions, once they are known
-      type(text_t), allocatable :: parameter_text(:) !! (n) their values as written
-      type(location_t), allocatable :: parameter_change(:) !! (n) where the deck has the values that `--set` changed; else nowhere
+      type(symbols_t) :: symbols                   !! parameters, and named functions once they are known
+      type(text_t), allocatable :: parameter_text(:) !! (n_parameter) values of the parameters as written
+      type(location_t), allocatable :: parameter_change(:) !! (n_parameter) where `--set` changed the deck; else nowhere
       type(text_t), allocatable :: defaults(:)     !! (n_default or more) `kind item key = default`
       integer :: n_default = 0                     !! defaults in use
       logical :: is_readable = .true.              !! .false.: it is not a deck at all; that was reported
@@ -159,25 +158,6 @@ contains
          end if
       end do
    end function find_section
-
-   !> Everything that an expression of the deck may use: parameters, then functions.
-   pure function symbols_of(deck) result(symbols)
-      type(deck_t), intent(in) :: deck               !! the deck
-      type(symbol_t), allocatable :: symbols(:)      !! (n) both
-
-      integer :: k, n, n_function
-
-      n = size(deck%parameters)
-      n_function = 0
-      if (allocated(deck%functions)) n_function = size(deck%functions)
-      allocate (symbols(n + n_function))
-      do k = 1, n
-         symbols(k) = deck%parameters(k)
-      end do
-      do k = 1, n_function
-         symbols(n + k) = deck%functions(k)
-      end do
-   end function symbols_of
 
    !> The text of a token.
    function text_of(deck, token) result(s)

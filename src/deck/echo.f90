@@ -9,7 +9,7 @@ module echo
    use item, only: item_t, value_t
    use kind_info, only: cell_condition, cell_duration, cell_expression, cell_flag, cell_list, cell_number, &
                       & cell_vector, cell_words, column_t, dim_none, dim_t, kind_info_t, same_dimension
-   use text, only: append_text, buffer_t, exact_text, replace, text_t
+   use text, only: buffer_t, exact_text, replace, text_t
    implicit none (type, external)
    private
    public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters
@@ -25,11 +25,11 @@ contains
       integer :: k
 
       call buffer%line("deck = "//deck_version)
-      if (size(deck%parameters) > 0) then
+      if (deck%symbols%n_parameter > 0) then
          call buffer%line("")
          call buffer%line("[parameters]")
-         do k = 1, size(deck%parameters)
-            call buffer%line(deck%parameters(k)%name//" = "//deck%parameter_text(k)%s)
+         do k = 1, deck%symbols%n_parameter
+            call buffer%line(deck%symbols%list(k)%name//" = "//deck%parameter_text(k)%s)
          end do
       end if
       s = buffer%get()
@@ -256,9 +256,9 @@ contains
 
       integer :: k
 
-      allocate (names(size(deck%parameters)), values(size(deck%parameters)))
+      allocate (names(deck%symbols%n_parameter), values(deck%symbols%n_parameter))
       do k = 1, size(names)
-         names(k)%s = deck%parameters(k)%name
+         names(k)%s = deck%symbols%list(k)%name
          values(k)%s = deck%parameter_text(k)%s
       end do
    end subroutine get_parameters

@@ -7,9 +7,10 @@ module parameters
    use expression_compile, only: dimension_agrees, is_reserved, name_length, symbol_broken, symbol_number, symbol_t, &
                                & symbol_word
    use item, only: location_t
+   use name_table, only: name_table_t
    use quantities, only: is_numeric, quantity_t, word_in_brace
    use source_text, only: line_of
-   use text, only: append_text, lower, nearest_word, text_t
+   use text, only: join, lower, nearest_word, text_t
    use tokens, only: lex_line, span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private
@@ -32,40 +33,39 @@ contains
       type(deck_t), intent(inout) :: deck             !! the deck
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      type(name_table_t) :: table
       type(override_t), allocatable :: overrides(:)
       integer :: i, k, n
 
-      call read_overrides(deck, overrides, mistakes)
+      call read_overrides(deck, overrides, table, mistakes)
       n = 0
       do k = 1, deck%n_line
          if (deck%sections(deck%lines(k)%section)%name == section_name) n = n + 1
       end do
-      deallocate (deck%parameters, deck%parameter_text)
-      allocate (deck%parameters(n), deck%parameter_text(n), deck%parameter_change(n))
-      do i = 1, n
-         deck%parameters(i)%name = ""
-         deck%parameters(i)%kind = symbol_broken
-         deck%parameter_text(i)%s = ""
-      end do
+      deallocate (deck%parameter_text)
+      allocate (deck%parameter_text(n), deck%parameter_change(n))
+      call deck%symbols%start(n)
       i = 0
       do k = 1, deck%n_line
          if (deck%sections(deck%lines(k)%section)%name /= section_name) cycle
          i = i + 1
-         call read_one(deck, i, deck%tokens%t(deck%lines(k)%first:deck%lines(k)%last), overrides, mistakes)
+         call read_one(deck, i, deck%tokens%t(deck%lines(k)%first:deck%lines(k)%last), overrides, table, mistakes)
       end do
       call report_unused(deck, overrides, mistakes)
    end subroutine read_parameters
 
    !> Cut the overrides into tokens.
-   subroutine read_overrides(deck, overrides, mistakes)
+   subroutine read_overrides(deck, overrides, table, mistakes)
       type(deck_t), intent(inout) :: deck                           !! the deck
       type(override_t), allocatable, intent(out) :: overrides(:)    !! (n) those that are well formed
+      type(name_table_t), intent(inout) :: table                    !! the first of each name
       type(diagnostics_t), intent(inout) :: mistakes                !! collects what is wrong
 
-      integer :: k, n
+      integer :: k, n, previous
       logical :: is_good
 
       allocate (overrides(deck%n_override))
+      call table%start(deck%n_override)
       do k = 1, deck%n_override
          overrides(k)%name = ""
          overrides(k)%is_used = .true.
@@ -83,39 +83,45 @@ contains
          end if
          overrides(k)%name = text_of(deck, deck%tokens%t(overrides(k)%first))
          overrides(k)%is_used = .false.
-         do n = 1, k - 1
-            if (overrides(n)%name == overrides(k)%name) then
-               call mistakes%add(deck%tokens%t(overrides(k)%first)%location, "parameter '"//overrides(k)%name &
-                               & //"' is set twice on the command line")
-            end if
-         end do
+         call table%enter(overrides(k)%name, k, previous)
+         if (previous > 0) then
+            overrides(k)%is_used = .true.
+            call mistakes%add(deck%tokens%t(overrides(k)%first)%location, "parameter '"//overrides(k)%name &
+                            & //"' is set twice on the command line")
+         end if
       end do
    end subroutine read_overrides
 
    !> One line of the section, and what the command line says of it.
-   subroutine read_one(deck, i, list, overrides, mistakes)
+   subroutine read_one(deck, i, list, overrides, table, mistakes)
       type(deck_t), intent(inout) :: deck                !! the deck
       integer, intent(in) :: i                           !! number of the parameter
       type(token_t), intent(in) :: list(:)               !! (n) tokens of the line
       type(override_t), intent(inout) :: overrides(:)    !! (n) of the command line
+      type(name_table_t), intent(in) :: table            !! finds one of them
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
       type(symbol_t) :: changed, symbol
       integer :: j, k
       logical :: is_good
 
+      deck%symbols%n_parameter = i
+      deck%parameter_text(i)%s = ""
       is_good = size(list) >= 3
       if (is_good) is_good = list(1)%kind == token_word .and. list(2)%kind == token_equals
       if (.not. is_good) then
          call mistakes%add(span(list(1), list(size(list))), "a parameter is malformed", "write: name = value unit")
+         symbol%name = ""
+         symbol%kind = symbol_broken
+         call deck%symbols%add(symbol)
          return
       end if
       symbol%name = text_of(deck, list(1))
-      call check_name(deck, i, symbol%name, list(1)%location, mistakes)
+      call check_name(deck, symbol%name, list(1)%location, mistakes)
       call read_symbol(deck, list(3:), symbol, mistakes)
       deck%parameter_text(i)%s = as_written(deck, list(3:))
-      do j = 1, size(overrides)
-         if (overrides(j)%name /= symbol%name .or. overrides(j)%is_used) cycle
+      j = table%find(symbol%name)
+      if (j > 0) then
          overrides(j)%is_used = .true.
          k = overrides(j)%first
          changed%name = symbol%name
@@ -124,19 +130,16 @@ contains
          deck%parameter_text(i)%s = as_written(deck, deck%tokens%t(k + 2:overrides(j)%last))
          deck%parameter_change(i) = span(list(3), list(size(list)))
          symbol = changed
-      end do
-      deck%parameters(i) = symbol
+      end if
+      call deck%symbols%add(symbol)
    end subroutine read_one
 
    !> Check the name of a parameter.
-   subroutine check_name(deck, i, name, location, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck
-      integer, intent(in) :: i                        !! number of the parameter
+   subroutine check_name(deck, name, location, mistakes)
+      type(deck_t), intent(in) :: deck                !! the deck, with the earlier parameters
       character(*), intent(in) :: name                !! as written
       type(location_t), intent(in) :: location        !! of the name
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
-
-      integer :: j
 
       if (is_reserved(name)) then
          call mistakes%add(location, "'"//name//"' cannot be the name of a parameter", "it has a meaning in expressions")
@@ -144,11 +147,9 @@ contains
          call mistakes%add(location, "'"//name//"' cannot be the name of a parameter", &
                          & "a letter first, then letters, digits and _")
       end if
-      do j = 1, i - 1
-         if (deck%parameters(j)%name == name) then
-            call mistakes%add(location, "parameter '"//name//"' stands twice", "it has a value already")
-         end if
-      end do
+      if (deck%symbols%find(name) > 0) then
+         call mistakes%add(location, "parameter '"//name//"' stands twice", "it has a value already")
+      end if
    end subroutine check_name
 
    !> The value of a parameter: a word, or a number with or without a unit.
@@ -241,23 +242,18 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       type(text_t), allocatable :: names(:)
-      character(:), allocatable :: help, list
-      integer :: i, k
+      character(:), allocatable :: help
+      integer :: k
 
-      allocate (names(0))
-      list = ""
-      do i = 1, size(deck%parameters)
-         call append_text(names, deck%parameters(i)%name)
-         list = list//" "//deck%parameters(i)%name
-      end do
       do k = 1, size(overrides)
          if (overrides(k)%is_used) cycle
+         names = deck%symbols%names_of(functions=.false.)
          help = nearest_word(overrides(k)%name, names)
          if (len(help) > 0) help = "did you mean '"//help//"'? "
          if (size(names) == 0) then
             help = "the deck has no parameters"
          else
-            help = help//"parameters:"//list
+            help = help//"parameters: "//join(names, " ")
          end if
          call mistakes%add(deck%tokens%t(overrides(k)%first)%location, "unknown parameter '"//overrides(k)%name//"'", &
                          & "not a parameter of the deck", help)

@@ -4,7 +4,7 @@
 !> braces, which carries its own dimension.
 module quantities
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use deck_types, only: deck_t, symbols_of, text_of
+   use deck_types, only: deck_t, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
    use expression, only: expression_t
@@ -125,9 +125,8 @@ contains
          if (word(n + 1:n + 1) == ",") help = "the decimal sign is a point: "//word(1:n)//"."//word(n + 2:)
          if (scan(word(n + 1:n + 1), "*/+-^(") == 1) help = "an expression stands in braces: {"//word//"}"
       else if (present(deck)) then
-         do i = 1, size(deck%parameters)
-            if (deck%parameters(i)%name == word) help = "write {"//word//"} for the parameter"
-         end do
+         i = deck%symbols%find(word)
+         if (i > 0 .and. i <= deck%symbols%n_parameter) help = "write {"//word//"} for the parameter"
       end if
       if (len(help) == 0 .and. scan(word, "*/+^()") > 0) help = "an expression stands in braces"
       call mistakes%add(location, "'"//word//"' is not a number "//place, "a number is wanted here", help)
@@ -149,10 +148,10 @@ contains
       real(wp) :: d1, d2
 
       if (present(column)) then
-         call compile_expression(text_of(deck, token), symbols_of(deck), has_variable, compiled, fault, column%variable, &
+         call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault, column%variable, &
                                & column%argument)
       else
-         call compile_expression(text_of(deck, token), symbols_of(deck), has_variable, compiled, fault)
+         call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault)
       end if
       if (allocated(fault)) then
          if (len(fault%message) == 0) return
@@ -185,9 +184,9 @@ contains
       if (token%kind /= token_brace) return
       name = trim(adjustl(text_of(deck, token)))
       if (name_length(name) /= len(name)) return
-      do i = 1, size(deck%parameters)
-         if (deck%parameters(i)%name == name .and. deck%parameters(i)%kind == symbol_word) word = deck%parameters(i)%word
-      end do
+      i = deck%symbols%find(name)
+      if (i == 0) return
+      if (deck%symbols%list(i)%kind == symbol_word) word = deck%symbols%list(i)%word
    end subroutine word_in_brace
 
    !> Report a number whose dimension is not what is wanted; nothing happens if it agrees.

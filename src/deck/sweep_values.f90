@@ -13,11 +13,12 @@ module sweep_values
    use item, only: item_t, location_t
    use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
+   use name_table, only: name_table_t
    use number_cell, only: read_number
    use numbers, only: number_length
    use quantities, only: is_numeric, quantity_t, read_bare
    use table_header, only: column_index
-   use text, only: append_text, exact_text, join, nearest_word, text_t, to_text
+   use text, only: exact_text, join, nearest_word, text_list_t, text_t, to_text
    use tokens, only: span, token_brace, token_equals, token_quoted, token_t, token_word
    implicit none (type, external)
    private
@@ -90,14 +91,22 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       type(item_t) :: own
-      type(swept_t) :: swept
-      integer :: k, key, section
+      type(name_table_t) :: table
+      type(swept_t), allocatable :: swept(:)
+      integer :: k, key, n, previous, section
       logical :: is_good
 
       allocate (sweep%parameters(0))
       section = find_section(deck, section_name)
       sweep%is_present = section > 0
       if (.not. sweep%is_present) return
+      n = 0
+      do k = 1, deck%n_line
+         if (deck%sections(deck%lines(k)%section)%name == section_name) n = n + 1
+      end do
+      allocate (swept(n))
+      call table%start(n)
+      n = 0
       allocate (own%values(size(info%columns)))
       do k = 1, size(info%columns)
          call blank_value(info%columns(k), own%values(k))
@@ -119,31 +128,19 @@ contains
                              & own%values(key), mistakes)
                cycle
             end if
-            call read_swept(deck, list, swept, is_good, mistakes)
+            call read_swept(deck, list, swept(n + 1), is_good, mistakes)
             if (.not. is_good) cycle
-            call check_twice(sweep, swept, mistakes)
-            sweep%parameters = [sweep%parameters, swept]
+            n = n + 1
+            call table%enter(swept(n)%name, n, previous)
+            if (previous > 0) call mistakes%add(swept(n)%location, "parameter '"//swept(n)%name//"' is swept twice", &
+                                              & "it has its values already")
          end associate
       end do
+      sweep%parameters = swept(:n)
       sweep%is_paired = own%values(column_index(info, "combine"))%text == "paired"
       sweep%keeps_channels = own%values(column_index(info, "keep"))%text == "channels"
       call check_whole(deck, section, sweep, mistakes)
    end subroutine read_sweep
-
-   !> A parameter is swept once.
-   subroutine check_twice(sweep, swept, mistakes)
-      type(sweep_t), intent(in) :: sweep              !! parameters so far
-      type(swept_t), intent(in) :: swept              !! the next one
-      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
-
-      integer :: k
-
-      do k = 1, size(sweep%parameters)
-         if (sweep%parameters(k)%name == swept%name) then
-            call mistakes%add(swept%location, "parameter '"//swept%name//"' is swept twice", "it has its values already")
-         end if
-      end do
-   end subroutine check_twice
 
    !> A sweep has parameters; paired ones have as many values as one another.
    subroutine check_whole(deck, section, sweep, mistakes)
@@ -181,35 +178,33 @@ contains
       logical, intent(out) :: is_good                 !! whether it could be read
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      type(text_t), allocatable :: names(:)
       character(:), allocatable :: help
-      integer :: i, before, k
+      integer :: before, k
 
       swept%name = text_of(deck, list(1))
       swept%location = span(list(1), list(size(list)))
       swept%unit = ""
-      allocate (swept%texts(0), swept%numbers(0), names(0))
+      allocate (swept%texts(0), swept%numbers(0))
       is_good = .false.
-      k = 0
-      do i = 1, size(deck%parameters)
-         call append_text(names, deck%parameters(i)%name)
-         if (deck%parameters(i)%name == swept%name) k = i
-      end do
+      k = deck%symbols%find(swept%name)
+      if (k > deck%symbols%n_parameter) k = 0  ! a function
       if (k == 0) then
-         help = nearest_word(swept%name, names)
-         if (len(help) > 0) help = "did you mean '"//help//"'? "
-         call mistakes%add(list(1)%location, "'"//swept%name//"' is not a parameter of the deck", "nothing to sweep", &
-                         & help//"parameters: "//join(names, " "))
+         associate (names => deck%symbols%names_of(functions=.false.))
+            help = nearest_word(swept%name, names)
+            if (len(help) > 0) help = "did you mean '"//help//"'? "
+            call mistakes%add(list(1)%location, "'"//swept%name//"' is not a parameter of the deck", "nothing to sweep", &
+                            & help//"parameters: "//join(names, " "))
+         end associate
          return
       end if
       before = mistakes%count()
-      if (deck%parameters(k)%kind == symbol_word) then
+      if (deck%symbols%list(k)%kind == symbol_word) then
          call read_words_of(deck, list(3:), swept, mistakes)
-      else if (deck%parameters(k)%kind == symbol_number) then
+      else if (deck%symbols%list(k)%kind == symbol_number) then
          call read_numbers_of(deck, list(3:), swept, mistakes)
          if (mistakes%count() == before) call check_dimensions(deck, k, list(3:), swept, mistakes)
       end if
-      is_good = mistakes%count() == before .and. deck%parameters(k)%kind /= symbol_broken
+      is_good = mistakes%count() == before .and. deck%symbols%list(k)%kind /= symbol_broken
    end subroutine read_swept
 
    !> Values that are words.
@@ -219,6 +214,7 @@ contains
       type(swept_t), intent(inout) :: swept           !! the parameter
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      type(text_list_t) :: texts
       character(:), allocatable :: word
       integer :: k
 
@@ -229,9 +225,10 @@ contains
             cycle
          end if
          if (list(k)%kind == token_quoted) word = """"//word//""""
-         call append_text(swept%texts, word)
+         call texts%add(word)
       end do
-      swept%numbers = [(not_a_number(), k=1, size(swept%texts))]
+      swept%texts = texts%get()
+      swept%numbers = [(not_a_number(), k=1, texts%n)]
    end subroutine read_words_of
 
    !> Values that are numbers: a list or a range.
@@ -241,6 +238,7 @@ contains
       type(swept_t), intent(inout) :: swept           !! the parameter
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      type(text_list_t) :: texts
       character(:), allocatable :: unit, word
       integer :: k, n
 
@@ -266,8 +264,9 @@ contains
          else if (number_length(word) == len(word)) then
             word = word//unit
          end if
-         call append_text(swept%texts, word)
+         call texts%add(word)
       end do
+      swept%texts = texts%get()
    end subroutine read_numbers_of
 
    !> A range: `A .. B unit in N`, perhaps `geometric`; units beside the ends or glued to one or both of them.
@@ -277,6 +276,7 @@ contains
       type(swept_t), intent(inout) :: swept           !! the parameter
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      type(text_list_t) :: texts
       character(:), allocatable :: unit, units(:), words(:)
       integer :: at, k, length, n, n_values, status
       logical :: is_geometric, is_good
@@ -327,8 +327,9 @@ contains
             if (is_geometric) x = ends(1)*(ends(2)/ends(1))**part
          end associate
          if (k == n_values) x = ends(2)
-         call append_text(swept%texts, exact_text(x)//unit)
+         call texts%add(exact_text(x)//unit)
       end do
+      swept%texts = texts%get()
    end subroutine read_range
 
    !> The values in SI; their dimension must be that of the parameter in the deck.
@@ -343,9 +344,11 @@ contains
       type(quantity_t) :: quantity
       integer :: k
 
-      associate (symbol => deck%parameters(parameter_number))
+      associate (symbol => deck%symbols%list(parameter_number))
          swept%unit = unit_text(symbol%dimension)
          if (swept%unit == "") swept%unit = "1"
+         deallocate (swept%numbers)
+         allocate (swept%numbers(size(swept%texts)), source=not_a_number())
          do k = 1, size(swept%texts)
             at = span(list(1), list(size(list)))
             if (k <= size(list) .and. size(swept%texts) <= size(list)) at = list(k)%location
@@ -360,7 +363,7 @@ contains
                                & "this is "//dimension_name(quantity%dimension))
                return
             end if
-            swept%numbers = [swept%numbers, quantity%x]
+            swept%numbers(k) = quantity%x
          end do
       end associate
    end subroutine check_dimensions

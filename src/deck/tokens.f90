@@ -172,12 +172,11 @@ contains
       type(token_t), intent(in) :: token        !! the token
       character(:), allocatable :: s            !! its text
 
-      character(:), allocatable :: line
-      integer :: file
-
-      file = token%location%file
-      line = line_of(sources(file), token%location%line)
-      s = line(token%location%first:token%location%last)
+      associate (at => token%location)
+         associate (source => sources(at%file))
+            s = source%text(source%first(at%line) + at%first - 1:source%first(at%line) + at%last - 1)
+         end associate
+      end associate
       if (token%kind == token_brace) then
          s = s(2:len(s) - 1)
       else if (token%kind == token_quoted) then

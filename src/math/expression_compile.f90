@@ -2,25 +2,25 @@
 module expression_compile
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_flag, ieee_set_halting_mode, ieee_set_status, &
                                           & ieee_status_type, ieee_usual
-   use expression, only: expression_t, n_variable, op_add, op_atan2, op_curve, op_number, op_time, stack_size
+   use expression, only: expression_t, n_variable, op_add, op_atan2, op_number, op_time, stack_size
    use expression_dimension, only: dimension_agrees, term_t
    use expression_functions, only: function_names, function_operation
    use expression_parser, only: parse_whole
-   use expression_state, only: fail, fault_t, name_length, new_parser, parser_t, symbol_broken, symbol_function, &
-                             & symbol_number, symbol_t, symbol_word
+   use expression_state, only: fail, fault_t, name_length, new_parser, parser_t
+   use expression_symbols, only: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
    use kind_info, only: dim_t, dim_time
    use kinds, only: wp
    implicit none (type, external)
    private
    public :: compile_expression, dimension_agrees, evaluate_safely, fault_t, function_names, is_reserved, name_length
-   public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word
+   public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
 
 contains
 
    !> Compile an expression.
    subroutine compile_expression(source, symbols, has_variable, compiled, fault, variable, argument)
       character(*), intent(in) :: source                !! text, without braces
-      type(symbol_t), intent(in) :: symbols(:)          !! (n) parameters and functions that it may use
+      type(symbols_t), intent(in) :: symbols            !! parameters and functions that it may use
       logical, intent(in) :: has_variable               !! whether it may depend on a variable
       type(expression_t), intent(out) :: compiled       !! the expression
       type(fault_t), allocatable, intent(out) :: fault  !! unallocated: success
@@ -57,33 +57,8 @@ contains
       allocate (compiled%code(parser%n_code), compiled%operand(parser%n_code))
       compiled%code(:) = parser%code(1:parser%n_code)
       compiled%operand(:) = parser%operand(1:parser%n_code)
-      call keep_curves(parser, compiled)
+      if (allocated(parser%curves)) call move_alloc(parser%curves, compiled%curves)
    end subroutine compile_expression
-
-   !> Give an expression the curves that it calls, numbered anew.
-   subroutine keep_curves(parser, compiled)
-      type(parser_t), intent(in) :: parser             !! the reader, at the end
-      type(expression_t), intent(inout) :: compiled    !! the program
-
-      integer :: called(size(parser%curves)), i, k, n
-
-      n = 0
-      called = 0
-      do k = 1, size(compiled%code)
-         if (compiled%code(k) /= op_curve) cycle
-         i = nint(compiled%operand(k))
-         if (called(i) == 0) then
-            n = n + 1
-            called(i) = n
-         end if
-         compiled%operand(k) = called(i)
-      end do
-      if (n == 0) return
-      allocate (compiled%curves(n))
-      do i = 1, size(called)
-         if (called(i) > 0) compiled%curves(called(i)) = parser%curves(i)
-      end do
-   end subroutine keep_curves
 
    !> Evaluate where an overflow must not stop the program: the result is then not finite.
    subroutine evaluate_safely(compiled, t, value, d1, d2)

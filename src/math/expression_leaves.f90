@@ -4,10 +4,10 @@ module expression_leaves
    use expression_dimension, only: term_t
    use expression_functions, only: function_names, function_operation
    use expression_state, only: advance, digits, emit, fail, find_variable, letters, name_length, parser_t, peek, resolve, &
-                             & suggestion, symbol_function, symbol_number, symbol_word
+                             & suggestion
+   use expression_symbols, only: symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
-   use text, only: append_text, text_t
    use units, only: exponent_length, parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -21,8 +21,7 @@ contains
       character(*), intent(in) :: name         !! the name
       type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
 
-      type(text_t), allocatable :: names(:)
-      integer :: i, last
+      integer :: last
 
       last = term%first + len(name) - 1
       if (name == "pi") then
@@ -32,29 +31,22 @@ contains
       else if (find_variable(parser, name) > 0) then
          term%dimension = parser%arguments(find_variable(parser, name))
          term%is_constant = .false.
-         do i = 1, size(parser%symbols)
-            if (parser%symbols(i)%name == name) call fail(parser, term%first, last, "'"//name &
-               & //"' is the variable here, and a parameter", "rename the parameter")
-         end do
+         if (parser%symbols%find(name) > 0) call fail(parser, term%first, last, "'"//name &
+            & //"' is the variable here, and a parameter", "rename the parameter")
          call emit(parser, op_time, real(find_variable(parser, name), wp))
          return
       else if (name == "t") then
          call fail(parser, term%first, last, "the time 't' has no place here", "only drivers and loads depend on the time")
          return
       end if
-      allocate (names(0))
-      do i = 1, size(parser%symbols)
-         if (parser%symbols(i)%name == name) then
-            call use_symbol(parser, i, term, last)
-            return
-         end if
-         if (parser%symbols(i)%kind /= symbol_function) call append_text(names, parser%symbols(i)%name)
-      end do
-      if (function_operation(name) > 0) then
+      if (parser%symbols%find(name) > 0) then
+         call use_symbol(parser, parser%symbols%find(name), term, last)
+      else if (function_operation(name) > 0) then
          call fail(parser, term%first, last, "the function '"//name//"' lacks its argument in parentheses")
       else
          call fail(parser, term%first, last, "unknown parameter '"//name//"'", &
-                 & suggestion(name, names, "a parameter stands in [parameters], before it is used"))
+                 & suggestion(name, parser%symbols%names_of(functions=.false.), &
+                 & "a parameter stands in [parameters], before it is used"))
       end if
    end subroutine parse_name
 
@@ -65,21 +57,23 @@ contains
       type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
       integer, intent(in) :: last              !! last character of its name
 
-      select case (parser%symbols(i)%kind)
-      case (symbol_number)
-         term%dimension = parser%symbols(i)%dimension
-         term%is_soft = parser%symbols(i)%is_soft
-         call emit(parser, op_number, parser%symbols(i)%number)
-         call resolve(parser, i, term%first, last)
-      case (symbol_word)
-         call fail(parser, term%first, last, "the parameter '"//parser%symbols(i)%name//"' is the word '" &
-                 & //parser%symbols(i)%word//"', not a number")
-      case (symbol_function)
-         call fail(parser, term%first, last, "the function '"//parser%symbols(i)%name &
-                 & //"' lacks its argument in parentheses", "as "//parser%symbols(i)%name//"(t)")
-      case default
-         call fail(parser, term%first, last, "")
-      end select
+      associate (symbol => parser%symbols%list(i))
+         select case (symbol%kind)
+         case (symbol_number)
+            term%dimension = symbol%dimension
+            term%is_soft = symbol%is_soft
+            call emit(parser, op_number, symbol%number)
+            call resolve(parser, i, term%first, last)
+         case (symbol_word)
+            call fail(parser, term%first, last, "the parameter '"//symbol%name//"' is the word '" &
+                    & //symbol%word//"', not a number")
+         case (symbol_function)
+            call fail(parser, term%first, last, "the function '"//symbol%name &
+                    & //"' lacks its argument in parentheses", "as "//symbol%name//"(t)")
+         case default
+            call fail(parser, term%first, last, "")
+         end select
+      end associate
    end subroutine use_symbol
 
    !> A number, with its unit if it has one.
@@ -131,12 +125,8 @@ contains
       type(parser_t), intent(in) :: parser  !! the reader
       character(*), intent(in) :: word      !! any word
 
-      integer :: i
-
-      is_name = word == "t" .or. find_variable(parser, word) > 0 .or. word == "pi" .or. function_operation(word) > 0
-      do i = 1, size(parser%symbols)
-         is_name = is_name .or. parser%symbols(i)%name == word
-      end do
+      is_name = word == "t" .or. find_variable(parser, word) > 0 .or. word == "pi" .or. function_operation(word) > 0 &
+              & .or. parser%symbols%find(word) > 0
    end function is_name
 
    !> Number of characters of a unit: names joined by dots and slashes, with exponents.

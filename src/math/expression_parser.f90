@@ -12,13 +12,14 @@
 !> After a number a slash belongs to the unit if a known unit follows at once. `t` is always the time.
 module expression_parser
    use dimension_text, only: dimension_name
-   use expression, only: evaluate_code, n_variable, op_add, op_curve, op_divide, op_integer_power, op_multiply, &
+   use expression, only: evaluate_code, n_variable, op_add, op_divide, op_integer_power, op_multiply, &
                        & op_negate, op_power, op_real_power, op_subtract
    use expression_dimension, only: combine_power, combine_product, combine_sum, dimension_agrees, term_t
    use expression_functions, only: apply_function, function_names, function_operation, n_argument
    use expression_leaves, only: parse_name, parse_number
-   use expression_state, only: advance, descend, emit, fail, find_function, function_list, letters, name_length, parser_t, &
-                             & peek, suggestion, symbol_broken
+   use expression_state, only: advance, call_function, descend, emit, fail, find_function, function_list, letters, name_length, &
+                             & parser_t, peek, suggestion
+   use expression_symbols, only: symbol_broken
    use kind_info, only: dim_none, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
@@ -279,14 +280,16 @@ contains
       if (peek(parser) == ",") call fail(parser, parser%at, parser%at, "too many arguments for '"//name//"'")
       call close_parenthesis(parser, term%first)
       if (allocated(parser%fault)) return
-      if (.not. dimension_agrees(argument%dimension, argument%is_soft, parser%symbols(i)%argument)) then
-         call fail(parser, argument%first, argument%last, "'"//name//"' takes "//dimension_name(parser%symbols(i)%argument) &
-                 & //", this is "//dimension_name(argument%dimension))
-      end if
-      term%dimension = parser%symbols(i)%dimension
+      associate (symbol => parser%symbols%list(i))
+         if (.not. dimension_agrees(argument%dimension, argument%is_soft, symbol%argument)) then
+            call fail(parser, argument%first, argument%last, "'"//name//"' takes "//dimension_name(symbol%argument) &
+                    & //", this is "//dimension_name(argument%dimension))
+         end if
+         term%dimension = symbol%dimension
+      end associate
       term%is_soft = .false.
       term%is_constant = argument%is_constant
-      call emit(parser, op_curve, real(i, wp))
+      call call_function(parser, i)
    end subroutine parse_call
 
    !> Whether a name is that of a function or parameter whose mistake was reported already.
@@ -294,12 +297,8 @@ contains
       type(parser_t), intent(in) :: parser  !! the reader
       character(*), intent(in) :: name      !! the name
 
-      integer :: i
-
       is_broken = .false.
-      do i = 1, size(parser%symbols)
-         is_broken = is_broken .or. (parser%symbols(i)%name == name .and. parser%symbols(i)%kind == symbol_broken)
-      end do
+      if (parser%symbols%find(name) > 0) is_broken = parser%symbols%list(parser%symbols%find(name))%kind == symbol_broken
    end function is_broken
 
    !> The end of a parenthesis.

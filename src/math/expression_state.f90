@@ -1,35 +1,16 @@
 !> The state of the reader of expressions, and its small tools.
 module expression_state
-   use curve, only: curve_t
    use dimension_text, only: base_text
-   use expression, only: n_variable
+   use curve, only: curve_t
+   use expression, only: n_variable, op_curve
+   use expression_symbols, only: symbol_function, symbols_t
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
-   use text, only: exact_text, nearest_word, split_blank, text_t
+   use text, only: exact_text, join, nearest_word, split_blank, text_t
    implicit none (type, external)
    private
-   public :: advance, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion
-   public :: digits, fault_t, find_function, find_variable, function_list, letters, parser_t, symbol_broken, symbol_function
-   public :: symbol_number
-   public :: symbol_t, symbol_word
-
-   integer, parameter :: symbol_number = 1  !! a parameter with a value and a dimension
-   integer, parameter :: symbol_word = 2    !! a parameter that is a word
-   integer, parameter :: symbol_broken = 3  !! a parameter whose mistake was reported already
-
-   integer, parameter :: symbol_function = 4  !! a named function
-
-   !> A parameter, or a named function.
-   type :: symbol_t
-      character(:), allocatable :: name    !! as written
-      integer :: kind = symbol_number      !! one of the above
-      real(wp) :: number = 0.0_wp          !! its value, SI [any]
-      type(dim_t) :: dimension = dim_none  !! of the value
-      logical :: is_soft = .false.         !! its radians may be taken or left
-      character(:), allocatable :: word    !! of a word
-      type(curve_t) :: curve               !! of a function, whose value has the dimension
-      type(dim_t) :: argument = dim_none   !! what a function takes
-   end type symbol_t
+   public :: advance, call_function, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion
+   public :: digits, fault_t, find_function, find_variable, function_list, letters, parser_t
 
    !> A mistake in an expression.
    type :: fault_t
@@ -55,8 +36,9 @@ module expression_state
       integer :: n_code = 0                         !! operations so far
       integer :: code(longest_code) = 0             !! (longest_code) operations
       real(wp) :: operand(longest_code) = 0.0_wp    !! (longest_code) their numbers [any]
-      type(symbol_t), allocatable :: symbols(:)     !! parameters and functions
-      type(curve_t), allocatable :: curves(:)       !! (symbols) the functions' curves
+      type(symbols_t), pointer :: symbols => null() !! parameters and functions
+      integer :: called(longest_code) = 0           !! (longest_code) the functions that it calls, among the symbols
+      type(curve_t), allocatable :: curves(:)       !! (any) their curves; unallocated: it calls none
       type(fault_t), allocatable :: fault           !! the first mistake
    end type parser_t
 
@@ -70,21 +52,15 @@ contains
    subroutine new_parser(parser, source, symbols, variables, arguments)
       type(parser_t), intent(out) :: parser     !! the reader
       character(*), intent(in) :: source        !! text of the expression
-      type(symbol_t), intent(in) :: symbols(:)  !! (n) parameters
+      type(symbols_t), intent(in), target :: symbols  !! parameters and functions; must outlive the reader
       character(*), intent(in) :: variables     !! names of the variables, blank-separated; blank: there are none
       type(dim_t), intent(in) :: arguments(:)   !! (any) their dimensions
-
-      integer :: i
 
       parser%source = source
       parser%resolved = ""
       parser%variables = split_blank(variables)
       parser%arguments(1:size(arguments)) = arguments
-      allocate (parser%symbols(size(symbols)), parser%curves(size(symbols)))
-      do i = 1, size(symbols)
-         parser%symbols(i) = symbols(i)
-         parser%curves(i) = symbols(i)%curve
-      end do
+      parser%symbols => symbols
       call advance(parser, 0)
    end subroutine new_parser
 
@@ -140,25 +116,18 @@ contains
       type(parser_t), intent(in) :: parser  !! the reader
       character(*), intent(in) :: name      !! of the function
 
-      integer :: i
-
-      find_function = 0
-      do i = 1, size(parser%symbols)
-         if (parser%symbols(i)%name == name .and. parser%symbols(i)%kind == symbol_function) find_function = i
-      end do
+      find_function = parser%symbols%find(name)
+      if (find_function == 0) return
+      if (parser%symbols%list(find_function)%kind /= symbol_function) find_function = 0
    end function find_function
 
    !> The named functions, each after a blank.
-   pure function function_list(parser) result(list)
+   function function_list(parser) result(list)
       type(parser_t), intent(in) :: parser  !! the reader
       character(:), allocatable :: list     !! empty if there are none
 
-      integer :: i
-
-      list = ""
-      do i = 1, size(parser%symbols)
-         if (parser%symbols(i)%kind == symbol_function) list = list//" "//parser%symbols(i)%name
-      end do
+      list = join(parser%symbols%names_of(functions=.true.), " ")
+      if (len(list) > 0) list = " "//list
    end function function_list
 
    !> Append an operation to the program.
@@ -178,6 +147,29 @@ contains
       if (present(x)) parser%operand(parser%n_code) = x
    end subroutine emit
 
+   !> Append the call of a named function; each function that is called is kept once.
+   subroutine call_function(parser, i)
+      type(parser_t), intent(inout) :: parser  !! the reader
+      integer, intent(in) :: i                 !! its number among the symbols
+
+      type(curve_t), allocatable :: curves(:)
+      integer :: k, n
+
+      if (allocated(parser%fault)) return
+      n = 0
+      if (allocated(parser%curves)) n = size(parser%curves)
+      k = findloc(parser%called(:n), i, 1)
+      if (k == 0) then
+         k = n + 1
+         allocate (curves(k))
+         if (n > 0) curves(:n) = parser%curves
+         curves(k) = parser%symbols%list(i)%curve
+         call move_alloc(curves, parser%curves)
+         parser%called(k) = i
+      end if
+      call emit(parser, op_curve, real(k, wp))
+   end subroutine call_function
+
    !> Replace a parameter by its value in the text that will be written back.
    !> A soft number is written as a root, which is soft and gives the very same number.
    subroutine resolve(parser, i, first, last)
@@ -188,7 +180,7 @@ contains
 
       character(:), allocatable :: literal
 
-      associate (symbol => parser%symbols(i))
+      associate (symbol => parser%symbols%list(i))
          literal = exact_text(abs(symbol%number))
          if (len(base_text(symbol%dimension)) > 0) literal = literal//" "//base_text(symbol%dimension)
          if (symbol%is_soft) literal = "sqrt(("//literal//")^2)"

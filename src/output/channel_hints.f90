@@ -2,7 +2,7 @@
 module channel_hints
    use catalogue, only: catalogue_t, n_rooms, room_contacts
    use channel_names, only: item_name
-   use text, only: append_text, join, nearest_word, text_t
+   use text, only: append_text, join, nearest_word, text_list_t, text_t
    implicit none (type, external)
    private
    public :: is_same, suggestion
@@ -61,15 +61,16 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
       type(text_t), allocatable :: items(:)       !! (n) names
 
+      type(text_list_t) :: found
       integer :: item, room
 
-      allocate (items(0))
       do room = 1, n_rooms
          if (room == room_contacts) cycle
          do item = 1, size(catalogue%rooms(room)%names)
-            call append_text(items, item_name(catalogue, room, item))
+            call found%add(item_name(catalogue, room, item))
          end do
       end do
+      items = found%get()
    end function names_of_items
 
    !> Quantities of an item, or of all items (`*`), each once.

@@ -52,16 +52,14 @@ contains
       integer, intent(in) :: item                 !! its number there
       character(:), allocatable :: label          !! what stands between the joint and the quantity
 
-      integer :: k, n
+      integer :: k
 
       label = ""
       if (room /= room_contacts) return
       associate (contacts => catalogue%rooms(room))
-         n = 0
-         do k = 1, size(contacts%names)
-            if (contacts%names(k)%s == contacts%names(item)%s) n = n + 1
+         do k = max(1, item - 1), min(size(contacts%names), item + 1)  ! those of a joint stand together
+            if (k /= item .and. contacts%names(k)%s == contacts%names(item)%s) label = contacts%labels(item)%s
          end do
-         if (n > 1) label = contacts%labels(item)%s
       end associate
    end function label_in_name
 

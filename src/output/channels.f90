@@ -3,13 +3,14 @@
 !> Words: `slider.position`, `slider.position.x`, `gudgeon.*`, `*.velocity`, `*`, `gudgeon.penetration`
 !> of a contact, `guide.A.penetration` where a joint has several, `energy.residual`, `energy.*`.
 module channels
-   use catalogue, only: catalogue_t, room_contacts
+   use catalogue, only: catalogue_t, n_rooms, room_contacts
    use channel_hints, only: is_same, suggestion
    use channel_names, only: component_letter, item_name, scalar_t
+   use name_table, only: name_table_t
    use text, only: append_text, text_t
    implicit none (type, external)
    private
-   public :: chosen_t, list_scalars, match_word, select_channels, selection_t
+   public :: chosen_t, find_scalars, item_finder_t, list_scalars, match_word, select_channels, selection_t
 
    !> The chosen numbers of a group.
    type :: chosen_t
@@ -21,11 +22,20 @@ module channels
       type(chosen_t), allocatable :: groups(:)  !! (groups) as in the catalogue
    contains
       procedure :: clear => clear_selection
-      procedure :: add => add_selection
+      procedure :: choose => choose_scalars
       procedure :: count => count_selection
       procedure :: has_group => selection_has_group
       procedure :: has_item => selection_has_item
    end type selection_t
+
+   !> Finds the items that a part of a word names.
+   type :: item_finder_t
+      private
+      type(name_table_t) :: names(n_rooms)  !! (rooms) names of the items; of equal names the first
+   contains
+      procedure :: start => start_finder
+      procedure :: find => find_items
+   end type item_finder_t
 
 contains
 
@@ -38,15 +48,17 @@ contains
       character(:), allocatable, intent(out) :: bad_message   !! what is wrong with it
       character(:), allocatable, intent(out) :: hint          !! what may have been meant, may be blank
 
-      type(selection_t) :: named
+      type(item_finder_t) :: finder
+      type(scalar_t), allocatable :: scalars(:)
       integer :: k
 
       bad_word = 0
+      call finder%start(catalogue)
       call selection%clear(catalogue)
       if (size(words) == 0) call match_word("*", catalogue, selection, bad_message, hint)
       do k = 1, size(words)
-         call match_word(words(k)%s, catalogue, named, bad_message, hint)
-         call selection%add(named)
+         call find_scalars(words(k)%s, catalogue, finder, scalars, bad_message, hint)
+         call selection%choose(scalars)
          if (len(bad_message) == 0 .or. bad_word > 0) cycle
          bad_word = k
          exit
@@ -64,37 +76,91 @@ contains
       character(:), allocatable, intent(out) :: message  !! blank if it names something
       character(:), allocatable, intent(out) :: hint     !! what may have been meant, may be blank
 
+      type(item_finder_t) :: finder
+      type(scalar_t), allocatable :: scalars(:)
+
+      call named%clear(catalogue)
+      call finder%start(catalogue)
+      call find_scalars(word, catalogue, finder, scalars, message, hint)
+      call named%choose(scalars)
+   end subroutine match_word
+
+   !> The numbers that one word names, in the order of the catalogue. Only the items of its first part are looked at.
+   subroutine find_scalars(word, catalogue, finder, scalars, message, hint)
+      character(*), intent(in) :: word                      !! a word of the deck
+      type(catalogue_t), intent(in) :: catalogue            !! what can be recorded
+      type(item_finder_t), intent(in) :: finder             !! finds its items
+      type(scalar_t), allocatable, intent(out) :: scalars(:)  !! (any) what it names
+      character(:), allocatable, intent(out) :: message     !! blank if it names something
+      character(:), allocatable, intent(out) :: hint        !! what may have been meant, may be blank
+
       type(text_t), allocatable :: parts(:)
-      integer :: component, group, item
+      integer :: component, first, group, item, last, n, pass
 
       message = ""
       hint = ""
-      call named%clear(catalogue)
       parts = split_dots(word)
-      do group = 1, size(catalogue%groups)
-         do item = 1, size(catalogue%rooms(catalogue%groups(group)%room)%names)
-            if (.not. fits_item(parts, catalogue, catalogue%groups(group)%room, item)) cycle
-            if (.not. catalogue%item_has(group, item)) cycle
-            do component = 1, catalogue%groups(group)%channel%components
-               named%groups(group)%mask(component, item) = &
-                  fits(parts, catalogue, scalar_t(group, component, item))
+      do pass = 1, 2
+         n = 0
+         do group = 1, size(catalogue%groups)
+            call finder%find(catalogue, catalogue%groups(group)%room, parts(1)%s, first, last)
+            do item = first, last
+               if (.not. catalogue%item_has(group, item)) cycle
+               do component = 1, catalogue%groups(group)%channel%components
+                  if (.not. fits(parts, catalogue, scalar_t(group, component, item))) cycle
+                  n = n + 1
+                  if (pass == 2) scalars(n) = scalar_t(group, component, item)
+               end do
             end do
          end do
+         if (pass == 1) allocate (scalars(n))
       end do
-      if (named%count() > 0 .or. word == "*") return
+      if (n > 0 .or. word == "*") return
       message = "unknown channel '"//word//"'"
       hint = suggestion(parts, catalogue)
-   end subroutine match_word
+   end subroutine find_scalars
 
-   !> Whether the first part of a word names an item; saves the time of looking at the rest.
-   pure logical function fits_item(parts, catalogue, room, item)
-      type(text_t), intent(in) :: parts(:)        !! (n) parts of the word
+   !> Enter the names of a catalogue's items.
+   subroutine start_finder(self, catalogue)
+      class(item_finder_t), intent(inout) :: self  !! the finder
+      type(catalogue_t), intent(in) :: catalogue   !! what can be recorded
+
+      integer :: item, previous, room
+
+      do room = 1, n_rooms
+         call self%names(room)%start(size(catalogue%rooms(room)%names))
+         do item = 1, size(catalogue%rooms(room)%names)
+            call self%names(room)%enter(item_name(catalogue, room, item), item, previous)
+         end do
+      end do
+   end subroutine start_finder
+
+   !> The items of a room that a part of a word names: all, one, several contacts of a joint (they stand together), or none.
+   subroutine find_items(self, catalogue, room, part, first, last)
+      class(item_finder_t), intent(in) :: self    !! the finder
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      integer, intent(in) :: room                 !! room of the item
-      integer, intent(in) :: item                 !! its number there
+      integer, intent(in) :: room                 !! the room
+      character(*), intent(in) :: part            !! first part of a word
+      integer, intent(out) :: first               !! the first of them
+      integer, intent(out) :: last                !! the last, less than the first if there are none
 
-      fits_item = is_same(parts(1)%s, item_name(catalogue, room, item))
-   end function fits_item
+      associate (n => size(catalogue%rooms(room)%names))
+         first = 1
+         last = n
+         if (part == "*") return
+         last = 0
+         if (n > 0) first = self%names(room)%find(part)
+         if (first == 0 .or. n == 0) then
+            first = 1
+            return
+         end if
+         last = first
+         do while (last < n)
+            if (catalogue%rooms(room)%names(last + 1)%s /= catalogue%rooms(room)%names(first)%s) exit
+            last = last + 1
+         end do
+      end associate
+   end subroutine find_items
 
    !> Whether a word, whose first part fits, names a number.
    pure logical function fits(parts, catalogue, scalar)
@@ -179,17 +245,17 @@ contains
       end do
    end subroutine clear_selection
 
-   !> Take what another selection of the same catalogue holds as well.
-   pure subroutine add_selection(self, other)
+   !> Take some numbers as well.
+   pure subroutine choose_scalars(self, scalars)
       class(selection_t), intent(inout) :: self  !! the selection
-      type(selection_t), intent(in) :: other     !! the other one
+      type(scalar_t), intent(in) :: scalars(:)   !! (any) the numbers
 
-      integer :: group
+      integer :: k
 
-      do group = 1, size(self%groups)
-         self%groups(group)%mask = self%groups(group)%mask .or. other%groups(group)%mask
+      do k = 1, size(scalars)
+         self%groups(scalars(k)%group)%mask(scalars(k)%component, scalars(k)%item) = .true.
       end do
-   end subroutine add_selection
+   end subroutine choose_scalars
 
    !> How many numbers a selection holds.
    pure integer function count_selection(self)

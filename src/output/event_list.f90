@@ -5,7 +5,8 @@
 module event_list
    use kinds, only: wp
    use recorder, only: event_t
-   use text, only: append_text, text_t
+   use name_table, only: name_table_t
+   use text, only: text_list_t
    implicit none (type, external)
    private
    public :: event_list_t
@@ -44,7 +45,8 @@ module event_list
       integer :: n = 0                            !! number of events
       real(wp), allocatable :: numbers(:, :)      !! (7, capacity) as named above, SI [any]
       integer, allocatable :: codes(:, :)         !! (5, capacity) numbers of their words in `words`
-      type(text_t), allocatable :: words(:)       !! (any) different words
+      type(text_list_t) :: words                  !! different words
+      type(name_table_t) :: numbers_of_words      !! where each stands
    contains
       procedure :: add => add_event
       procedure :: word => word_of_event
@@ -78,7 +80,7 @@ contains
       integer :: capacity
 
       if (.not. allocated(self%numbers)) then
-         allocate (self%numbers(n_event_numbers, 64), self%codes(n_event_words, 64), self%words(0))
+         allocate (self%numbers(n_event_numbers, 64), self%codes(n_event_words, 64))
       end if
       capacity = size(self%numbers, 2)
       if (self%n < capacity) return
@@ -96,16 +98,15 @@ contains
       integer, intent(out) :: code                          !! its number
 
       character(:), allocatable :: known
-      integer :: k
+      integer :: previous
 
       known = ""
       if (allocated(word)) known = word
-      do k = 1, size(self%words)
-         code = k
-         if (self%words(k)%s == known) return
-      end do
-      call append_text(self%words, known)
-      code = size(self%words)
+      call self%numbers_of_words%enter(known, self%words%n + 1, previous)
+      code = previous
+      if (previous > 0) return
+      call self%words%add(known)
+      code = self%words%n
    end subroutine encode
 
    !> A word of an event.
@@ -115,7 +116,7 @@ contains
       integer, intent(in) :: k                 !! which word, as named above
       character(:), allocatable :: word        !! the word
 
-      word = self%words(self%codes(k, event))%s
+      word = self%words%at(self%codes(k, event))
    end function word_of_event
 
    !> Numbers of the events in the order of their times (merge sort, stable).

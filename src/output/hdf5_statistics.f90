@@ -6,9 +6,10 @@ module hdf5_statistics
    use hdf5, only: hid_t
    use hdf5_calls, only: integer_dataset, real_dataset, text_dataset
    use kinds, only: wp
-   use statistics, only: joint_statistics, joint_statistics_t, joints_of, number_t, statistics_t
+   use contact_statistics, only: joint_statistics_t, joints_of, statistics_of_joints
+   use statistics, only: number_t, statistics_t
    use statistics_plots, only: histogram
-   use text, only: text_t
+   use text, only: join, text_list_t, text_t
    implicit none (type, external)
    private
    public :: write_statistics
@@ -95,7 +96,7 @@ contains
       real(wp), intent(in) :: t_end                    !! last instant reached [s]
       integer, intent(inout) :: status                 !! negative: failed
 
-      type(joint_statistics_t) :: joint
+      type(joint_statistics_t), allocatable :: found(:)
       type(text_t), allocatable :: joints(:), names(:)
       integer, allocatable :: counts(:, :)
       real(wp), allocatable :: edges(:, :)
@@ -106,14 +107,13 @@ contains
       if (size(joints) == 0) return
       bins = statistics%plan%bins
       allocate (counts(bins, 2*size(joints)), edges(bins + 1, 2*size(joints)), names(2*size(joints)))
-      units = ""
+      units = repeat(" m/s N", size(joints))
+      call statistics_of_joints(joints, events, statistics%plan%after, t_end, found)
       do k = 1, size(joints)
-         call joint_statistics(joints(k)%s, events, statistics%plan%after, t_end, joint)
-         call histogram(joint%speeds, edges(:, 2*k - 1), counts(:, 2*k - 1))
-         call histogram(joint%forces, edges(:, 2*k), counts(:, 2*k))
+         call histogram(found(k)%speeds, edges(:, 2*k - 1), counts(:, 2*k - 1))
+         call histogram(found(k)%forces, edges(:, 2*k), counts(:, 2*k))
          names(2*k - 1)%s = joints(k)%s//".impact_speed"
          names(2*k)%s = joints(k)%s//".peak_force"
-         units = units//" m/s N"
       end do
       call text_dataset(file, "statistics/histogram_names", names, .false., "what is counted", status)
       call real_dataset(file, "statistics/histogram_edges", [bins + 1, size(names)], reshape(edges, [size(edges)]), &
@@ -141,13 +141,13 @@ contains
       type(catalogue_t), intent(in) :: catalogue       !! what can be recorded
       character(:), allocatable :: units               !! one for each
 
+      type(text_list_t) :: list
       integer :: k
 
-      units = ""
       do k = 1, size(scalars)
-         if (k > 1) units = units//" "
-         units = units//catalogue%groups(scalars(k)%group)%channel%unit
+         call list%add(catalogue%groups(scalars(k)%group)%channel%unit)
       end do
+      units = join(list%get(), " ")
    end function units_of
 
 end module hdf5_statistics

@@ -7,17 +7,17 @@
 !> not depend on the output instants: the fraction is the share of the time in which at least one contact of the joint is
 !> closed; an impact belongs to the window if its onset does.
 module statistics
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use catalogue, only: catalogue_t, room_contacts
+   use catalogue, only: catalogue_t
    use channel_names, only: scalar_name, scalar_t
-   use channels, only: list_scalars, match_word, selection_t
+   use channels, only: find_scalars, item_finder_t, selection_t
+   use contact_statistics, only: joint_statistics_t, joints_of, statistics_of_joints
    use event_list, only: event_list_t
    use kinds, only: not_a_number, wp
    use spectrum, only: amplitude_spectrum
-   use text, only: append_text, text_t
+   use text, only: text_t
    implicit none (type, external)
    private
-   public :: add_scalars, joint_statistics, joint_statistics_t, joints_of, names_of_numbers, number_t, statistics_plan_t
+   public :: names_of_numbers, number_t, statistics_plan_t
    public :: statistics_t
 
    integer, parameter :: n_of_channel = 5  !! numbers of a channel
@@ -47,14 +47,6 @@ module statistics
       character(:), allocatable :: unit      !! SI, `1` if none
       real(wp) :: value = 0.0_wp             !! NaN: not known [any]
    end type number_t
-
-   !> What the contacts of a joint did in the window.
-   type :: joint_statistics_t
-      character(:), allocatable :: name                 !! of the joint
-      real(wp) :: contact_fraction = 0.0_wp             !! of the time [1]
-      real(wp), allocatable :: speeds(:)                !! (impacts) impact speeds [m/s]
-      real(wp), allocatable :: forces(:)                !! (impacts) peak forces [N]
-   end type joint_statistics_t
 
    !> What is gathered during a run.
    type :: statistics_t
@@ -97,12 +89,12 @@ contains
       self%plan = plan
       self%n_sample = 0
       self%n_strobe = 0
-      allocate (self%channels(0), self%spectra(0))
-      if (.not. plan%is_wanted) return
-      if (allocated(plan%channels)) call take_words(plan%channels, catalogue, self%channels)
-      if (allocated(plan%spectra)) call take_words(plan%spectra, catalogue, self%spectra)
-      call add_scalars(self%channels, sections)
-      call add_scalars(self%spectra, spectra)
+      if (.not. plan%is_wanted) then
+         allocate (self%channels(0), self%spectra(0))
+         return
+      end if
+      call take_words(plan%channels, catalogue, sections, self%channels)
+      call take_words(plan%spectra, catalogue, spectra, self%spectra)
       n = size(self%channels)
       allocate (self%x_last(n), self%integral(n), self%integral_2(n), source=0.0_wp)
       allocate (self%lowest(n), source=huge(1.0_wp))
@@ -110,42 +102,57 @@ contains
       allocate (self%strobe_times(64), self%strobes(n, 64), self%series(size(self%spectra), 1024))
    end subroutine start_statistics
 
-   !> The numbers that words name, appended to a list.
-   subroutine take_words(words, catalogue, list)
-      type(text_t), intent(in) :: words(:)                     !! (any) words of the deck
+   !> The numbers that words name, then further ones, each once.
+   subroutine take_words(words, catalogue, more, list)
+      type(text_t), allocatable, intent(in) :: words(:)        !! (any) words of the deck; unallocated: none
       type(catalogue_t), intent(in) :: catalogue               !! what can be recorded
-      type(scalar_t), allocatable, intent(inout) :: list(:)    !! (n) grown
+      type(scalar_t), intent(in) :: more(:)                    !! (any) further numbers
+      type(scalar_t), allocatable, intent(out) :: list(:)      !! (n) all
 
-      type(selection_t) :: named
+      type(item_finder_t) :: finder
+      type(scalar_t), allocatable :: scalars(:)
+      type(selection_t) :: taken
       character(:), allocatable :: hint, message
-      integer :: k
+      integer :: k, n
 
-      do k = 1, size(words)
-         call match_word(words(k)%s, catalogue, named, message, hint)
-         if (len(message) == 0) call add_scalars(list, list_scalars(named))
-      end do
+      allocate (list(64))
+      n = 0
+      call taken%clear(catalogue)
+      if (allocated(words)) then
+         call finder%start(catalogue)
+         do k = 1, size(words)
+            call find_scalars(words(k)%s, catalogue, finder, scalars, message, hint)
+            call add_scalars(scalars)
+         end do
+      end if
+      call add_scalars(more)
+      list = list(:n)
+
+   contains
+
+      !> Append numbers that are not in the list yet; it grows by doubling.
+      subroutine add_scalars(scalars)
+         type(scalar_t), intent(in) :: scalars(:)  !! (any) numbers
+
+         type(scalar_t), allocatable :: larger(:)
+         integer :: i
+
+         do i = 1, size(scalars)
+            associate (is_taken => taken%groups(scalars(i)%group)%mask(scalars(i)%component, scalars(i)%item))
+               if (is_taken) cycle
+               is_taken = .true.
+            end associate
+            if (n == size(list)) then
+               allocate (larger(2*n))
+               larger(:n) = list
+               call move_alloc(larger, list)
+            end if
+            n = n + 1
+            list(n) = scalars(i)
+         end do
+      end subroutine add_scalars
+
    end subroutine take_words
-
-   !> Append numbers that are not in a list yet.
-   subroutine add_scalars(list, scalars)
-      type(scalar_t), allocatable, intent(inout) :: list(:)    !! (n) grown
-      type(scalar_t), intent(in) :: scalars(:)                 !! (any) numbers
-
-      integer :: k
-
-      do k = 1, size(scalars)
-         call add_scalar(list, scalars(k))
-      end do
-   end subroutine add_scalars
-
-   !> Append a number that is not in a list yet.
-   subroutine add_scalar(list, scalar)
-      type(scalar_t), allocatable, intent(inout) :: list(:)    !! (n) grown
-      type(scalar_t), intent(in) :: scalar                     !! the number
-
-      if (any(list%group == scalar%group .and. list%component == scalar%component .and. list%item == scalar%item)) return
-      list = [list, scalar]
-   end subroutine add_scalar
 
    !> An output instant.
    subroutine sample_statistics(self, t, catalogue)
@@ -259,7 +266,7 @@ contains
       real(wp), intent(in) :: t_end                  !! last instant reached [s]
       type(number_t), allocatable :: list(:)         !! (any) numbers
 
-      type(joint_statistics_t) :: joint
+      type(joint_statistics_t), allocatable :: contacts(:)
       type(text_t), allocatable :: joints(:)
       real(wp) :: span, values(n_of_joint)
       integer :: k
@@ -278,17 +285,19 @@ contains
          list(n_of_channel*(k - 1) + 2)%value = sqrt(self%integral_2(k)/span)
       end do
       joints = joints_of(catalogue)
+      call statistics_of_joints(joints, events, self%plan%after, t_end, contacts)
       span = t_end - self%plan%after
       do k = 1, size(joints)
-         call joint_statistics(joints(k)%s, events, self%plan%after, t_end, joint)
-         values = not_a_number()
-         values(1:2) = [joint%contact_fraction, real(size(joint%speeds), wp)]
-         if (span > 0.0_wp) values(3) = values(2)/span
-         if (span > 0.0_wp .and. self%plan%period > 0.0_wp) values(4) = values(2)*self%plan%period/span
-         if (size(joint%speeds) > 0) then
-            values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]
-            values(7:8) = [sum(joint%forces)/real(size(joint%forces), wp), maxval(joint%forces)]
-         end if
+         associate (joint => contacts(k))
+            values = not_a_number()
+            values(1:2) = [joint%contact_fraction, real(size(joint%speeds), wp)]
+            if (span > 0.0_wp) values(3) = values(2)/span
+            if (span > 0.0_wp .and. self%plan%period > 0.0_wp) values(4) = values(2)*self%plan%period/span
+            if (size(joint%speeds) > 0) then
+               values(5:6) = [sum(joint%speeds)/real(size(joint%speeds), wp), maxval(joint%speeds)]
+               values(7:8) = [sum(joint%forces)/real(size(joint%forces), wp), maxval(joint%forces)]
+            end if
+         end associate
          associate (first => n_of_channel*size(self%channels) + n_of_joint*(k - 1))
             list(first + 1:first + n_of_joint)%value = values
          end associate
@@ -324,62 +333,5 @@ contains
          end do
       end do
    end subroutine names_of_numbers
-
-   !> The joints that have contacts.
-   function joints_of(catalogue) result(names)
-      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      type(text_t), allocatable :: names(:)       !! (n) each once
-
-      integer :: i, k
-
-      allocate (names(0))
-      associate (contacts => catalogue%rooms(room_contacts))
-         do k = 1, size(contacts%names)
-            do i = 1, size(names)
-               if (names(i)%s == contacts%names(k)%s) exit
-            end do
-            if (i > size(names)) call append_text(names, contacts%names(k)%s)
-         end do
-      end associate
-   end function joints_of
-
-   !> Contact fraction and impacts of a joint between two instants.
-   subroutine joint_statistics(name, events, from, until, joint)
-      character(*), intent(in) :: name                  !! of the joint
-      type(event_list_t), intent(in) :: events          !! all events
-      real(wp), intent(in) :: from                      !! begin of the window [s]
-      real(wp), intent(in) :: until                     !! its end [s]
-      type(joint_statistics_t), intent(out) :: joint    !! what its contacts did
-
-      real(wp) :: begin, closed, covered, end
-      integer, allocatable :: order(:)
-      integer :: k, n
-
-      joint%name = name
-      order = events%order_by_onset()
-      allocate (joint%speeds(size(order)), joint%forces(size(order)))
-      n = 0
-      closed = 0.0_wp
-      covered = from
-      do k = 1, size(order)
-         if (events%word(order(k), 1) /= "contact" .or. events%word(order(k), 2) /= name) cycle
-         associate (numbers => events%numbers(:, order(k)))
-            begin = numbers(1)
-            end = until
-            if (ieee_is_finite(numbers(5))) end = min(until, begin + numbers(5))
-            if (begin >= from .and. begin < until) then
-               n = n + 1
-               joint%speeds(n) = numbers(2)
-               joint%forces(n) = numbers(3)
-            end if
-         end associate
-         ! contacts come in the order of their onsets: what reaches beyond those before is new
-         closed = closed + max(0.0_wp, end - max(begin, covered))
-         covered = max(covered, end)
-      end do
-      joint%speeds = joint%speeds(1:n)
-      joint%forces = joint%forces(1:n)
-      if (until > from) joint%contact_fraction = closed/(until - from)
-   end subroutine joint_statistics
 
 end module statistics

@@ -6,7 +6,8 @@ module statistics_plots
    use figure_words, only: figure_histogram, figure_section, figure_spectrum, figure_t
    use kinds, only: wp
    use plot_table, only: draw_boxes, draw_lines, draw_points, plot_table_t
-   use statistics, only: joint_statistics, joint_statistics_t, statistics_t
+   use contact_statistics, only: joint_statistics, joint_statistics_t
+   use statistics, only: statistics_t
    use text, only: append_text, text_t
    implicit none (type, external)
    private

@@ -19,7 +19,7 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
 
       class(function_kind_t), allocatable :: kind
-      type(symbol_t), allocatable :: functions(:)
+      type(symbol_t) :: symbol
       integer :: before, i, k, n
 
       n = 0
@@ -29,19 +29,17 @@ contains
          call read_items(deck, scene%functions(k)%info, scene%functions(k)%items, diagnostics)
          n = n + size(scene%functions(k)%items)
       end do
-      allocate (functions(n))
-      n = 0
+      call deck%symbols%start(n)
       do k = 1, n_function_kinds
          call new_function_kind(k, kind)
          do i = 1, size(scene%functions(k)%items)
-            n = n + 1
             before = diagnostics%count()
-            call make_function(kind, scene%functions(k)%items(i), functions(n), before == 0, diagnostics)
-            call check_name(deck, functions(:n), scene%functions(k)%items(i), diagnostics)
-            if (diagnostics%count() > before) functions(n)%kind = symbol_broken
+            call make_function(kind, scene%functions(k)%items(i), symbol, before == 0, diagnostics)
+            call check_name(deck, scene%functions(k)%items(i), diagnostics)
+            if (diagnostics%count() > before) symbol%kind = symbol_broken
+            call deck%symbols%add(symbol)
          end do
       end do
-      call move_alloc(functions, deck%functions)
    end subroutine functions_from_deck
 
    !> The curve of a row.
@@ -72,9 +70,8 @@ contains
    end subroutine make_function
 
    !> A function is called in expressions: its name must be one there, and no other's.
-   subroutine check_name(deck, functions, item, diagnostics)
-      type(deck_t), intent(in) :: deck                   !! the deck, for its parameters
-      type(symbol_t), intent(in) :: functions(:)         !! (n) the last one is new
+   subroutine check_name(deck, item, diagnostics)
+      type(deck_t), intent(in) :: deck                   !! the deck, with its parameters and the functions before
       type(item_t), intent(in) :: item                   !! its row
       type(diagnostics_t), intent(inout) :: diagnostics  !! mistakes found
 
@@ -85,13 +82,10 @@ contains
       message = ""
       if (is_reserved(item%name)) message = "it has a meaning in expressions"
       if (name_length(item%name) /= len(item%name)) message = "a letter first, then letters, digits and _"
-      do k = 1, size(deck%parameters)
-         if (deck%parameters(k)%name == item%name) message = "a parameter has this name"
-      end do
-      do k = 1, size(functions) - 1
-         if (functions(k)%name == item%name) message = "another function has this name"
-      end do
-      if (len(message) > 0) call diagnostics%add(item%location, "'"//item%name//"' cannot be the name of a function", message)
+      k = deck%symbols%find(item%name)
+      if (k > 0) message = merge("a parameter has this name     ", "another function has this name", k <= deck%symbols%n_parameter)
+      if (len(message) > 0) call diagnostics%add(item%location, "'"//item%name//"' cannot be the name of a function", &
+                                                   trim(message))
    end subroutine check_name
 
 end module read_functions

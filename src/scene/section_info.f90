@@ -69,6 +69,7 @@ contains
                       default="0", lower=0.0_wp)
       call add_number(info, "violation_limit", dim_length, "greatest constraint violation allowed; 0: none", &
                       default="0 m", lower=0.0_wp)
+      call add_limit_cpu(info)
       call add_control_columns(info)
    end function dynamic_info
 
@@ -101,7 +102,16 @@ contains
                       lower=least_tolerance, upper=1.0e-4_wp)
       call add_number(info, "maximum_iterations", dim_none, "corrections of the positions allowed at an instant", default="25", &
                       lower=1.0_wp, upper=1.0e9_wp)
+      call add_limit_cpu(info)
    end function kinematic_info
+
+   !> The processor time of a motion.
+   subroutine add_limit_cpu(info)
+      type(kind_info_t), intent(inout) :: info  !! settings of an analysis
+
+      call add_number(info, "limit_cpu", dim_time, "processor time that the motion may take; 0: no limit", default="0 s", &
+                      lower=0.0_wp)
+   end subroutine add_limit_cpu
 
    !> The section [analysis.static].
    function static_info() result(info)
@@ -133,6 +143,8 @@ contains
       call add_word(info, "contact_rows", "rows of the time histories at the onset, peak and end of every contact, besides the " &
                     //"output instants: on, off (equally spaced rows only), or auto (on up to "//to_text(most_row_contacts)// &
                     " contacts)", default="auto", choices="auto on off")
+      call add_number(info, "instants_limit", dim_none, "greatest number of output instants, and of periods of the statistics", &
+                      default="1e7", lower=2.0_wp, upper=2.0e9_wp)
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
       call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel)", default="")
    end function output_info

@@ -4,7 +4,7 @@ module test_expression
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use expression, only: constant_expression, evaluate, expression_t
-   use expression_compile, only: compile_expression, dimension_agrees, evaluate_safely, fault_t, is_reserved, symbol_t, &
+   use expression_compile, only: compile_expression, dimension_agrees, evaluate_safely, fault_t, is_reserved, symbol_t, symbols_t, &
                                & symbol_word
    use expression_reference, only: expression_source, n_reference, reference_values
    use kind_info, only: dim_angle, dim_angular_speed, dim_force, dim_frequency, dim_length, dim_none, dim_speed, dim_t, &
@@ -32,8 +32,11 @@ contains
    end subroutine run_test_expression
 
    !> Parameters of all tests.
-   subroutine make_symbols(symbols)
-      type(symbol_t), intent(out) :: symbols(5)  !! (5) the parameters
+   subroutine make_symbols(all)
+      type(symbols_t), intent(out) :: all  !! the parameters
+
+      type(symbol_t) :: symbols(5)
+      integer :: k
 
       symbols(1)%name = "w0"
       symbols(1)%number = 3.0_wp
@@ -50,6 +53,10 @@ contains
       symbols(5)%number = -0.1_wp
       symbols(5)%dimension = dim_frequency
       symbols(5)%is_soft = .true.
+      call all%start(5)
+      do k = 1, 5
+         call all%add(symbols(k))
+      end do
    end subroutine make_symbols
 
    !> Compile with the parameters above; a mistake fails the test.
@@ -58,7 +65,7 @@ contains
       character(*), intent(in) :: source                  !! the text
       type(expression_t), intent(out) :: compiled         !! the expression
 
-      type(symbol_t) :: symbols(5)
+      type(symbols_t) :: symbols
       type(fault_t), allocatable :: fault
 
       call make_symbols(symbols)
@@ -278,7 +285,7 @@ contains
 
          type(expression_t) :: compiled
          type(fault_t), allocatable :: fault
-         type(symbol_t) :: symbols(5)
+         type(symbols_t) :: symbols
 
          call make_symbols(symbols)
          call compile_expression(source, symbols, .true., compiled, fault)
@@ -296,7 +303,7 @@ contains
 
       type(expression_t) :: compiled
       type(fault_t), allocatable :: fault
-      type(symbol_t) :: symbols(0)
+      type(symbols_t) :: symbols
 
       call compile_expression(repeat("(", 100000)//"1", symbols, .true., compiled, fault)
       call check_true(error, allocated(fault), "many parentheses")
@@ -320,7 +327,7 @@ contains
 
       type(expression_t) :: again, compiled
       type(fault_t), allocatable :: fault
-      type(symbol_t) :: symbols(0)
+      type(symbols_t) :: symbols
       real(wp) :: x(3), y(3)
 
       call compile(error, "amplitude*sin(w0*t + 1)*r0 + soft*r0*t*3 + r0*0", compiled)

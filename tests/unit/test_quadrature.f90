@@ -3,7 +3,7 @@ module test_quadrature
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use expression, only: expression_t
-   use expression_compile, only: compile_expression, fault_t, symbol_t
+   use expression_compile, only: compile_expression, fault_t, symbols_t
    use kind_info, only: dim_none
    use kinds, only: pi, wp
    use quadrature, only: integral_of
@@ -29,7 +29,7 @@ contains
 
       type(expression_t) :: compiled
       type(fault_t), allocatable :: fault
-      type(symbol_t) :: none(0)
+      type(symbols_t) :: none
 
       call compile_expression(source, none, .true., compiled, fault, variable="x", argument=[dim_none])
       call check_true(error, .not. allocated(fault), source//" is right")

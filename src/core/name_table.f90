@@ -21,22 +21,53 @@ module name_table
 
 contains
 
-   !> Make room for some number of names.
+   !> Empty the table and make room for some number of names; it grows by doubling if more come.
    subroutine start(self, capacity)
       class(name_table_t), intent(inout) :: self  !! the table, emptied
-      integer, intent(in) :: capacity             !! most names that will be entered
+      integer, intent(in) :: capacity             !! names that will be entered
 
-      integer :: n_slot
+      if (allocated(self%names)) deallocate (self%names, self%numbers)
+      allocate (self%names(capacity), self%numbers(capacity))
+      self%n = 0
+      call make_slots(self)
+   end subroutine start
+
+   !> Make slots for as many names as there is room for, and put those that are there into them.
+   subroutine make_slots(table)
+      class(name_table_t), intent(inout) :: table  !! the table
+
+      integer :: k, n_slot
 
       n_slot = 16
-      do while (n_slot < 2*capacity)
+      do while (n_slot < 2*size(table%names))
          n_slot = 2*n_slot
       end do
-      if (allocated(self%slot)) deallocate (self%slot, self%names, self%numbers)
-      allocate (self%slot(0:n_slot - 1), self%names(capacity), self%numbers(capacity))
-      self%slot = 0
-      self%n = 0
-   end subroutine start
+      if (allocated(table%slot)) deallocate (table%slot)
+      allocate (table%slot(0:n_slot - 1), source=0)
+      do k = 1, table%n
+         table%slot(slot_of(table, table%names(k)%s)) = k
+      end do
+   end subroutine make_slots
+
+   !> Twice the room.
+   subroutine grow(table)
+      class(name_table_t), intent(inout) :: table  !! the table
+
+      type(text_t), allocatable :: names(:)
+      integer, allocatable :: numbers(:)
+      integer :: k
+
+      associate (capacity => max(8, 2*table%n))
+         allocate (names(capacity), numbers(capacity))
+      end associate
+      do k = 1, table%n
+         call move_alloc(table%names(k)%s, names(k)%s)
+         numbers(k) = table%numbers(k)
+      end do
+      call move_alloc(names, table%names)
+      call move_alloc(numbers, table%numbers)
+      call make_slots(table)
+   end subroutine grow
 
    !> Enter a whole list, each name with its place in it; of equal names the first counts.
    subroutine list(self, names)
@@ -60,11 +91,16 @@ contains
 
       integer :: at
 
+      if (.not. allocated(self%slot)) call self%start(0)
       at = slot_of(self, name)
       previous = 0
       if (self%slot(at) > 0) then
          previous = self%numbers(self%slot(at))
          return
+      end if
+      if (self%n == size(self%names)) then
+         call grow(self)
+         at = slot_of(self, name)
       end if
       self%n = self%n + 1
       self%slot(at) = self%n
@@ -80,6 +116,7 @@ contains
       integer :: k
 
       number = 0
+      if (self%n == 0) return
       k = self%slot(slot_of(self, name))
       if (k > 0) number = self%numbers(k)
    end function find

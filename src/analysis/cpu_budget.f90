@@ -1,0 +1,56 @@
+!> The processor time that an analysis may take: looked at after every step, so that a run which may take for ever
+!> ends cleanly, with all that it has written.
+module cpu_budget
+   use errors, only: error_t, exit_integration, set_error
+   use kinds, only: wp
+   use text, only: real_text
+   implicit none (type, external)
+   private
+   public :: cpu_budget_t
+
+   !> The time left.
+   type :: cpu_budget_t
+      private
+      real(wp) :: until = 0.0_wp   !! processor time of the program at which it is used up, 0: no limit [s]
+   contains
+      procedure :: begin
+      procedure :: is_spent
+      procedure, nopass :: refuse
+   end type cpu_budget_t
+
+contains
+
+   !> Begin to count.
+   subroutine begin(self, limit)
+      class(cpu_budget_t), intent(inout) :: self  !! the budget
+      real(wp), intent(in) :: limit               !! time allowed, 0: no limit [s]
+
+      self%until = 0.0_wp
+      if (limit <= 0.0_wp) return
+      call cpu_time(self%until)
+      self%until = self%until + limit
+   end subroutine begin
+
+   !> Whether it is used up.
+   logical function is_spent(self)
+      class(cpu_budget_t), intent(in) :: self  !! the budget
+
+      real(wp) :: now
+
+      is_spent = .false.
+      if (self%until <= 0.0_wp) return
+      call cpu_time(now)
+      is_spent = now > self%until
+   end function is_spent
+
+   !> Say that it is used up, where there is no more to say.
+   subroutine refuse(t, error)
+      real(wp), intent(in) :: t                           !! time reached [s]
+      type(error_t), allocatable, intent(out) :: error    !! the message
+
+      call set_error(error, exit_integration, "the processor time allowed (limit_cpu) is used up"//new_line("a")// &
+                     "  = at t = "//real_text(t, 9)//" s"//new_line("a")// &
+                     "  = everything up to the last output instant was saved; allow more, or fewer output instants")
+   end subroutine refuse
+
+end module cpu_budget

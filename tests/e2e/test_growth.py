@@ -1,0 +1,205 @@
+"""Work in proportion to the size of the deck: four times the rows may take hardly more than four times the processor time."""
+
+import os
+import subprocess
+
+import pytest
+from support import Run, call, scratch, written
+
+RATIO = 8.0  # allowed between n and 4 n: 4 of what is linear, 16 of what is quadratic
+ROUNDS = 3   # a machine that others use: the least of so many counts
+
+
+def scene(parameters="", bodies="", points="", tables="", end="10 ms", output=""):
+    """A pendulum and whatever stands beside it."""
+    return f"""deck = 1
+[scene]
+title = "growth"
+[parameters]
+{parameters}
+[bodies]
+name mass[kg] inertia[kg.m^2] x[m] y[m] angle[deg]
+rod 1 1 0 0 0
+{bodies}
+[points]
+name body xi[m] eta[m]
+wall ground 0 0
+top rod 0 0
+{points}
+[joint.revolute]
+name i j
+pin wall top
+{tables}
+[analysis.dynamic]
+end = {end}
+[output]
+every = 5 ms
+{output or "channels = rod.position"}
+"""
+
+
+def lines(n, line):
+    """n lines, their numbers put in."""
+    return "".join(line.format(k=k, before=k - 1) + "\n" for k in range(1, n + 1))
+
+
+def words(n, word):
+    """n words in a line."""
+    return " ".join(word.format(k=k) for k in range(1, n + 1))
+
+
+def balls(n):
+    """n free bodies."""
+    return lines(n, "b{k} 1 1 {k} 0 0")
+
+
+# name: verb, n, deck of n
+GROWING = {
+    "parameters, each from the one before": ("check", 8000, lambda n: scene("q0 = 1 m\n" + lines(n, "q{k} = {{q{before} + 1 m}}"))),
+    "parameters and rows that use them": ("check", 4000, lambda n: scene(
+        lines(n, "q{k} = {k} kg"), bodies=lines(n, "b{k} {{q{k}}} 1 {k} 0 0"))),
+    "functions and loads that call them": ("check", 3000, lambda n: scene(tables="[function.harmonic]\nname amplitude angular_frequency\n"
+        + lines(n, "h{k} 20N 3rad/s") + "[force.point]\nname point fx\n" + lines(n, "f{k} top {{h{k}(t)}}"))),
+    "periods of the statistics": ("check", 500000, lambda n: scene(
+        tables=f"[statistics]\nafter = 0 s\nperiod = {1/n:.17g} s\nchannels = rod.position.x", end="1 s")),
+    "turns of the statistics": ("check", 100000, lambda n: scene(
+        bodies="crank 1 1 0 0 0", points="axle crank 0 0", end="1 s",
+        tables=f"bearing wall axle\n[driver.speed]\nname joint speed[rad/s]\nmotor bearing {{2*pi*{n}s^-1}}\n"
+               "[statistics]\nafter = 0 s\nperiod = 1 turns of motor\nchannels = rod.position.x")),
+    "channels that are written": ("check", 4000, lambda n: scene(bodies=balls(n), output="channels = " + words(n, "b{k}.position.x"))),
+    "channels of the statistics": ("check", 4000, lambda n: scene(
+        bodies=balls(n), tables="[statistics]\nafter = 0 s\nchannels = " + words(n, "b{k}.position.x"))),
+    "statistics that are worked out": ("run", 1000, lambda n: scene(
+        bodies=balls(n), tables="[statistics]\nafter = 0 s\nchannels = " + words(n, "b{k}.position.x"))),
+    "values of a sweep": ("check", 8000, lambda n: scene("c = 1 mm", tables="[sweep]\nc = " + words(n, "{k}mm"))),
+    "a range of a sweep": ("check", 20000, lambda n: scene("c = 1 mm", tables=f"[sweep]\nc = 1 .. 2 mm in {n}")),
+    "parameters of a sweep": ("check", 5000, lambda n: scene(
+        lines(n, "c{k} = 1 mm"), tables="[sweep]\ncombine = paired\n" + lines(n, "c{k} = 1 2 mm"))),
+    "points": ("run", 5000, lambda n: scene(points=lines(n, "p{k} rod {k} 0"))),
+    "bodies": ("run", 1500, lambda n: scene(bodies=balls(n))),
+    "forces": ("explain", 3000, lambda n: scene(points=lines(n, "p{k} rod {k} 0"),
+        tables="[force.point]\nname point fx\n" + lines(n, "f{k} p{k} {{1N*sin(1rad/s*t)}}"))),
+    "loose joints": ("explain", 1500, lambda n: scene(
+        bodies=balls(n), points=lines(n, "p{k} b{k} 0 0\ng{k} ground {k} 0"),
+        tables="[material]\nname young[GPa] poisson\nsteel 207 0.3\n[contact.hertz]\nname\nhard\n[clearance.revolute]\n"
+               "name bearing journal bearing_radius[mm] clearance[mm] material law\n" + lines(n, "c{k} g{k} p{k} 10 0.5 steel hard"))),
+}
+
+
+def cpu_of(gudgeon, verb, text):
+    """Processor time of a command [s]."""
+    directory = scratch()
+    command = [str(gudgeon), verb, str(written(directory, text))]
+    if verb == "run":
+        command += ["--out", str(directory / "out"), "--quiet"]
+    with open(directory / "said", "w", encoding="utf-8") as said:
+        child = subprocess.Popen(command, stdout=said, stderr=said)
+        _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    assert child.returncode == 0, (directory / "said").read_text()[-2000:]
+    return used.ru_utime + used.ru_stime
+
+
+@pytest.mark.parametrize("name", GROWING)
+def test_time_grows_with_the_size(gudgeon, name):
+    """The start of the program, which is the same for both, is taken off."""
+    verb, n, deck = GROWING[name]
+    measured = []
+    for _ in range(ROUNDS):
+        empty, one, four = (cpu_of(gudgeon, verb, deck(size)) for size in (2, n, 4*n))
+        measured.append((four - empty)/max(one - empty, 1e-2))
+        if measured[-1] <= RATIO:
+            break
+    assert min(measured) <= RATIO, f"{name}: {measured} times from {n} to {4*n}"
+
+
+def test_files_that_include_one_another_are_read_once(gudgeon):
+    """Twelve files, each of which includes the next ten times: 10^11 readings, if each were followed."""
+    directory = scratch()
+    for k in range(12):
+        (directory / f"f{k}.inc").write_text(f'include "f{k + 1}.inc"\n'*10 if k < 11 else "[material]\nname young[GPa]\nsteel 207\n")
+    deck = written(directory, scene() + 'include "f0.inc"\n')
+    call(gudgeon, "run", deck, "--out", directory / "out", "--quiet", limit=20)
+    assert len(Run(directory / "out").group("deck_includes")) == 12
+
+
+def test_links_that_include_themselves_end(gudgeon):
+    """A folder that holds a link to itself gives a file ever new paths: the depth is limited, with a message."""
+    directory = scratch()
+    (directory / "again").symlink_to(directory)
+    (directory / "self.inc").write_text('include "again/self.inc"\n')
+    done = call(gudgeon, "check", written(directory, scene() + 'include "self.inc"\n'), expect=3)
+    assert "includes within includes, more than 16 deep" in done.stderr
+
+
+def test_too_much_text_is_refused(gudgeon):
+    """Five files of 60 MB: each would be taken, all together not."""
+    directory = scratch()
+    comment = "#" + "x"*99 + "\n"
+    for k in range(5):
+        (directory / f"f{k}.inc").write_text(comment*600000)
+    done = call(gudgeon, "check", written(directory, scene() + "".join(f'include "f{k}.inc"\n' for k in range(5))), expect=3)
+    assert "the deck is too large with its includes: more than 256000000 bytes" in done.stderr
+
+
+@pytest.mark.parametrize("every, count", (("1e-19 s", "1e19"), ("1e-299 s", "1e299"), ("1 ns", "1e9")))
+def test_absurd_output_intervals_are_refused(gudgeon, every, count):
+    """No overflow to no instants at all, and no terabytes: the number of instants, at the cell."""
+    done = call(gudgeon, "check", written(scratch(), scene(end="1 s").replace("every = 5 ms", f"every = {every}")), expect=3)
+    assert f"there would be {count} output instants, allowed are 1e7" in done.stderr
+    assert f"every = {every}" in done.stderr and "instants_limit" in done.stderr
+
+
+def test_many_output_instants_may_be_allowed(gudgeon):
+    """The limit is the deck's."""
+    text = scene(end="1 s").replace("every = 5 ms", "every = 50 ns")
+    call(gudgeon, "check", written(scratch(), text), expect=3)
+    call(gudgeon, "check", written(scratch(), text + "instants_limit = 3e7\n"))
+
+
+@pytest.mark.parametrize("period", ("1e-300 s", "1e-9 turns of motor"))
+def test_absurd_periods_are_refused(gudgeon, period):
+    """Stroboscopic instants have the same limit."""
+    text = scene(bodies="crank 1 1 0 0 0", points="axle crank 0 0", end="1 s",
+                 tables="bearing wall axle\n[driver.speed]\nname joint speed[rad/s]\nmotor bearing 10\n"
+                        f"[statistics]\nafter = 0 s\nperiod = {period}\nchannels = rod.position.x")
+    done = call(gudgeon, "check", written(scratch(), text), expect=3)
+    assert "there would be more than 10000000 periods" in done.stderr
+
+
+def pendulum(end, analysis="dynamic", settings="", every="1 s"):
+    """A rod that falls from the horizontal; one with a driver for a kinematic analysis."""
+    text = scene(points="side rod 0.5 0", end=end, tables="[force.torque]\nname body moment\nturn rod {1N.m*sin(3rad/s*t)}")
+    if analysis == "kinematic":
+        text = text.replace("[force.torque]", "[driver.speed]\nname joint speed[rad/s]\nmotor pin 10\n[force.torque]")
+    return text.replace("analysis.dynamic", f"analysis.{analysis}").replace(f"end = {end}", f"end = {end}\n{settings}").replace(
+        "every = 5 ms", f"every = {every}")
+
+
+@pytest.mark.parametrize("analysis, every", (("dynamic", "100 s"), ("kinematic", "1 s")))
+def test_processor_time_ends_a_run(gudgeon, analysis, every):
+    """After its time a run ends with code 5, keeps what it wrote and says why; a run that needs less is not touched."""
+    directory = scratch()
+    deck = written(directory, pendulum("1e6 s", analysis, "limit_cpu = 0.5 s", every))
+    done = call(gudgeon, "run", deck, "--out", directory / "out", "--quiet", expect=5, limit=60)
+    assert "the processor time allowed (limit_cpu) is used up" in done.stderr
+    run = Run(directory / "out")
+    assert run.summary["status"] == "failed" and "limit_cpu" in run.summary["message"]
+    assert run.summary["cpu_seconds"] <= 5
+    assert len(run.time) > 3 and run.time[-1] < 1e6
+    short = written(directory, pendulum("5 s", analysis, "limit_cpu = 1 h"), "short.deck")
+    call(gudgeon, "run", short, "--out", directory / "short", "--quiet")
+
+
+def test_a_long_run_takes_no_more_memory(gudgeon):
+    """Ten times the motion with as many output instants: the memory stays, what is kept of a step is not."""
+    used = []
+    for end in ("2000 s", "20000 s"):
+        directory = scratch()
+        deck = written(directory, pendulum(end, every=f"{float(end[:-2])/10:g} s"))
+        child = subprocess.Popen([str(gudgeon), "run", str(deck), "--quiet", "--out", str(directory / "out")])
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        assert child.returncode == 0
+        used.append(usage.ru_maxrss)
+    assert used[1] - used[0] <= 1000, f"kB {used}"
