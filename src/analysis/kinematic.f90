@@ -94,7 +94,7 @@ contains
       real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls and cost
-      type(cpu_budget_t), intent(in) :: budget            !! processor time left
+      type(cpu_budget_t), intent(inout) :: budget         !! processor time left
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(catalogue_t), intent(inout) :: catalogue       !! what is reported
       type(summary_t), intent(inout) :: summary           !! cost and errors so far

@@ -31,10 +31,11 @@ contains
       integer, intent(in) :: levels                         !! how joints with clearance are taken
       type(guide_t), allocatable, intent(out) :: guides(:)  !! (guided bodies) how they are held
 
-      integer :: body(2), i, k, n_joint(0:scene%bodies%n), pass
+      integer :: body(2), i, k, n, n_joint(0:scene%bodies%n), pass
 
       call count_joints(scene, levels, n_joint)
-      allocate (guides(0))
+      allocate (guides(scene%bodies%n))
+      n = 0
       do pass = 1, 2
          do k = 1, n_joint_kinds
             if (scene%joints(k)%info%name /= merge(kind_turning//"     ", kind_sliding, pass == 1)) cycle
@@ -42,10 +43,13 @@ contains
                body = joint_bodies(scene, k, i)
                if (is_known(body(1)) .eqv. is_known(body(2))) cycle
                if (is_known(body(1))) body(1) = body(2)
-               if (n_joint(body(1)) == 1) guides = [guides, guide_t(body(1), k, i)]
+               if (n_joint(body(1)) /= 1) cycle
+               n = n + 1
+               guides(n) = guide_t(body(1), k, i)
             end do
          end do
       end do
+      guides = guides(:n)
    end subroutine find_guided_bodies
 
    !> Joints and drivers at each body.
