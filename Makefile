@@ -188,9 +188,11 @@ SUNDIALS_INCLUDE := -I$(SUNDIALS_MODULES)
 SUNDIALS_PATH := $(foreach d,$(wildcard $(SUNDIALS_DIR:%=%/lib) $(SUNDIALS_DIR:%=%/lib64)),-L$(d) -Wl,-rpath,$(d))
 SUNDIALS_LIBRARIES := $(SUNDIALS_PATH) -lsundials_farkode_mod -lsundials_fcvode_mod -lsundials_fida_mod \
   -lsundials_fkinsol_mod -lsundials_fsunnonlinsolfixedpoint_mod -lsundials_fsunnonlinsolnewton_mod \
-  -lsundials_fsunlinsoldense_mod -lsundials_fsunmatrixdense_mod -lsundials_fnvecserial_mod \
+  -lsundials_fsunlinsoldense_mod -lsundials_fsunmatrixdense_mod -lsundials_fsunlinsolklu_mod \
+  -lsundials_fsunmatrixsparse_mod -lsundials_fsunlinsolspgmr_mod -lsundials_fnvecserial_mod \
   -lsundials_arkode -lsundials_cvode -lsundials_ida -lsundials_kinsol -lsundials_sunnonlinsolfixedpoint \
-  -lsundials_sunnonlinsolnewton -lsundials_sunlinsoldense -lsundials_sunmatrixdense -lsundials_nvecserial
+  -lsundials_sunnonlinsolnewton -lsundials_sunlinsoldense -lsundials_sunmatrixdense -lsundials_sunlinsolklu \
+  -lsundials_sunmatrixsparse -lsundials_sunlinsolspgmr -lsundials_nvecserial
 ifneq ($(SUNDIALS_VERSION),6)
 SUNDIALS_LIBRARIES += -lsundials_fcore_mod -lsundials_core
 endif

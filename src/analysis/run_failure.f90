@@ -1,8 +1,9 @@
 !> Why a motion in time cannot be followed to its end, in words.
 module run_failure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use errors, only: error_t, exit_integration, set_error
-   use integrator, only: advance_failed_evaluation, advance_too_many_evaluations, advance_too_many_steps, integrator_t
+   use errors, only: error_t, exit_file, exit_integration, set_error
+   use integrator, only: advance_failed_evaluation, advance_no_memory, advance_too_many_evaluations, &
+      advance_too_many_steps, integrator_t
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use text, only: real_text, to_text
@@ -47,6 +48,8 @@ contains
          message = "one event follows another at '"//last_event(system, method)//"' and no time passes"
       case (guard_reached)
          message = reason
+      case (advance_no_memory)
+         message = "there is no memory for the matrices of the method, of "//to_text(system%n)//" states"
       case (time_used_up)
          message = "the processor time allowed (limit_cpu) is used up"
       case default
@@ -64,7 +67,7 @@ contains
       end if
       message = message//deepest_contact(system, method)//new_line("a")// &
                 "  = everything up to the last output instant was saved; "//advice(status)
-      call set_error(error, exit_integration, message)
+      call set_error(error, merge(exit_file, exit_integration, status == advance_no_memory), message)
    end subroutine describe_failure
 
    !> What is not a finite number after an evaluation that failed: a driver, or a load.
@@ -137,6 +140,8 @@ contains
       select case (status)
       case (advance_too_many_steps, advance_too_many_evaluations, time_used_up)
          words = "allow more, or a larger tolerance"
+      case (advance_no_memory)
+         words = "try method = verner or adams, which have no matrices"
       case (constraints_lost, events_without_end)
          words = "try a smaller tolerance"
       case (guard_reached)

@@ -12,6 +12,7 @@ module build_known
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use scene, only: analysis_dynamic, scene_t
+   use scene_size, only: is_large
    implicit none (type, external)
    private
    public :: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
@@ -41,7 +42,7 @@ contains
 
    !> The bodies that leave the unknowns, unless the deck wants all coordinates, and the rows that leave the equations.
    !> Only an integration has unknowns: elsewhere all bodies stay together; so do bodies that rows hold at the start only, and
-   !> those of a method that holds the constraints by itself keep all their coordinates.
+   !> those of a method that holds the constraints by itself, or needs the sparse form of it, keep all their coordinates.
    subroutine choose_bodies(scene, levels, with_start_rows, reduction)
       type(scene_t), intent(in) :: scene             !! the scene
       integer, intent(in) :: levels                  !! how joints with clearance are taken
@@ -65,7 +66,10 @@ contains
             reduction%choices(links(k)%kind)%is_fixing(links(k)%item) = .true.
             if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
          end do
-         if (with_start_rows .or. scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text == "ida") return
+         if (with_start_rows) return
+         associate (method => scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text)
+            if (method == "ida" .or. (method == "bdf" .and. is_large(scene))) return
+         end associate
          is_known = .false.
          is_known([0, links%body]) = .true.
       end associate

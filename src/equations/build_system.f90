@@ -20,7 +20,7 @@ module build_system
    use motion, only: new_loads, new_motion, set_planar_motion
    use planar_system, only: n_ledger, planar_system_t
    use scene, only: analysis_dynamic, scene_t
-   use scene_size, only: size_of_bodies
+   use scene_size, only: is_large, size_of_bodies
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
    private
@@ -87,6 +87,7 @@ contains
          system%first_turn = system%n_event
          system%n_event = system%n_event + system%n_contact
       end if
+      system%is_large = is_large(scene) .and. system%guided%n == 0 .and. system%grips%n_bristle == 0
       allocate (system%held(2*system%n_position), source=0.0_wp)
    end subroutine new_system
 

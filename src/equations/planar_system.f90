@@ -92,6 +92,8 @@ module planar_system
    contains
       procedure :: evaluate => planar_evaluate
       procedure :: dae_residual => planar_dae_residual
+      procedure :: dae_pattern => planar_dae_pattern
+      procedure :: dae_spread => planar_dae_spread
       procedure, private :: evaluate_terms, find_accelerations, ledger_rates
       procedure :: weights => planar_weights
       procedure :: events => planar_events
@@ -238,6 +240,22 @@ module planar_system
          real(wp), intent(out) :: r_mu(:)               !! (rows) violations [m or rad]
          integer, intent(out) :: status                 !! outcome
       end subroutine planar_dae_residual
+
+      !> Which parts of the residual depend on which unknowns.
+      module subroutine planar_dae_pattern(self, column, row)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self        !! the system
+         integer, allocatable, intent(out) :: column(:)    !! (n + 2 rows + 1) place of the first entry of each column, from 0
+         integer, allocatable, intent(out) :: row(:)       !! (entries) rows, from 0
+      end subroutine planar_dae_pattern
+
+      !> Entries of the columns of the multipliers.
+      module subroutine planar_dae_spread(self, values)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self   !! the system
+         real(wp), intent(out) :: values(:)           !! (3 for each side of an unknown body) in the order of the pattern [any]
+      end subroutine planar_dae_spread
+
       !> Multipliers of the rows that are not solved for, at the state evaluated last. Reports want them.
       module subroutine planar_find_reactions(self, t)
          implicit none (type, external)

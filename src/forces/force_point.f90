@@ -26,6 +26,7 @@ module force_point
       procedure :: prepare => point_prepare
       procedure :: evaluate => point_evaluate
       procedure :: report => point_report
+      procedure :: bodies_of => point_bodies
    end type force_point_t
 
 contains
@@ -119,5 +120,14 @@ contains
          end select
       end do
    end subroutine point_report
+
+   !> The bodies that an item acts on.
+   pure function point_bodies(self, i) result(bodies)
+      class(force_point_t), intent(in) :: self  !! the set
+      integer, intent(in) :: i                     !! number of the item
+      integer :: bodies(2)                         !! ground and the body
+
+      bodies = [0, self%body(i)]
+   end function point_bodies
 
 end module force_point

@@ -22,6 +22,7 @@ module force_set
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure(report_interface), deferred :: report
+      procedure(bodies_interface), deferred :: bodies_of
       procedure :: elastic_energy => force_elastic_energy
       procedure :: lost_power => force_lost_power
       procedure :: memory_size => force_memory_size
@@ -72,6 +73,15 @@ module force_set
          type(motion_t), intent(in) :: motion       !! positions and velocities
          real(wp), intent(inout) :: values(:, :)    !! (components, n) values; left alone if not of this kind [any]
       end subroutine report_interface
+
+      !> The bodies that an item acts on; its loads depend on the motion of no others.
+      pure function bodies_interface(self, i) result(bodies)
+         import :: force_set_t
+         implicit none (type, external)
+         class(force_set_t), intent(in) :: self  !! the set
+         integer, intent(in) :: i                !! number of the item
+         integer :: bodies(2)                    !! both, 0: ground, or none
+      end function bodies_interface
    end interface
 
 contains

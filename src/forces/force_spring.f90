@@ -48,6 +48,7 @@ module force_spring
       procedure :: elastic_energy => spring_elastic_energy
       procedure :: lost_power => spring_lost_power
       procedure :: report => spring_report
+      procedure :: bodies_of => spring_bodies
    end type force_spring_t
 
 contains
@@ -214,5 +215,14 @@ contains
          end select
       end do
    end subroutine spring_report
+
+   !> The bodies that an item acts on.
+   pure function spring_bodies(self, i) result(bodies)
+      class(force_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: i                      !! number of the item
+      integer :: bodies(2)                          !! both, 0: ground
+
+      bodies = self%body(:, i)
+   end function spring_bodies
 
 end module force_spring

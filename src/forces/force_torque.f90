@@ -25,6 +25,7 @@ module force_torque
       procedure :: prepare => torque_prepare
       procedure :: evaluate => torque_evaluate
       procedure :: report => torque_report
+      procedure :: bodies_of => torque_bodies
    end type force_torque_t
 
 contains
@@ -107,5 +108,14 @@ contains
          end select
       end do
    end subroutine torque_report
+
+   !> The bodies that an item acts on.
+   pure function torque_bodies(self, i) result(bodies)
+      class(force_torque_t), intent(in) :: self  !! the set
+      integer, intent(in) :: i                      !! number of the item
+      integer :: bodies(2)                          !! ground and the body
+
+      bodies = [0, self%body(i)]
+   end function torque_bodies
 
 end module force_torque

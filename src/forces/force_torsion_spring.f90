@@ -43,6 +43,7 @@ module force_torsion_spring
       procedure :: elastic_energy => torsion_elastic_energy
       procedure :: lost_power => torsion_lost_power
       procedure :: report => torsion_report
+      procedure :: bodies_of => torsion_bodies
    end type force_torsion_spring_t
 
 contains
@@ -200,5 +201,14 @@ contains
          end select
       end do
    end subroutine torsion_report
+
+   !> The bodies that an item acts on.
+   pure function torsion_bodies(self, i) result(bodies)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: i                              !! number of the item
+      integer :: bodies(2)                                  !! both, 0: ground
+
+      bodies = self%body(:, i)
+   end function torsion_bodies
 
 end module force_torsion_spring

@@ -2,7 +2,8 @@
 !>
 !> Adams: orders 1 to 12, the implicit equations by fixed-point iteration. BDF: orders 1 to 5, by
 !> Newton's iteration with a dense Jacobian from difference quotients of the entries that are no
-!> quadratures (nothing depends on those).
+!> quadratures (nothing depends on those). A large system has no Jacobian: GMRES solves Newton's equations
+!> by differences along its directions, of which a sparse factorisation (`newton_matrix`) leaves one or two.
 !>
 !> A system that holds its states: BDF projects within the step (CVODE's CVodeSetProjFn: the change of
 !> `hold` goes into the history, after the error test). CVODE has no projection for Adams: there the
@@ -14,10 +15,14 @@ module cvode_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: cv_adams, cv_bdf, cv_one_step, fcvode, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, &
       fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, fcvodeinit, fcvodereinit, fcvodesetinitstep, &
-      fcvodesetjacfn, fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, fcvodesetprojerrest, &
+      fcvodesetjacfn, fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, &
+      fcvodesetpreconditioner, &
+      fcvodesetprojerrest, &
       fcvodesetprojfn, fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
+   use dae_system, only: dae_system_t
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
+   use fsunlinsol_spgmr_mod, only: fsunlinsol_spgmr
    use fsunmatrix_dense_mod, only: fsundensematrix
    use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
    use kinds, only: wp
@@ -27,6 +32,9 @@ module cvode_library
    implicit none (type, external)
    private
    public :: cvode_library_t
+
+   integer(c_int), parameter :: on_the_left = 1_c_int       !! SUNDIALS' number of a preconditioner on the left
+   integer(c_int), parameter :: most_directions = 30_c_int  !! of GMRES before it gives up
 
    !> CVODE with its objects.
    type, extends(library_t) :: cvode_library_t
@@ -45,6 +53,17 @@ module cvode_library
       procedure :: n_rejected => cvode_rejected
       final :: cvode_free
    end type cvode_library_t
+
+   interface
+      !> Attach a linear solver; the library's own module has no way to say that it has no matrix.
+      integer(c_int) function cvodesetlinearsolver(memory, linear, matrix) bind(c, name="CVodeSetLinearSolver")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: memory   !! CVODE's memory
+         type(c_ptr), value :: linear   !! the solver
+         type(c_ptr), value :: matrix   !! its matrix, or none
+      end function cvodesetlinearsolver
+   end interface
 
 contains
 
@@ -93,15 +112,32 @@ contains
       call note(fcvodeinit(self%memory, c_funloc(right_hand_side), self%problem%method%t, self%state), status)
       call note(fcvodesetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fcvodewftolerances(self%memory, c_funloc(weigh)), status)
-      if (self%is_stiff) then
+      if (self%is_stiff .and. self%problem%is_large()) then
+         associate (system => self%problem%system)
+            select type (system)
+            class is (dae_system_t)
+               call self%problem%newton%start(system)
+            end select
+         end associate
+         self%linear => fsunlinsol_spgmr(self%state, on_the_left, most_directions, self%context)
+         self%problem%lacks_memory = .not. associated(self%linear)
+         if (associated(self%linear)) then
+            call note(cvodesetlinearsolver(self%memory, c_loc(self%linear), c_null_ptr), status)
+            call note(fcvodesetpreconditioner(self%memory, c_funloc(prepare), c_funloc(precondition)), status)
+         end if
+      else if (self%is_stiff) then
          self%jacobian => fsundensematrix(n, n, self%context)
-         self%linear => fsunlinsol_dense(self%state, self%jacobian, self%context)
-         call note(fcvodesetlinearsolver(self%memory, self%linear, self%jacobian), status)
-         call note(fcvodesetjacfn(self%memory, c_funloc(differentiate)), status)
+         self%problem%lacks_memory = .not. associated(self%jacobian)
+         if (associated(self%jacobian)) then
+            self%linear => fsunlinsol_dense(self%state, self%jacobian, self%context)
+            call note(fcvodesetlinearsolver(self%memory, self%linear, self%jacobian), status)
+            call note(fcvodesetjacfn(self%memory, c_funloc(differentiate)), status)
+         end if
       else
          self%fixed_point => fsunnonlinsol_fixedpoint(self%state, 0_c_int, self%context)
          call note(fcvodesetnonlinearsolver(self%memory, self%fixed_point), status)
       end if
+      if (self%problem%lacks_memory) status = -1
    end subroutine create
 
    !> One step, not beyond t_stop.
@@ -250,6 +286,59 @@ contains
       end do
       status = int(outcome, c_int)
    end function differentiate
+
+   !> Preconditioner of a large system at a state.
+   integer(c_int) function prepare(t, y, ydot, may_keep, is_new, gamma, user_data) bind(c, name="") result(status)
+      real(c_double), value :: t                  !! time [s]
+      type(n_vector), intent(inout) :: y          !! state
+      type(n_vector), intent(inout) :: ydot       !! its derivative
+      integer(c_int), value :: may_keep           !! whether what was found before may be used again; it is not
+      integer(c_int), intent(out) :: is_new       !! whether it was found anew
+      real(c_double), value :: gamma              !! coefficient of the Jacobian in I - gamma J [s]
+      type(c_ptr), value :: user_data             !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: rate(:), state(:)
+      real(wp), allocatable :: lambda(:)
+      integer :: m, outcome
+
+      call c_f_pointer(user_data, problem)
+      state => fn_vgetarraypointer(y)
+      rate => fn_vgetarraypointer(ydot)
+      is_new = 1_c_int
+      m = problem%newton%m
+      associate (system => problem%system)
+         select type (system)
+         class is (dae_system_t)
+            lambda = system%lambda(:m)
+         end select
+      end associate
+      call problem%fill_newton(t, 1.0_wp/gamma, state, rate, lambda, 0.0_wp*lambda, outcome)
+      if (outcome == 0) call problem%newton%factorise(gamma)
+      status = int(outcome, c_int)
+   end function prepare
+
+   !> Solve nearly (I - gamma J) z = r.
+   integer(c_int) function precondition(t, y, ydot, r, z, gamma, delta, side, user_data) bind(c, name="") result(status)
+      real(c_double), value :: t                  !! time [s]
+      type(n_vector), intent(inout) :: y          !! state
+      type(n_vector), intent(inout) :: ydot       !! its derivative
+      type(n_vector), intent(inout) :: r          !! right-hand side
+      type(n_vector), intent(inout) :: z          !! solution
+      real(c_double), value :: gamma              !! coefficient of the Jacobian [s]
+      real(c_double), value :: delta              !! error allowed an iterative solution [1]
+      integer(c_int), value :: side               !! the left one
+      type(c_ptr), value :: user_data             !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: right(:), solution(:)
+
+      call c_f_pointer(user_data, problem)
+      right => fn_vgetarraypointer(r)
+      solution => fn_vgetarraypointer(z)
+      call problem%newton%precondition(gamma, right, solution)
+      status = 0_c_int
+   end function precondition
 
    !> The change of a state that holding it makes.
    integer(c_int) function project(t, y, change, allowed, estimate, user_data) bind(c, name="") result(status)

@@ -19,8 +19,11 @@ module dae_system
    type, abstract, extends(ode_system_t) :: dae_system_t
       integer :: n_row = 0                     !! number of constraint rows, m
       real(wp), allocatable :: lambda(:)       !! (m or more) multipliers of the last evaluation [N or N.m]
+      logical :: is_large = .false.            !! so large that implicit methods keep its matrices sparse
    contains
       procedure(residual_interface), deferred :: dae_residual
+      procedure(pattern_interface), deferred :: dae_pattern
+      procedure(spread_interface), deferred :: dae_spread
    end type dae_system_t
 
    abstract interface
@@ -40,6 +43,24 @@ module dae_system
          real(wp), intent(out) :: r_mu(:)             !! (m) violations [m or rad]
          integer, intent(out) :: status               !! outcome
       end subroutine residual_interface
+
+      !> Which rows of the residual (of y, lambda, mu) depend on which of the unknowns (y, lambda, mu): all that may ever,
+      !> quadratures on themselves only. The columns of mu have the rows of those of lambda, as far as they are of positions.
+      subroutine pattern_interface(self, column, row)
+         import :: dae_system_t
+         implicit none (type, external)
+         class(dae_system_t), intent(in) :: self             !! the system
+         integer, allocatable, intent(out) :: column(:)      !! (n + 2 m + 1) place of the first entry of each column, from 0
+         integer, allocatable, intent(out) :: row(:)         !! (entries) rows, from 0
+      end subroutine pattern_interface
+
+      !> Values of the entries of lambda's columns, which are those of mu's as well, at the state of the last residual.
+      subroutine spread_interface(self, values)
+         import :: dae_system_t, wp
+         implicit none (type, external)
+         class(dae_system_t), intent(in) :: self   !! the system
+         real(wp), intent(out) :: values(:)        !! (entries of those columns) in the order of the pattern [any]
+      end subroutine spread_interface
    end interface
 
 end module dae_system

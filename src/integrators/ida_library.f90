@@ -2,7 +2,8 @@
 !>
 !> A constrained system (`dae_system_t`) is solved for its state and both sets of multipliers,
 !> u = (y, lambda, mu); any other system as 0 = y' - f(t, y). Newton's iteration with a dense Jacobian
-!> from difference quotients; the multipliers enter linearly, so their columns are exact.
+!> from difference quotients; the multipliers enter linearly, so their columns are exact. A large system has
+!> a sparse Jacobian (`newton_matrix`), factorised by KLU.
 !>
 !> Norms: only the state without quadratures counts, in the error test and in Newton's iteration: what
 !> an error of the multipliers does to the state over a step is seen there, and multipliers of index 2
@@ -25,7 +26,10 @@ module ida_library
       fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
+   use fsunlinsol_klu_mod, only: fsunlinsol_klu
    use fsunmatrix_dense_mod, only: fsundensematrix
+   use fsunmatrix_sparse_mod, only: fsunsparsematrix, fsunsparsematrix_data, fsunsparsematrix_indexpointers, &
+      fsunsparsematrix_indexvalues
    use kinds, only: wp
    use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunlinsolfree, fsunmatdestroy, n_vector, new_ida, sunindextype, &
       sunlinearsolver, sunmatrix
@@ -33,6 +37,8 @@ module ida_library
    implicit none (type, external)
    private
    public :: ida_library_t
+
+   integer(c_int), parameter :: by_columns = 0_c_int  !! SUNDIALS' number of a sparse matrix compressed by columns
 
    !> IDA with its objects.
    type, extends(library_t) :: ida_library_t
@@ -132,8 +138,17 @@ contains
       call note(fidainit(self%memory, c_funloc(residual), self%problem%method%t, self%state, self%rate), status)
       call note(fidasetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fidawftolerances(self%memory, c_funloc(weigh)), status)
-      self%jacobian => fsundensematrix(n, n, self%context)
-      self%linear => fsunlinsol_dense(self%state, self%jacobian, self%context)
+      if (self%problem%is_large()) then
+         call start_newton(self%problem)
+         self%jacobian => fsunsparsematrix(n, n, int(size(self%problem%newton%row), sunindextype), by_columns, self%context)
+         if (associated(self%jacobian)) self%linear => fsunlinsol_klu(self%state, self%jacobian, self%context)
+      else
+         self%jacobian => fsundensematrix(n, n, self%context)
+         if (associated(self%jacobian)) self%linear => fsunlinsol_dense(self%state, self%jacobian, self%context)
+      end if
+      self%problem%lacks_memory = .not. associated(self%linear)
+      status = merge(-1, status, self%problem%lacks_memory)
+      if (status /= 0) return
       call note(fidasetlinearsolver(self%memory, self%linear, self%jacobian), status)
       call note(fidasetjacfn(self%memory, c_funloc(differentiate)), status)
    end subroutine create
@@ -303,6 +318,11 @@ contains
       moved => fn_vgetarraypointer(scratch_2)
       moved_rate => fn_vgetarraypointer(scratch_3)
       n = problem%system%n
+      if (problem%is_large()) then
+         call fill_sparse(problem, t, c, numbers, rates, matrix, outcome)
+         status = int(outcome, c_int)
+         return
+      end if
       first = n - problem%system%n_quadrature
       call dense_block(matrix, size(numbers), block)
       call increments(problem%system, numbers(:n), problem%method%scale, increment(:n))
@@ -326,5 +346,45 @@ contains
       end do
       status = int(outcome, c_int)
    end function differentiate
+
+   !> The structure of a large system's matrix.
+   subroutine start_newton(problem)
+      type(problem_t), intent(inout) :: problem  !! the problem
+
+      associate (system => problem%system)
+         select type (system)
+         class is (dae_system_t)
+            call problem%newton%start(system)
+         end select
+      end associate
+   end subroutine start_newton
+
+   !> The Jacobian of a large system.
+   subroutine fill_sparse(problem, t, c, u, rate, matrix, status)
+      type(problem_t), intent(inout) :: problem         !! the problem
+      real(wp), intent(in) :: t                         !! time [s]
+      real(wp), intent(in) :: c                         !! du'/du of the method [1/s]
+      real(wp), intent(in) :: u(:)                      !! (N) state and multipliers [any]
+      real(wp), intent(in) :: rate(:)                   !! (N) their derivatives [any]
+      type(sunmatrix), intent(inout) :: matrix          !! (N, N) the Jacobian, by columns
+      integer, intent(out) :: status                    !! 0 done, > 0 retry with a smaller step, < 0 give up
+
+      real(c_double), pointer :: entries(:)
+      integer(sunindextype), pointer :: places(:), rows(:)
+      integer :: m, n
+
+      n = problem%system%n
+      m = (size(u) - n)/2
+      call problem%fill_newton(t, c, u(:n), rate(:n), u(n + 1:n + m), u(n + m + 1:), status)
+      if (status /= 0) return
+      places => fsunsparsematrix_indexpointers(matrix)
+      rows => fsunsparsematrix_indexvalues(matrix)
+      entries => fsunsparsematrix_data(matrix)
+      associate (newton => problem%newton)
+         places(:size(newton%column)) = newton%column
+         rows(:size(newton%row)) = newton%row
+         entries(:size(newton%a)) = newton%a
+      end associate
+   end subroutine fill_sparse
 
 end module ida_library

@@ -17,8 +17,8 @@ module integrator
    implicit none (type, external)
    private
    public :: add_control_columns, controls_t, integrator_t, read_controls
-   public :: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps
-   public :: advance_too_small
+   public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations
+   public :: advance_too_many_steps, advance_too_small
    public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    public :: steps_any, steps_fixed, steps_variable
@@ -29,6 +29,7 @@ module integrator
    integer, parameter :: advance_too_many_steps = -2        !! MXSTEP reached
    integer, parameter :: advance_too_many_evaluations = -3  !! MXFCN reached
    integer, parameter :: advance_failed_evaluation = -4     !! the right-hand side cannot be evaluated
+   integer, parameter :: advance_no_memory = -5             !! no memory for the method's matrices
 
    integer, parameter :: norm_mixed = 0       !! IMSL INORM = 0: |e| / max(|y|, 1), greatest entry
    integer, parameter :: norm_absolute = 1    !! IMSL INORM = 1: |e|, greatest entry

@@ -14,7 +14,7 @@
 !> state, so it agrees with the uninterrupted one to the tolerance, not to the last bit.
 module multistep
    use event_location, only: dismiss_event, find_first_event, note_events
-   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
+   use integrator, only: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small, integrator_t, steps_variable
    use interpolation, only: interpolate
    use kinds, only: eps, wp
@@ -169,7 +169,7 @@ contains
          self%n_rejected_before = int(self%n_rejected)
          self%library%problem%is_fatal = .false.
          call self%library%begin(min(self%first_step, t_stop - self%t), is_good)
-         if (.not. is_good) status = advance_too_small
+         if (.not. is_good) status = merge(advance_no_memory, advance_too_small, self%library%problem%lacks_memory)
          self%is_fresh = .not. is_good
       end if
       if (status == advance_step) then

@@ -10,8 +10,10 @@
 module sundials_library
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use fsunmatrix_dense_mod, only: fsundensematrix_data
+   use dae_system, only: dae_system_t
    use integrator, only: advance_failed_evaluation, advance_too_many_evaluations, advance_too_small, integrator_t
    use kinds, only: eps, wp
+   use newton_matrix, only: newton_matrix_t
    use ode_system, only: ode_system_t
    use sundials, only: fsuncontext_free, new_context, sunmatrix
    implicit none (type, external)
@@ -27,11 +29,15 @@ module sundials_library
       logical :: holds_copies = .false.                  !! evaluate at a held copy of the state
       logical :: is_used_up = .false.                    !! no evaluation is left
       logical :: is_fatal = .false.                      !! an evaluation failed for good
+      logical :: lacks_memory = .false.                  !! there was no memory for the matrices
+      type(newton_matrix_t) :: newton                    !! of a large system: the matrix of Newton's equations
       real(wp), allocatable :: held(:)                   !! (n) the copy [any]
    contains
       procedure :: evaluate => problem_evaluate
       procedure :: count_evaluation
       procedure :: set_weights
+      procedure :: is_large => problem_is_large
+      procedure :: fill_newton
    end type problem_t
 
    !> A library at work.
@@ -129,6 +135,49 @@ contains
       status = merge(-1, 0, self%is_used_up)
       if (status == 0) self%method%n_evaluations = self%method%n_evaluations + 1
    end subroutine count_evaluation
+
+   !> Whether the matrix of Newton's equations is kept sparse.
+   logical function problem_is_large(self) result(is_large)
+      class(problem_t), intent(in) :: self  !! the problem
+
+      is_large = .false.
+      associate (system => self%system)
+         select type (system)
+         class is (dae_system_t)
+            is_large = system%is_large
+         end select
+      end associate
+   end function problem_is_large
+
+   !> The matrix of Newton's equations of a large system, dF/du + c dF/du' at u = (y, lambda, mu); its structure is there.
+   subroutine fill_newton(self, t, c, y, ydot, lambda, mu, status)
+      class(problem_t), intent(inout) :: self        !! the problem
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: c                      !! du'/du of the method [1/s]
+      real(wp), intent(in) :: y(:)                   !! (n) state [any]
+      real(wp), intent(in) :: ydot(:)                !! (n) its derivative [any]
+      real(wp), intent(in) :: lambda(:)              !! (m) multipliers of the velocities [N or N.m]
+      real(wp), intent(in) :: mu(:)                  !! (m) multipliers of the positions [N.s or N.m.s]
+      integer, intent(out) :: status                 !! 0 done, > 0 retry with a smaller step, < 0 give up
+
+      real(wp) :: increment(size(y))
+      integer :: k
+
+      associate (system => self%system)
+         select type (system)
+         class is (dae_system_t)
+            status = 0
+            do k = 0, self%newton%n_colour
+               if (status == 0) call self%count_evaluation(status)
+            end do
+            call increments(system, y, self%method%scale, increment)
+            if (status == 0) call self%newton%fill(system, t, c, y, ydot, lambda, mu, increment, status)
+            self%is_fatal = self%is_fatal .or. status < 0
+         class default
+            status = -1
+         end select
+      end associate
+   end subroutine fill_newton
 
    !> Error weights: sqrt(N) over tolerance and scale for N entries in all, next to nothing for
    !> quadratures and for what follows the state.

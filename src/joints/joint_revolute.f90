@@ -43,6 +43,8 @@ contains
       class(joint_revolute_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)            !! (n) rows of the table
       real(wp), intent(in) :: angle(0:)               !! (0:bodies) angles at the start [rad]
+
+      self%sides_apart = .true.
    end subroutine revolute_prepare
 
    !> Fill the rows of all items.

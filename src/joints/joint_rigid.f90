@@ -50,6 +50,7 @@ contains
       integer :: k
 
       self%is_angle(3) = .true.
+      self%sides_apart = .true.
       allocate (self%difference(self%n))
       do k = 1, self%n
          self%difference(k) = angle(self%body(1, k)) - angle(self%body(2, k))

@@ -48,6 +48,7 @@ module joint_set
       integer, allocatable :: column(:)          !! (n) places of the items among all joints, or all drivers, in reports
       logical :: is_driver = .false.             !! whether the items prescribe a motion
       logical :: is_angle(3) = .false.           !! (3) which rows of an item are angles, set by `prepare`
+      logical :: sides_apart = .false.           !! whether Phi_q of a body depends on that body alone, set by `prepare`
       type(text_t), allocatable :: names(:)      !! (n) names
       integer, allocatable :: body(:, :)         !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s_i(:, :)         !! (3, n) point of body i, its frame [m]

@@ -11,6 +11,7 @@ module klu
 
    real(wp), parameter :: least_rcond = 1.0e-13_wp  !! ratio of pivots that is too small: new pivots, or singular [1]
    integer(c_int), parameter :: amd = 0_c_int       !! KLU's number of the minimum degree ordering
+   integer(c_int), parameter :: colamd = 1_c_int    !! and of that for matrices whose pivots are not on the diagonal
    integer(c_int), parameter :: no_scaling = -1_c_int  !! KLU's number for none: the caller scales
 
    !> KLU's `klu_common`, version 1 of SuiteSparse 4 to 7.
@@ -122,6 +123,7 @@ module klu
    !> A sparse matrix and its factors. It frees them itself; it must not be copied once analysed.
    type :: sparse_lu_t
       integer :: n = 0                                 !! order
+      logical :: pivots_anywhere = .false.             !! its pivots are not on the diagonal: ordered for any choice of them
       integer(c_int), allocatable :: column(:)         !! (n + 1) place of the first entry of each column, from 0
       integer(c_int), allocatable :: row(:)            !! (entries) rows, from 0
       real(wp), allocatable :: a(:)                    !! (entries) values [any]
@@ -130,6 +132,7 @@ module klu
       type(c_ptr), private :: numeric = c_null_ptr     !! KLU's factors
    contains
       procedure :: analyse => lu_analyse
+      procedure :: is_analysed => lu_is_analysed
       procedure :: factorise => lu_factorise
       procedure :: solve => lu_solve
       final :: lu_free
@@ -144,11 +147,18 @@ contains
       integer(c_int) :: unused
 
       unused = klu_defaults(self%common)
-      self%common%ordering = amd
+      self%common%ordering = merge(colamd, amd, self%pivots_anywhere)
       self%common%scale = no_scaling
       self%common%btf = 0_c_int
       self%symbolic = klu_analyze(int(self%n, c_int), self%column, self%row, self%common)
    end subroutine lu_analyse
+
+   !> Whether the matrix has been ordered.
+   pure logical function lu_is_analysed(self) result(is_analysed)
+      class(sparse_lu_t), intent(in) :: self  !! the matrix
+
+      is_analysed = c_associated(self%symbolic)
+   end function lu_is_analysed
 
    !> Factorise the present values: with the pivots of before, or with new ones where these have become bad.
    subroutine lu_factorise(self, bad)

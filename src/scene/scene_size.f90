@@ -4,7 +4,9 @@ module scene_size
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: size_of_bodies
+   public :: is_large, size_of_bodies
+
+   integer, parameter :: most_dense = 50  !! bodies up to which implicit methods keep full matrices
 
 contains
 
@@ -21,5 +23,12 @@ contains
       end do
       if (length <= 0.0_wp) length = maxval(sqrt(scene%bodies%inertia/scene%bodies%mass))
    end function size_of_bodies
+
+   !> Whether implicit methods keep their matrices sparse: a full one has (6 n)^2 entries for n bodies, each found by a difference.
+   pure logical function is_large(scene)
+      type(scene_t), intent(in) :: scene  !! the scene
+
+      is_large = scene%bodies%n > most_dense
+   end function is_large
 
 end module scene_size

@@ -1,0 +1,187 @@
+!> Where the residual of `planar_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
+!> contacts with. All bodies have their three coordinates, and contacts no states of their own.
+submodule(planar_system) planar_pattern
+   implicit none (type, external)
+
+   !> Neighbours of bodies, of each those of a list.
+   type :: couplings_t
+      integer, allocatable :: last(:)    !! (0:bodies) place of the last neighbour of each body
+      integer, allocatable :: other(:)   !! (any) neighbours, body by body
+      logical, allocatable :: by_joint(:)  !! (any) through the multipliers of a joint
+   end type couplings_t
+
+contains
+
+   !> Column by column: coordinates, rates, quadratures, both sets of multipliers.
+   module procedure planar_dae_pattern
+      type(couplings_t) :: near
+      integer :: body, first, i, k, level, m, n, n_entry, pass, place(0:self%n_body)
+
+      n = self%rows%n_unknown
+      m = self%n_row
+      place = 0
+      place(self%rows%unknown) = [(k, k=1, n)]
+      call find_couplings(self, place, near)
+      allocate (column(self%n + 2*m + 1), source=0)
+      do pass = 1, 2
+         n_entry = 0
+         do level = 0, 1  ! coordinates, rates
+            do k = 1, n
+               body = self%rows%unknown(k)
+               do i = 1, 3
+                  column(3*n*level + 3*(k - 1) + i) = n_entry
+                  call add_three(3*(k - 1))
+                  call add_three(3*n + 3*(k - 1))
+                  do first = near%last(body - 1) + 1, near%last(body)
+                     if (near%by_joint(first) .and. level == 0) call add_three(3*(place(near%other(first)) - 1))
+                     call add_three(3*n + 3*(place(near%other(first)) - 1))
+                  end do
+                  do first = self%rows%last_side(body - 1) + 1, self%rows%last_side(body)
+                     call add_entry(self%n + self%rows%side(1, first) - 1)
+                     if (level == 0) call add_entry(self%n + m + self%rows%side(1, first) - 1)
+                  end do
+               end do
+            end do
+         end do
+         do i = 6*n + 1, self%n
+            column(i) = n_entry
+            call add_entry(i - 1)
+         end do
+         do level = 1, 0, -1  ! lambda acts on rates, mu on coordinates
+            do i = 1, m
+               column(self%n + merge(0, m, level == 1) + i) = n_entry
+               do k = 1, 2
+                  body = place(self%rows%body(k, i))
+                  if (body > 0) call add_three(3*n*level + 3*(body - 1))
+               end do
+            end do
+         end do
+         column(self%n + 2*m + 1) = n_entry
+         if (pass == 1) allocate (row(n_entry), source=0)
+      end do
+
+   contains
+
+      !> One entry of the present column.
+      subroutine add_entry(number)
+         integer, intent(in) :: number  !! its row, from 0
+
+         n_entry = n_entry + 1
+         if (pass == 2) row(n_entry) = number
+      end subroutine add_entry
+
+      !> Entries for the three coordinates or rates of a body.
+      subroutine add_three(before)
+         integer, intent(in) :: before  !! rows before them
+
+         integer :: j
+
+         do j = 0, 2
+            call add_entry(before + j)
+         end do
+      end subroutine add_three
+
+   end procedure planar_dae_pattern
+
+   !> M^{-1} Phi_q^T, row by row, the first body of each before the second.
+   module procedure planar_dae_spread
+      integer :: body, i, k, n
+
+      n = 0
+      do i = 1, self%n_row
+         do k = 1, 2
+            body = self%rows%body(k, i)
+            if (body == 0) cycle
+            if (self%is_known(body)) cycle
+            values(n + 1:n + 3) = self%inverse_mass(:, body)*self%rows%jac(3*k - 2:3*k, i)
+            n = n + 3
+         end do
+      end do
+   end procedure planar_dae_spread
+
+   !> Which bodies depend on which: pairs that joints, forces and contacts name, each in both directions and once.
+   subroutine find_couplings(self, place, near)
+      class(planar_system_t), intent(in) :: self   !! the system
+      integer, intent(in) :: place(0:)             !! (0:bodies) number of each among the unknown ones, 0: none
+      type(couplings_t), intent(out) :: near       !! the neighbours
+
+      integer, allocatable :: seen(:)
+      integer :: body, i, k, kept, n, pass
+
+      allocate (near%last(0:self%n_body), source=0)
+      do pass = 1, 2
+         do k = 1, size(self%joints)
+            if (.not. self%joints(k)%set%is_solved .or. self%joints(k)%set%sides_apart) cycle
+            call couple_all(self%joints(k)%set%body, .true.)
+         end do
+         do k = 1, size(self%ideal)
+            if (.not. self%ideal(k)%set%sides_apart) call couple_all(self%ideal(k)%set%body, .true.)
+         end do
+         do k = 1, size(self%clearances)
+            call couple_all(self%clearances(k)%set%body, .false.)
+         end do
+         do k = 1, size(self%forces)
+            do i = 1, self%forces(k)%set%n
+               call couple(self%forces(k)%set%bodies_of(i), .false.)
+            end do
+         end do
+         if (pass == 2) exit
+         do body = 1, self%n_body
+            near%last(body) = near%last(body) + near%last(body - 1)
+         end do
+         n = near%last(self%n_body)
+         allocate (near%other(n), source=0)
+         allocate (near%by_joint(n), source=.false.)
+         do body = self%n_body, 1, -1  ! places before the first: filled from there
+            near%last(body) = near%last(body - 1)
+         end do
+      end do
+      ! each neighbour once: those through joints stand first
+      allocate (seen(0:self%n_body), source=0)
+      kept = 0
+      n = 0
+      do body = 1, self%n_body
+         do i = n + 1, near%last(body)
+            if (seen(near%other(i)) == body) cycle
+            seen(near%other(i)) = body
+            kept = kept + 1
+            near%other(kept) = near%other(i)
+            near%by_joint(kept) = near%by_joint(i)
+         end do
+         n = near%last(body)
+         near%last(body) = kept
+      end do
+
+   contains
+
+      !> The pairs of a set.
+      subroutine couple_all(body, by_joint)
+         integer, intent(in) :: body(:, :)   !! (2, n) bodies
+         logical, intent(in) :: by_joint     !! whether they are of a joint
+
+         integer :: j
+
+         do j = 1, size(body, 2)
+            call couple(body(:, j), by_joint)
+         end do
+      end subroutine couple_all
+
+      !> Both are neighbours of one another, if both are unknown and not the same.
+      subroutine couple(body, by_joint)
+         integer, intent(in) :: body(2)      !! bodies
+         logical, intent(in) :: by_joint     !! whether they are of a joint
+
+         integer :: side
+
+         if (place(body(1)) == 0 .or. place(body(2)) == 0 .or. body(1) == body(2)) return
+         do side = 1, 2
+            near%last(body(side)) = near%last(body(side)) + 1
+            if (pass == 1) cycle
+            near%other(near%last(body(side))) = body(3 - side)
+            near%by_joint(near%last(body(side))) = by_joint
+         end do
+      end subroutine couple
+
+   end subroutine find_couplings
+
+end submodule planar_pattern
