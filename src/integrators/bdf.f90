@@ -1,8 +1,8 @@
 !> Backward differentiation, variable order 1 to 5 and variable step, by SUNDIALS' CVODE.
 !>
 !> For stiff equations: the step follows the motion, not the fastest decay. Newton's iteration with a
-!> dense Jacobian by difference quotients, which costs an evaluation for every entry of the state that
-!> is no quadrature: for small scenes. Orders above 2 damp little near the imaginary axis: a stiff
+!> Jacobian by difference quotients, up to 50 bodies a full matrix with an evaluation for every entry that
+!> is no quadrature, beyond sparse. Orders above 2 damp little near the imaginary axis: a stiff
 !> spring without damper is followed, not damped.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion

@@ -1,8 +1,8 @@
 !> Backward differentiation of variable order and step on the stabilised form of index 2, by SUNDIALS' IDA.
 !>
 !> Positions and velocities satisfy their constraints at every step, to the error of Newton's iteration:
-!> no stabilisation is needed and none acts. A system without constraints is integrated as it is. A dense
-!> Jacobian by difference quotients over state and multipliers: for small scenes, stiff or not.
+!> no stabilisation is needed and none acts. A system without constraints is integrated as it is. The
+!> Jacobian by difference quotients over state and multipliers is a full matrix up to 50 bodies, beyond sparse.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
 !> (docs/accuracy.md has the figures).

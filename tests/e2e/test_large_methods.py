@@ -56,19 +56,19 @@ def test_a_chain_moves_as_with_another_method(gudgeon, method):
 
 @pytest.mark.parametrize("method", IMPLICIT)
 def test_balls_that_bounce_give_back_what_the_law_says(gudgeon, method):
-    """Sixty balls fall on a plane at once: each leaves with the restitution of the exact law, at its own speed."""
-    n, heights = 60, np.linspace(0.01, 0.02, 60)
-    bodies = "".join(f"b{k} 1 1 {k} {0.1 + h:.17g} 0\n" for k, h in enumerate(heights))
+    """Sixty balls fly at a plane at once: each leaves with the restitution of the exact law, at its own speed."""
+    n, speeds = 60, np.linspace(0.4, 0.6, 60)
+    bodies = "".join(f"b{k} 1 1 {k} 0.101 0 {-v:.17g}\n" for k, v in enumerate(speeds))
     points = "".join(f"c{k} b{k} 0 0\n" for k in range(n))
     rows = "".join(f"j{k} floor c{k} y 0.1 steel hard\n" for k in range(n))
-    text = (f"deck = 1\n[scene]\ntitle = \"balls\"\ngravity = 0 -{G} m/s^2\n[bodies]\nname mass[kg] inertia[kg.m^2] x[m] y[m] angle[deg]\n{bodies}"
+    text = (f"deck = 1\n[scene]\ntitle = \"balls\"\n[bodies]\nname mass[kg] inertia[kg.m^2] x[m] y[m] angle[deg] vy[m/s]\n{bodies}"
             f"[points]\nname body xi[m] eta[m]\nfloor ground 0 0\n{points}[material]\nname young[GPa] poisson\nsteel 1 0.3\n"
             f"[contact.exact]\nname restitution\nhard 0.8\n[clearance.plane]\nname plane ball axis radius[m] material law\n{rows}[analysis.dynamic]\nend = 0.08 s\nmethod = {method}\n"
             "tolerance = 1e-9\n[output]\nevery = 0.01 s\nchannels = b1.position\n")
     contacts = run(gudgeon, text).contacts
     assert len(contacts) == n
-    assert np.max(np.abs(contacts["impact_speed"]/np.sqrt(2*G*heights) - 1)) <= 1e-6
-    assert np.max(np.abs(contacts["release_speed"]/contacts["impact_speed"]/0.8 - 1)) <= 1e-3
+    assert np.max(np.abs(np.sort(contacts["impact_speed"])/speeds - 1)) <= 1e-6
+    assert np.max(np.abs(contacts["release_speed"]/contacts["impact_speed"]/0.8 - 1)) <= 1e-5
 
 
 @pytest.mark.parametrize("method", IMPLICIT)
