@@ -74,7 +74,7 @@ contains
          if (diagnostics%count() == 0) then
             associate (span => plan%end - plan%first_output, at => merge(every%location, most%location, every%given))
                if (span >= most%number*plan%every) then
-                  call diagnostics%add(at, "there would be "//quotient_text(span, plan%every)// &
+                  call diagnostics%add(at, "there would be "//to_text(span/plan%every)// &
                                        " output instants, allowed are "//to_text(most%number), "too many", most_help)
                end if
             end associate
@@ -84,16 +84,6 @@ contains
          call plan_statistics(scene, system, plan, diagnostics)
       end if
    end subroutine new_time_plan
-
-   !> A quotient in words, which may be greater than any number of the machine.
-   pure function quotient_text(a, b) result(words)
-      real(wp), intent(in) :: a            !! positive [any]
-      real(wp), intent(in) :: b            !! positive [any]
-      character(:), allocatable :: words   !! as `1e12`
-
-      words = "more than 1e300"
-      if (b > a*1.0e-300_wp) words = to_text(a/b)
-   end function quotient_text
 
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.
    subroutine plan_statistics(scene, system, plan, diagnostics)
@@ -124,23 +114,20 @@ contains
             call diagnostics%add(period%location, "the period must be positive", "no period")
          end if
          if (diagnostics%count() > 0 .or. .not. period%given) return
-         k = 0
+         t = period_start(period, most, system, slot, item)
+         if (t >= 0.0_wp .and. t <= plan%end) then
+            call diagnostics%add(period%location, "there would be more than "//to_text(most)//" periods up to the end at "// &
+                                 to_text(plan%end)//" s", "too many", most_help)
+            return
+         end if
          n = 0
          deallocate (plan%strobes)
          allocate (plan%strobes(64), source=0.0_wp)
-         do
-            t = period%number*real(k, wp)
-            if (slot > 0 .and. k > 0) then
-               t = system%joints(slot)%set%time_of_turns(item, t)
-               if (t < 0.0_wp) call report_turns(period, diagnostics)
-               if (t < 0.0_wp) return
-            end if
+         do k = 0, most
+            t = period_start(period, k, system, slot, item)
+            if (t < 0.0_wp) call report_turns(period, diagnostics)
+            if (t < 0.0_wp) return
             if (t > plan%end*(1.0_wp + 1.0e-12_wp)) exit
-            if (k >= most) then
-               call diagnostics%add(period%location, "there would be more than "//to_text(most)//" periods up to the end at "// &
-                                    to_text(plan%end)//" s", "too many", most_help)
-               return
-            end if
             if (t >= plan%after*(1.0_wp - 1.0e-12_wp)) then
                if (n == size(plan%strobes)) then
                   allocate (longer(2*n), source=0.0_wp)
@@ -150,7 +137,6 @@ contains
                n = n + 1
                plan%strobes(n) = min(t, plan%end)
             end if
-            k = k + 1
          end do
          plan%strobes = plan%strobes(:n)
          if (n > 1) then
@@ -160,6 +146,19 @@ contains
          call diagnostics%add(period%location, "there is less than one period between 'after' and the end", "too long")
       end associate
    end subroutine plan_statistics
+
+   !> Time at which a period begins, negative: the driver never makes so many turns.
+   function period_start(period, k, system, slot, item) result(t)
+      type(value_t), intent(in) :: period           !! the setting
+      integer, intent(in) :: k                      !! number of the period, from 0
+      type(planar_system_t), intent(in) :: system   !! drivers
+      integer, intent(in) :: slot                   !! the driver's set, 0: a period is a time
+      integer, intent(in) :: item                   !! its number there
+      real(wp) :: t                                 !! the time [s]
+
+      t = period%number*real(k, wp)
+      if (slot > 0 .and. k > 0) t = system%joints(slot)%set%time_of_turns(item, t)
+   end function period_start
 
    !> Output instant number k, from 0; the last of a grid that fits the motion is its end.
    pure real(wp) function instant(plan, k) result(t)

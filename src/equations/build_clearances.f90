@@ -34,8 +34,8 @@ contains
 
       type(clearance_slot_t), allocatable :: slots(:)
       type(joint_slot_t) :: twins(n_clearance_kinds)
-      type(item_t), allocatable :: ideal(:), loose(:)
-      logical, allocatable :: is_done(:)
+      logical, allocatable :: is_done(:), is_twin(:)
+      integer, allocatable :: chosen(:)
       integer :: first, i, k, n, n_ideal
 
       allocate (slots(count_clearances(scene)))
@@ -43,28 +43,21 @@ contains
       n_ideal = 0
       do k = 1, n_clearance_kinds
          associate (items => scene%clearances(k)%items, info => scene%clearances(k)%info)
-            is_done = [(is_ideal(scene, k, items(i), levels), i=1, size(items))]
-            allocate (ideal(0))
-            do i = 1, size(items)
-               if (is_done(i)) call append_item(ideal, items(i))
-            end do
+            is_twin = [(is_ideal(scene, k, items(i), levels), i=1, size(items))]
+            is_done = is_twin
             do first = 1, size(items)
                if (is_done(first)) cycle
-               allocate (loose(0))
-               do i = first, size(items)
-                  if (is_done(i) .or. .not. share_laws(info, items(i), items(first))) cycle
-                  call append_item(loose, items(i))
-                  is_done(i) = .true.
-               end do
+               chosen = pack([(i, i=1, size(items))], &
+                             [(.not. is_done(i) .and. share_laws(info, items(i), items(first)), i=1, size(items))])
+               is_done(chosen) = .true.
                n = n + 1
-               call add_loose_set(scene, k, loose, slots(n), system)
-               deallocate (loose)
+               call add_loose_set(scene, k, scene%clearances(k)%items(chosen), slots(n), system)
             end do
-            if (size(ideal) > 0) then
+            if (any(is_twin)) then
+               chosen = pack([(i, i=1, size(items))], is_twin)
                n_ideal = n_ideal + 1
-               call add_ideal_set(scene, k, ideal, angle, twins(n_ideal), system%rows%n)
+               call add_ideal_set(scene, k, scene%clearances(k)%items(chosen), angle, twins(n_ideal), system%rows%n)
             end if
-            deallocate (ideal)
          end associate
       end do
       allocate (system%clearances(n), system%ideal(n_ideal))
@@ -141,22 +134,6 @@ contains
          n = n + size(scene%clearances(k)%items)
       end do
    end function count_clearances
-
-   !> Append a row to a list.
-   subroutine append_item(list, item)
-      type(item_t), allocatable, intent(inout) :: list(:)  !! list, grown
-      type(item_t), intent(in) :: item                     !! the row
-
-      type(item_t), allocatable :: grown(:)
-      integer :: k
-
-      allocate (grown(size(list) + 1))
-      do k = 1, size(list)
-         grown(k) = list(k)
-      end do
-      grown(size(grown)) = item
-      call move_alloc(grown, list)
-   end subroutine append_item
 
    !> One set of loose joints with its laws, fitted to the surfaces.
    subroutine add_loose_set(scene, kind, items, slot, system)
