@@ -18,7 +18,7 @@ module planar_system
    use clearance_set, only: clearance_slot_t
    use dae_system, only: dae_system_t
    use force_set, only: force_slot_t
-   use guided_motion, only: guided_rates, guided_response, guided_t, move_guided, set_guided_acceleration
+   use guided_motion, only: guided_rates, guided_t, move_guided, set_guided_acceleration
    use hold, only: hold_t
    use joint_set, only: joint_slot_t, rows_t
    use kinds, only: i8, wp
@@ -36,11 +36,6 @@ module planar_system
    integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
    integer, parameter :: lost_damper = 4         !! quadrature: lost in dampers
    integer, parameter :: n_ledger = 4            !! quadratures before those of the contacts
-
-   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
-                                                               !! shows in reactions that are not unique [1]
-   integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
-   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
 
    !> A planar scene.
    type, extends(dae_system_t) :: planar_system_t
@@ -256,6 +251,15 @@ module planar_system
          real(wp), intent(out) :: values(:)           !! (3 for each side of an unknown body) in the order of the pattern [any]
       end subroutine planar_dae_spread
 
+      !> Accelerations and multipliers of the rows, as they were evaluated.
+      module subroutine find_accelerations(self, g, must_agree, status)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system, rows evaluated
+         real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
+         logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
+         integer, intent(out) :: status                 !! 0: found
+      end subroutine find_accelerations
+
       !> Multipliers of the rows that are not solved for, at the state evaluated last. Reports want them.
       module subroutine planar_find_reactions(self, t)
          implicit none (type, external)
@@ -447,38 +451,6 @@ contains
       self%rest = 0.0_wp
       call self%find_accelerations(self%rest, .false., status)
    end subroutine planar_solve_rows
-
-   !> Accelerations and multipliers. Where rows depend on one another, or nearly so, the damped solution: it stays finite, and
-   !> the control of the step decides what is good enough. Status 1 if rows that always depend on others contradict them.
-   subroutine find_accelerations(self, g, must_agree, status)
-      class(planar_system_t), intent(inout) :: self  !! the system, rows evaluated
-      real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
-      logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
-      integer, intent(out) :: status                 !! 0: found
-
-      integer :: k
-
-      status = 0
-      if (self%guided%n > 0 .and. self%grips%n_slip > 0) then
-         call guided_response(self%guided, g, must_agree, self%motion%alpha, self%a)
-      end if
-      if (self%rows%n_unknown == 0) return
-      self%bad_row = 1
-      if (.not. self%is_redundant) then
-         call self%solver%solve(self%inverse_mass, self%rows, g, self%b, self%a, self%lambda, self%bad_row)
-      end if
-      if (self%bad_row == 0) return
-      self%n_damped = self%n_damped + 1
-      k = merge(2, 1, self%is_redundant)
-      call self%solver%solve_damped(self%inverse_mass, self%rows, g, self%b, damping(k), n_refinement(k), self%a, &
-                                    self%lambda, self%bad_row)
-      if (self%bad_row == 0 .and. must_agree .and. (self%is_redundant .or. self%solver%is_iterative)) then
-         if (.not. self%solver%left_over <= contradiction) then
-            self%bad_row = maxloc(abs(self%solver%residual(:self%rows%n_solve)), dim=1)
-         end if
-      end if
-      if (self%bad_row > 0) status = 1
-   end subroutine find_accelerations
 
    !> Motion of all bodies at a state.
    subroutine planar_set_motion(self, t, y)
