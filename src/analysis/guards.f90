@@ -1,6 +1,6 @@
 !> What no mechanism does: a run that gets there warns, or ends. Looked at on the ends of steps.
 !>
-!> of a contact: a penetration beyond the clearance, the range of its law or a part of the smaller radius; an impact too
+!> of a contact: a penetration beyond the clearance, the range of its law or a part of the surfaces' size; an impact too
 !> fast for a quasi-static law; a force at which the pressure is beyond the strength of the material;
 !> of a body: its speed, its way from the start in sizes of the scene; of the ledger: energy made of nothing.
 !>
@@ -16,13 +16,14 @@ module guards
    use normal_law, only: parameter_deepest
    use planar_system, only: planar_system_t
    use scene, only: scene_t
+   use surfaces, only: shape_plane
    use text, only: append_text, real_text, text_t
    implicit none (type, external)
    private
    public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
       new_guards, scene_size
 
-   integer, parameter :: guard_penetration = 1   !! a penetration, part of the smaller radius
+   integer, parameter :: guard_penetration = 1   !! a penetration, part of the size of the surfaces: the smaller radius, of a slider its length
    integer, parameter :: guard_clearance = 2     !! a penetration, the clearance
    integer, parameter :: guard_law_range = 3     !! a penetration, the range of the law
    integer, parameter :: guard_impact_speed = 4  !! an impact speed
@@ -33,6 +34,7 @@ module guards
       !! keys of [guards]
 
    real(wp), parameter :: noise = 1.0e6_wp       !! round-off of the ledger, in spacings of what it adds up [1]
+   integer, parameter :: most_wrong = 100        !! steps in a row after which a ledger is wrong for good, and not as a motion begins
 
    !> Where a limit was passed.
    type :: breach_t
@@ -48,8 +50,9 @@ module guards
       logical :: stops(n_contact_guard) = .false.       !! (guards of a contact) whether the run ends there
       real(wp), allocatable :: limit(:, :)       !! (guards of a contact, contacts) limits; huge: none [m, m/s or N]
       type(breach_t), allocatable :: breach(:, :)       !! (guards of a contact, contacts) where they were passed
-      real(wp) :: penetration = 0.0_wp           !! greatest penetration over the smaller radius, 0: no limit [1]
+      real(wp) :: penetration = 0.0_wp           !! greatest penetration over the size of the surfaces, 0: no limit [1]
       real(wp) :: energy = 0.0_wp                !! greatest residual over the largest energy, 0: no limit [1]
+      integer :: n_wrong = 0                     !! steps in a row with a greater one
       real(wp) :: speed = huge(1.0_wp)           !! greatest speed of a body [m/s]
       real(wp) :: way = huge(1.0_wp)             !! way from the start that is worth a word [m]
       real(wp) :: size = 0.0_wp                  !! of the scene [m]
@@ -118,6 +121,7 @@ contains
          associate (pair => set%pairs(set%item_of(c)), limit => guards%limit(:, m))
             radius = pair%radius_j
             if (pair%radius_i > 0.0_wp) radius = min(radius, pair%radius_i)
+            if (pair%shape == shape_plane) radius = max(radius, pair%length)
             if (guards%penetration*radius > 0.0_wp) limit(guard_penetration) = guards%penetration*radius
             if (set%is_round) limit(guard_clearance) = set%clearance(set%item_of(c))
             limit(guard_law_range) = set%parameters(parameter_deepest, c)
@@ -202,7 +206,8 @@ contains
    end subroutine guards_look
 
    !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, and more
-   !> than the round-off of what it adds up.
+   !> than the round-off of what it adds up, for many steps in a row: where a motion begins with next to no energy, the first ones may
+   !> have it wrong.
    subroutine guards_look_at_energy(self, residual, largest, added)
       class(guards_t), intent(inout) :: self      !! the guards
       real(wp), intent(in) :: residual            !! of the ledger [J]
@@ -210,7 +215,9 @@ contains
       real(wp), intent(in) :: added               !! magnitude of what the ledger adds up [J]
 
       if (.not. self%energy > 0.0_wp) return
-      if (abs(residual) <= self%energy*largest .or. abs(residual) <= noise*eps*added) return
+      self%n_wrong = self%n_wrong + 1
+      if (abs(residual) <= self%energy*largest .or. abs(residual) <= noise*eps*added) self%n_wrong = 0
+      if (self%n_wrong < most_wrong) return
       call end_run(self, "the motion is not that of the mechanism: "//real_text(residual, 3)//" J were made of nothing, "// &
                    real_text(abs(residual)/largest, 3)//" of the largest energy (guard 'energy')")
    end subroutine guards_look_at_energy
@@ -279,7 +286,7 @@ contains
          select case (g)
          case (guard_penetration)
             words = "a penetration of "//millimetres(breach%value)//", beyond "//real_text(self%penetration, 3)// &
-                    " of the smaller radius, "//millimetres(limit)//" (guard 'penetration')"
+                    " of the size of the surfaces, "//millimetres(limit)//" (guard 'penetration')"
          case (guard_clearance)
             words = "penetrations of up to "//millimetres(breach%value)//", beyond the clearance itself, "//millimetres(limit)
          case (guard_law_range)

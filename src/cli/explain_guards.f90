@@ -66,7 +66,7 @@ contains
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
                   if (limit(guard_penetration) < huge(1.0_wp)) then
                      call say(name//": ends at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
-                              real_text(guards%penetration, 3)//" of the smaller radius (penetration)", 2)
+                              real_text(guards%penetration, 3)//" of the size of the surfaces (penetration)", 2)
                   end if
                   if (limit(guard_clearance) < huge(1.0_wp)) then
                      call say(name//": "//verb_of(scene, "clearance")//" at a penetration of "// &

@@ -19,8 +19,8 @@ contains
                   //"conditions that end a run by intent"
       info%source = ""
       info%is_table = .false.
-      call add_number(info, "penetration", dim_none, "greatest penetration of a contact, of the smaller radius of its surfaces: " &
-                      //"beyond it the run ends; 0: no limit", default="1", lower=0.0_wp)
+      call add_number(info, "penetration", dim_none, "greatest penetration of a contact, of the size of its surfaces (the " &
+                      //"smaller radius, of a slider its length): beyond it the run ends; 0: no limit", default="1", lower=0.0_wp)
       call add_word(info, "clearance", "a penetration greater than the clearance of its joint", default="warn", choices=actions)
       call add_word(info, "law_range", "a penetration beyond the range of the normal law", default="warn", choices=actions)
       call add_word(info, "impact_speed", "an impact too fast for a law that is quasi-static, 1e-5 sqrt(E/rho) of the materials", &
