@@ -206,8 +206,8 @@ contains
    end subroutine guards_look
 
    !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, and more
-   !> than the round-off of what it adds up, for many steps in a row: where a motion begins with next to no energy, the first ones may
-   !> have it wrong.
+   !> than the round-off of what it adds up, for many steps in a row: where a motion begins with next to no energy, the first
+   !> ones may have it wrong.
    subroutine guards_look_at_energy(self, residual, largest, added)
       class(guards_t), intent(inout) :: self      !! the guards
       real(wp), intent(in) :: residual            !! of the ledger [J]
