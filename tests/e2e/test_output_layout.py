@@ -221,9 +221,11 @@ def test_a_killed_run_can_be_read(gudgeon, root, tmp_path):
     with h5py.File(file, "r") as file:
         assert file.attrs["status"] == "running"
         n = len(file["time"])
-        assert n >= 128
-        assert np.all(np.diff(file["time"]) >= 0)
-        assert np.all(np.diff(file["time"][file["row_kind"][:] == 0]) > 0)
+        # a kill in the midst of a flush may leave the rows of that flush as zeros: they are the last ones, and nothing else is
+        good = int(np.flatnonzero(file["time"][:] > 0)[-1]) + 1
+        assert good >= 128
+        assert np.all(np.diff(file["time"][:good]) >= 0)
+        assert np.all(np.diff(file["time"][:good][file["row_kind"][:good] == 0]) > 0)
         for path, node in datasets(file).items():
             if "DIMENSION_LIST" in node.attrs:
                 assert node.shape[0] == n, path
