@@ -33,6 +33,8 @@ module guards
       !! keys of [guards]
 
    real(wp), parameter :: noise = 1.0e6_wp       !! round-off of the ledger, in spacings of what it adds up [1]
+   real(wp), parameter :: spare = 1.0e4_wp       !! error of a speed over many steps, in tolerances of one step [1]
+   real(wp), parameter :: natural_rate = 1.0_wp  !! least scale of rates that a tolerance refers to [rad/s]
 
    !> Where a limit was passed.
    type :: breach_t
@@ -50,6 +52,7 @@ module guards
       type(breach_t), allocatable :: breach(:, :)       !! (guards of a contact, contacts) where they were passed
       real(wp) :: penetration = 0.0_wp           !! greatest penetration over the smaller radius, 0: no limit [1]
       real(wp) :: energy = 0.0_wp                !! greatest residual over the largest energy, 0: no limit [1]
+      real(wp) :: least_energy = 0.0_wp          !! of speeds that are the error of the integration: less is none [J]
       real(wp) :: speed = huge(1.0_wp)           !! greatest speed of a body [m/s]
       real(wp) :: way = huge(1.0_wp)             !! way from the start that is worth a word [m]
       real(wp) :: size = 0.0_wp                  !! of the scene [m]
@@ -156,11 +159,17 @@ contains
    end function scene_size
 
    !> Before the first step.
-   subroutine guards_begin(self, system)
+   subroutine guards_begin(self, system, tolerance)
       class(guards_t), intent(inout) :: self         !! the guards
       type(planar_system_t), intent(in) :: system    !! the system, its motion that of the start
+      real(wp), intent(in) :: tolerance              !! of the integration [1]
+
+      real(wp) :: omega
 
       if (.not. self%is_set) return
+      omega = spare*tolerance*natural_rate
+      self%least_energy = 0.5_wp*(sum(system%bodies%mass(1:system%n_body))*(system%length_scale*omega)**2 &
+                                  + sum(system%bodies%inertia(1:system%n_body))*omega**2)
       allocate (self%breach(n_contact_guard, system%n_contact), self%travel(system%n_body))
       self%start = system%motion%r(1:2, 1:system%n_body)
    end subroutine guards_begin
@@ -201,8 +210,8 @@ contains
       end associate
    end subroutine guards_look
 
-   !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, and more
-   !> than the round-off of what it adds up.
+   !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, more than
+   !> the round-off of what it adds up, and more than that of speeds which are the error of the integration: a motion just begun.
    subroutine guards_look_at_energy(self, residual, largest, added)
       class(guards_t), intent(inout) :: self      !! the guards
       real(wp), intent(in) :: residual            !! of the ledger [J]
@@ -210,7 +219,7 @@ contains
       real(wp), intent(in) :: added               !! magnitude of what the ledger adds up [J]
 
       if (.not. self%energy > 0.0_wp) return
-      if (abs(residual) <= self%energy*largest .or. abs(residual) <= noise*eps*added) return
+      if (abs(residual) <= max(self%energy*largest, noise*eps*added, self%least_energy)) return
       call end_run(self, "the motion is not that of the mechanism: "//real_text(residual, 3)//" J were made of nothing, "// &
                    real_text(abs(residual)/largest, 3)//" of the largest energy (guard 'energy')")
    end subroutine guards_look_at_energy

@@ -2,7 +2,8 @@
 !>
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
-!> zero. What is found is a bracket; the integrator goes into it by its own means (a one-step method
+!> zero, at eight places and at least once in an interval that the caller sets (that of the output): no function is above zero
+!> there unseen. What is found is a bracket; the integrator goes into it by its own means (a one-step method
 !> re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
@@ -18,7 +19,7 @@ module event_location
    private
    public :: dismiss_event, find_first_event, first_of, note_events, time_resolution
 
-   integer, parameter :: n_sample = 8      !! places of a step looked at
+   integer, parameter :: n_sample = 8      !! places of a step looked at, at least
    integer, parameter :: n_bisect = 30     !! halvings in search of a maximum on the interpolant
    integer, parameter :: n_narrow = 72     !! places looked at to narrow the bracket of an event, at most
    real(wp), parameter :: narrow_enough = 2.0_wp**(-18)  !! width of that bracket: re-stepping does the rest [1]
@@ -77,7 +78,8 @@ contains
 
       integer :: k
 
-      is_worth = .false.
+      is_worth = system%n_event > 0 .and. method%step%h > method%look
+      if (is_worth) return
       do k = 1, system%n_event
          is_worth = may_happen(method%g0(k) - method%threshold(k), method%step%h*method%rate0(k), &
                                method%g1(k) - method%threshold(k), method%step%h*method%rate1(k))
@@ -143,7 +145,7 @@ contains
 
       real(wp), allocatable :: g(:), rate(:), y(:)
       real(wp) :: a, b
-      integer :: i, k
+      integer :: i, k, n
 
       ! the room of the integrator, while it itself is asked for states
       call move_alloc(method%scratch, y)
@@ -153,9 +155,10 @@ contains
       low = 0.0_wp
       high = 1.0_wp
       a = 0.0_wp
-      do i = 1, n_sample
-         b = real(i, wp)/n_sample
-         if (i < n_sample) then
+      n = max(n_sample, ceiling(method%step%h/method%look))
+      do i = 1, n
+         b = real(i, wp)/n
+         if (i < n) then
             call values_at(b)
          else
             g = method%g1 - method%threshold
