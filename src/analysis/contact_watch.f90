@@ -5,6 +5,7 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
    use integrator, only: integrator_t, onset_located
    use kinds, only: not_a_number, wp
@@ -284,7 +285,8 @@ contains
       real(wp) function step_in_contact(speed) result(step)
          real(wp), intent(in) :: speed  !! its impact speed [m/s]
 
-         step = first_step*system%clearances(k)%set%contact_time(i, max(speed, tiny(1.0_wp)), system%inverse_mass(1, :))
+         step = first_step*system%clearances(k)%set%contact_time(i, max(speed, at_rest*system%pace*system%length_scale), &
+                                                                 system%inverse_mass(1, :))
       end function step_in_contact
 
    end subroutine handle_event

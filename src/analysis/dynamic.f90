@@ -128,6 +128,7 @@ contains
       type(energy_t) :: energy
       integer :: n_since_progress, status
 
+      call system%begin_pace(0.0_wp, y, plan%end)
       call system%set_motion(0.0_wp, y)
       call decide_slips(system, 0.0_wp, y, recorder, run, error)
       if (allocated(error)) return
@@ -175,9 +176,9 @@ contains
       end do
    end subroutine integrate
 
-   !> Constraint violation and energy balance at the end of a step.
+   !> Pace, constraint violation and energy balance at the end of a step.
    subroutine look_at_step(system, method, run)
-      type(planar_system_t), intent(in) :: system     !! the system, last evaluated at the end of the step
+      type(planar_system_t), intent(inout) :: system  !! the system, last evaluated at the end of the step
       class(integrator_t), intent(in) :: method       !! the integrator
       type(run_t), intent(inout) :: run               !! maxima are raised
 
@@ -185,6 +186,7 @@ contains
       real(wp) :: scaled
       integer :: k
 
+      call system%follow_pace(method%step%y1)
       do k = 1, system%rows%n_solve
          scaled = system%row_weight(k)*abs(system%rows%phi(k))
          run%is_lost = run%is_lost .or. scaled > merge(lost_angle, lost_length, system%rows%is_angle(k))

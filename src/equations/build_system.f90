@@ -52,6 +52,7 @@ contains
          system%weight(:, k) = scene%bodies%mass(k)*scene%gravity
       end do
       system%length_scale = size_of_bodies(scene)
+      system%tolerance = scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number
       call new_motion(n, system%motion)
       call new_loads(n, system%loads)
       with_start_rows = .false.
@@ -64,7 +65,7 @@ contains
          call count_sets(scene, choices, is_taken, system)
          call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
          call add_joints(scene, choices, is_taken, .true., system)
-         call add_clearances(scene, levels, start_angles(scene), system)
+         call add_clearances(scene, levels, start_angles(scene), reduction%is_driven, system)
          system%rows%n_solve = system%rows%n
          system%n_solved_set = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
          call add_joints(scene, choices, is_taken, .false., system)

@@ -9,7 +9,7 @@ contains
    module procedure planar_memory_size
       integer :: k
 
-      n = 3 + self%way%memory_size()
+      n = 5 + self%way%memory_size()
       do k = 1, size(self%joints)
          n = n + self%joints(k)%set%memory_size()
       end do
@@ -27,6 +27,7 @@ contains
 
       call put(row, place, self%n_evaluations)
       call put(row, place, self%n_damped)
+      call put(row, place, [self%pace, self%grips%h])
       call self%way%save(row, place)
       call put(row, place, self%solver%n_factorisations)
       do k = 1, size(self%joints)
@@ -46,6 +47,8 @@ contains
 
       call get(row, place, self%n_evaluations)
       call get(row, place, self%n_damped)
+      call get(row, place, self%pace)
+      call get(row, place, self%grips%h)
       call self%way%load(row, place)
       call get(row, place, self%solver%n_factorisations)
       do k = 1, size(self%joints)
