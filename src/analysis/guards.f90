@@ -23,7 +23,7 @@ module guards
    public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
       new_guards, scene_size
 
-   integer, parameter :: guard_penetration = 1   !! a penetration, part of the size of the surfaces: the smaller radius, of a slider its length
+   integer, parameter :: guard_penetration = 1   !! a penetration, part of the size of the surfaces (radius; slider: length)
    integer, parameter :: guard_clearance = 2     !! a penetration, the clearance
    integer, parameter :: guard_law_range = 3     !! a penetration, the range of the law
    integer, parameter :: guard_impact_speed = 4  !! an impact speed
@@ -34,7 +34,7 @@ module guards
       !! keys of [guards]
 
    real(wp), parameter :: noise = 1.0e6_wp       !! round-off of the ledger, in spacings of what it adds up [1]
-   integer, parameter :: most_wrong = 100        !! steps in a row after which a ledger is wrong for good, and not as a motion begins
+   integer, parameter :: most_wrong = 100        !! steps in a row after which a ledger is wrong for good
 
    !> Where a limit was passed.
    type :: breach_t
