@@ -4,6 +4,7 @@ module dynamic
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t
    use guards, only: guards_t
+   use instants, only: instants_t
    use integrator, only: advance_event, advance_failed_evaluation, integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
@@ -13,7 +14,7 @@ module dynamic
    use run_audit, only: audit, limits_t, warn_of_errors
    use run_failure, only: constraints_lost, describe_failure, events_without_end, guard_reached, time_used_up
    use sampling, only: new_sampler, sampler_t
-   use slip_watch, only: decide_next
+   use slip_watch, only: decide_next, note_jumps
    use stop_condition, only: stop_t
    use time_plan, only: time_plan_t
    implicit none (type, external)
@@ -45,6 +46,7 @@ module dynamic
       logical :: is_lost = .false.               !! whether a violation is beyond all measure
       real(wp) :: t_event = 0.0_wp               !! time of the last event [s]
       integer :: n_idle = 0                      !! events since the last time that time passed
+      type(instants_t) :: instants               !! when functions of time are not smooth
    end type run_t
 
 contains
@@ -129,8 +131,11 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! the integration failed, or a file could not be written
 
       type(energy_t) :: energy
+      real(wp) :: t_stop
       integer :: n_since_progress, status
 
+      run%instants = plan%instants
+      call run%instants%begin(plan%end, system%piece)
       call system%set_motion(0.0_wp, y)
       call decide_slips(system, 0.0_wp, y, recorder, run, error)
       if (allocated(error)) return
@@ -150,7 +155,9 @@ contains
       call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
       n_since_progress = 0
       do while (method%t < plan%end .and. run%stop%met == 0 .and. .not. allocated(error))
-         call method%advance(system, plan%end, status)
+         method%look = merge(plan%every, huge(1.0_wp), method%t >= plan%first_output)
+         call run%instants%stop_after(system, method, t_stop)
+         call method%advance(system, t_stop, status)
          if (status < 0) then
             call describe_failure(system, method, status, error)
             return
@@ -169,6 +176,9 @@ contains
          end if
          if (status == advance_event .and. run%stop%met == 0 .and. .not. allocated(error)) then
             call handle_events(system, method, plan, recorder, run, error)
+         end if
+         if (run%instants%is_at(method%t) .and. run%stop%met == 0 .and. .not. allocated(error)) then
+            call pass_instant(system, method, plan, recorder, run, error)
          end if
          n_since_progress = n_since_progress + 1
          if (n_since_progress == progress_every) then
@@ -274,6 +284,39 @@ contains
       call run%watch%after_restart(system, method)
       call run%sampler%after_events(system, method, plan, run%watch, run%residual, recorder, error)
    end subroutine handle_events
+
+   !> Pass an instant at which functions of time are not smooth.
+   subroutine pass_instant(system, method, plan, recorder, run, error)
+      type(planar_system_t), intent(inout) :: system      !! the system
+      class(integrator_t), intent(inout) :: method        !! the integrator, at the instant
+      type(time_plan_t), intent(in) :: plan               !! times
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(run_t), intent(inout) :: run                   !! state of the run
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+
+      integer :: status
+
+      call run%sampler%before_instant(system, method, plan, run%watch, run%residual, recorder, error)
+      if (allocated(error)) return
+      method%g = method%g1
+      call run%instants%pass(system%piece)
+      call decide_slips(system, method%t, method%step%y1, recorder, run, error)
+      if (allocated(error)) return
+      call method%restart(system, 0.0_wp, status)
+      if (status /= 0) then
+         call describe_failure(system, method, status, error)
+         return
+      end if
+      call look_at_step(system, method, run)  ! a jump of a driver is seen here, before the stabilisation acts
+      if (run%is_lost) then
+         call describe_failure(system, method, constraints_lost, error)
+         return
+      end if
+      call run%watch%after_restart(system, method)
+      call note_jumps(system, method)
+      if (method%n_happened > 0) call handle_events(system, method, plan, recorder, run, error)
+      if (.not. allocated(error)) call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
+   end subroutine pass_instant
 
    !> Decide whether contacts that have just begun slip or stick.
    subroutine decide_slips(system, t, y, recorder, run, error)

@@ -36,6 +36,7 @@ module sampling
       procedure :: take => take_samples
       procedure :: before_events
       procedure :: after_events
+      procedure :: before_instant
       procedure :: finish => finish_samples
    end type sampler_t
 
@@ -52,7 +53,8 @@ contains
       sampler%n_last_sample = last_instant(plan)
    end subroutine new_sampler
 
-   !> All output instants and peaks of contacts up to the end of the last step.
+   !> All output instants and peaks of contacts up to the end of the last step; an output instant at which functions of time are
+   !> not smooth only when the motion has passed it, with the values behind it.
    subroutine take_samples(self, system, method, plan, watch, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(planar_system_t), intent(inout) :: system      !! the system
@@ -71,7 +73,7 @@ contains
          if (plan%strobes(self%n_strobe + 1) <= reached) call take_strobes(self, system, method, plan, residual, recorder, error)
          if (allocated(error)) return
       end if
-      t = next_instant(self, plan)
+      t = next_instant(self, system, plan)
       if (t > reached .and. watch%n_peak == 0) return
       call cpu_time(cpu_0)
       if (t < method%t) call method%prepare_output(system, status)
@@ -90,22 +92,26 @@ contains
             if (allocated(error)) return
             self%t_row = t
             self%n_sample = self%n_sample + 1
-            t = next_instant(self, plan)
+            t = next_instant(self, system, plan)
          end if
          if (allocated(error)) return
       end do
+      watch%n_peak = 0
       if (self%t_row >= method%t) call watch%note_row()
       call cpu_time(cpu_1)
       self%aside = self%aside + (cpu_1 - cpu_0)
    end subroutine take_samples
 
-   !> The output instant that comes next; after the last one, one that is never reached.
-   pure real(wp) function next_instant(self, plan) result(t)
-      class(sampler_t), intent(in) :: self   !! what is reported
-      type(time_plan_t), intent(in) :: plan  !! times
+   !> The output instant that comes next; after the last one, and until functions of time take the values behind it, one that is
+   !> never reached.
+   pure real(wp) function next_instant(self, system, plan) result(t)
+      class(sampler_t), intent(in) :: self         !! what is reported
+      type(planar_system_t), intent(in) :: system  !! the system
+      type(time_plan_t), intent(in) :: plan        !! times
 
       t = huge(1.0_wp)
       if (self%n_sample <= self%n_last_sample) t = instant(plan, self%n_sample)
+      if (t >= system%piece%end) t = huge(1.0_wp)
    end function next_instant
 
    !> The row before the events at the end of the last step, where a contact ends or a force may jump.
@@ -135,6 +141,27 @@ contains
       end if
       call watch%note_row()
    end subroutine before_events
+
+   !> The row before an instant at which functions of time are not smooth, if one is owed: the force may jump there.
+   subroutine before_instant(self, system, method, plan, watch, residual, recorder, error)
+      class(sampler_t), intent(inout) :: self             !! what is reported
+      type(planar_system_t), intent(inout) :: system      !! the system, its functions of time those before the instant
+      class(integrator_t), intent(in) :: method           !! the integrator, at the instant
+      type(time_plan_t), intent(in) :: plan               !! times
+      type(contact_watch_t), intent(inout) :: watch       !! contacts
+      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+
+      real(wp) :: cpu_0, cpu_1
+
+      if (.not. any(watch%owes_row) .or. self%t_row >= method%t) return
+      call cpu_time(cpu_0)
+      call put_row(self, system, method, plan, method%t, method%step%y1, row_peak, residual, recorder, error)
+      call cpu_time(cpu_1)
+      self%aside = self%aside + (cpu_1 - cpu_0)
+      call watch%note_row()
+   end subroutine before_instant
 
    !> The row after the events, where a contact began or a force may have jumped.
    subroutine after_events(self, system, method, plan, watch, residual, recorder, error)
@@ -220,7 +247,7 @@ contains
       if (plan%strobes(self%n_strobe + 1) < method%t) call method%prepare_output(system, status)
       do while (self%n_strobe < size(plan%strobes))
          t = plan%strobes(self%n_strobe + 1)
-         if (t > reached) exit
+         if (t > reached .or. t >= system%piece%end) exit
          call method%state_at(system, t, self%y)
          call report(self, system, method, t, self%y, residual, error)
          if (allocated(error)) return

@@ -3,12 +3,13 @@ module slip_watch
    use catalogue, only: state_free, state_name
    use contact_grip, only: is_undecided, sticks
    use friction_law, only: memory_slip
+   use integrator, only: integrator_t
    use kinds, only: not_a_number, wp
    use planar_system, only: planar_system_t
    use recorder, only: event_t
    implicit none (type, external)
    private
-   public :: decide_next, handle_slip
+   public :: decide_next, handle_slip, note_jumps
 
    character(*), parameter :: word_slip = "slip"    !! kind of event, and state of a contact
    character(*), parameter :: word_stick = "stick"  !! kind of event, and state of a contact
@@ -83,5 +84,22 @@ contains
          row%state_after = row%kind
       end associate
    end subroutine tell
+
+   !> Contacts whose event of friction a jump of a load brought about, as what happened at the end of the last step: `g` holds
+   !> the event functions before the jump, the integrator was begun anew behind it.
+   subroutine note_jumps(system, method)
+      type(planar_system_t), intent(in) :: system       !! the system
+      class(integrator_t), intent(inout) :: method      !! the integrator
+
+      integer :: k
+
+      method%n_happened = 0
+      if (system%grips%n_slip == 0) return
+      do k = system%n_contact + 1, 2*system%n_contact
+         if (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp) cycle
+         method%n_happened = method%n_happened + 1
+         method%happened(method%n_happened) = k
+      end do
+   end subroutine note_jumps
 
 end module slip_watch

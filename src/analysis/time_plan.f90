@@ -2,6 +2,7 @@
 module time_plan
    use columns, only: column_of
    use diagnostics, only: diagnostics_t
+   use instants, only: instants_t, new_instants
    use item, only: value_t
    use kinds, only: i8, wp
    use planar_system, only: planar_system_t
@@ -25,6 +26,7 @@ module time_plan
       real(wp) :: after = 0.0_wp            !! end of the transient, for the statistics [s]
       real(wp) :: period = 0.0_wp           !! of the drive, on average in the window of the statistics; 0: none [s]
       real(wp), allocatable :: strobes(:)   !! (n) multiples of the period from `after` to `end` [s]
+      type(instants_t) :: instants          !! when functions of time are not smooth
    end type time_plan_t
 
 contains
@@ -83,6 +85,7 @@ contains
       if (scene%has_statistics .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
          call plan_statistics(scene, system, plan, diagnostics)
       end if
+      if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%n_loose > 0, plan%instants)
    end subroutine new_time_plan
 
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.

@@ -9,6 +9,7 @@ module verb_explain
    use errors, only: error_t
    use explain_dropped, only: say_dropped
    use explain_guards, only: say_guards
+   use explain_instants, only: explain_instants_of
    use imsl_names, only: is_imsl_name
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -111,6 +112,7 @@ contains
       call explain_loose(loaded, y)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method(loaded)
+      call explain_instants_of(loaded)
       call say_guards(loaded)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
       defaults = all_defaults(loaded%deck)

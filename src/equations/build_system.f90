@@ -22,6 +22,7 @@ module build_system
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large, size_of_bodies
    use solver_registry, only: n_solver_kinds, new_solver
+   use start_piece, only: piece_at_start
    implicit none (type, external)
    private
    public :: levels_as_written, levels_ideal, levels_loose, new_system
@@ -72,6 +73,7 @@ contains
          call set_guided(scene, reduction%guides, choices, system)
       end associate
       call add_forces(scene, system)
+      system%piece = piece_at_start(scene)
       call declare_rows(system)
       system%row_weight = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
       call choose_hold(scene, system)

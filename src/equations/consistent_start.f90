@@ -145,10 +145,10 @@ contains
       call set_planar_motion(system%n_body, q, v, system%motion)
       system%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
       do k = 1, size(system%joints)
-         call system%joints(k)%set%evaluate(t, system%motion, system%rows)
+         call system%joints(k)%set%evaluate(system%piece%inside(t), system%motion, system%rows)
       end do
       do k = 1, size(system%ideal)
-         call system%ideal(k)%set%evaluate(t, system%motion, system%rows)
+         call system%ideal(k)%set%evaluate(system%piece%inside(t), system%motion, system%rows)
       end do
    end subroutine evaluate_rows
 

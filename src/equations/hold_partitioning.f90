@@ -109,14 +109,14 @@ contains
          if (.not. allocated(self%jac)) call make_room(self, system%rows%n_solve, 3*system%rows%n_unknown)
          if (self%rank < 0) then
             call system%set_motion(t, y)
-            call system%evaluate_rows(t)
+            call system%evaluate_rows(system%piece%inside(t))
             call sort_coordinates(self, system)
          end if
          before = huge(1.0_wp)
          associate (n => system%rows%n_solve)
             do k = 0, n_newton
                call system%set_motion(t, y)
-               call system%evaluate_rows(t)
+               call system%evaluate_rows(system%piece%inside(t))
                now = maxval(system%row_weight(:n)*abs(system%rows%phi(:n)))
                if (k == n_newton .or. now <= round_off .or. (now <= closed .and. now > 0.5_wp*before)) exit
                before = now

@@ -85,7 +85,7 @@ contains
       before = huge(1.0_wp)
       associate (n => system%rows%n_solve)
          do k = 0, n_newton
-            call system%evaluate_rows(t)
+            call system%evaluate_rows(system%piece%inside(t))
             now = maxval(system%row_weight(:n)*abs(system%rows%phi(:n)))
             if (k == n_newton .or. now <= round_off .or. now > 0.5_wp*before) exit
             before = now

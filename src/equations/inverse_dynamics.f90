@@ -30,7 +30,7 @@ contains
       system%loads%moment = 0.0_wp
       system%load_power = 0.0_wp
       do k = 1, size(system%forces)
-         call system%forces(k)%set%evaluate(t, system%motion, system%loads, system%load_power)
+         call system%forces(k)%set%evaluate(system%piece%inside(t), system%motion, system%loads, system%load_power)
       end do
       do k = 1, size(system%clearances)
          call system%clearances(k)%set%evaluate(system%motion, system%loads, system%losses)

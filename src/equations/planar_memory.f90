@@ -5,11 +5,11 @@ submodule(planar_system) planar_memory
 
 contains
 
-   !> Numbers that a checkpoint needs: the memory of all sets and the counter.
+   !> Numbers that a checkpoint needs: the memory of all sets, the counters and the stretch of smooth time.
    module procedure planar_memory_size
       integer :: k
 
-      n = 3 + self%way%memory_size()
+      n = 6 + self%way%memory_size()
       do k = 1, size(self%joints)
          n = n + self%joints(k)%set%memory_size()
       end do
@@ -29,6 +29,9 @@ contains
       call put(row, place, self%n_damped)
       call self%way%save(row, place)
       call put(row, place, self%solver%n_factorisations)
+      call put(row, place, self%piece%low)
+      call put(row, place, self%piece%high)
+      call put(row, place, self%piece%end)
       do k = 1, size(self%joints)
          call self%joints(k)%set%save(row, place)
       end do
@@ -48,6 +51,9 @@ contains
       call get(row, place, self%n_damped)
       call self%way%load(row, place)
       call get(row, place, self%solver%n_factorisations)
+      call get(row, place, self%piece%low)
+      call get(row, place, self%piece%high)
+      call get(row, place, self%piece%end)
       do k = 1, size(self%joints)
          call self%joints(k)%set%load(row, place)
       end do

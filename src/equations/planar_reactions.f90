@@ -11,7 +11,7 @@ contains
       integer :: k
 
       do k = self%n_solved_set + 1, size(self%joints)
-         call self%joints(k)%set%evaluate(t, self%motion, self%rows)
+         call self%joints(k)%set%evaluate(self%piece%inside(t), self%motion, self%rows)
       end do
       do k = 1, self%known%n
          call copy(self%known%item(k)%body)

@@ -355,7 +355,7 @@ contains
       column = 0
       do k = 1, size(system%forces)
          associate (set => system%forces(k)%set)
-            call set%report(channel, t, system%motion, values(:, column + 1:column + set%n))
+            call set%report(channel, system%piece%inside(t), system%motion, values(:, column + 1:column + set%n))
             column = column + set%n
          end associate
       end do

@@ -26,6 +26,7 @@ module planar_system
    use motion, only: loads_t, motion_t, set_some_acceleration, set_some_motion
    use grip_forces, only: grip_forces_t
    use planar_kernels, only: planar_loads, right_hand_side, start_loads, state_rates, take_known
+   use smooth_piece, only: smooth_piece_t
    implicit none (type, external)
    private
    public :: planar_system_t
@@ -66,6 +67,7 @@ module planar_system
       class(augmented_t), allocatable :: solver          !! way of solving the augmented equations
       class(hold_t), allocatable :: way                  !! way of holding the constraints
       logical :: is_redundant = .false.                  !! whether rows depend on one another from the start
+      type(smooth_piece_t) :: piece                      !! where functions of time are evaluated
       integer(i8) :: n_evaluations = 0                   !! evaluations made
       integer(i8) :: n_damped = 0                        !! those of them in which rows were dependent, or nearly so
       ! the last evaluation
@@ -338,16 +340,19 @@ contains
       real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
       integer, intent(out) :: status                 !! outcome
 
+      real(wp) :: inside
+
+      inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
       self%n_evaluations = self%n_evaluations + 1
       if (self%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          call correct_stage(self, t, y, status)
          if (status /= 0) return
-         call planar_set_motion(self, t, self%held)
+         call move_bodies(self, inside, self%held)
       else
-         call planar_set_motion(self, t, y)
+         call move_bodies(self, inside, y)
       end if
-      call evaluate_terms(self, t, status)
+      call evaluate_terms(self, inside, status)
       if (status /= 0) return
       if (self%rows%n_unknown > 0 .or. self%grips%n_slip > 0) then
          call self%find_accelerations(self%g, .true., status)
@@ -367,8 +372,7 @@ contains
          end if
       end associate
       if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
-      if (.not. self%with_ledger) return
-      call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
+      if (self%with_ledger) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
    end subroutine planar_evaluate
 
    !> Correct the coordinates and rates that an evaluation begins with, into `held`.
@@ -402,7 +406,7 @@ contains
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
    subroutine evaluate_terms(self, t, status)
       class(planar_system_t), intent(inout) :: self  !! the system, its motion set
-      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: t                      !! time, in the smooth stretch [s]
       integer, intent(out) :: status                 !! outcome
 
       integer :: k
@@ -425,7 +429,7 @@ contains
    !> Solved rows, rates of their violations and right-hand sides at the present motion.
    subroutine planar_evaluate_rows(self, t)
       class(planar_system_t), intent(inout) :: self  !! the system, its motion set
-      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: t                      !! time, in the smooth stretch [s]
 
       integer :: k
 
@@ -458,12 +462,21 @@ contains
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(2*self%n_position)   !! (2 positions) coordinates and rates, the first of a state [any]
 
+      call move_bodies(self, self%piece%inside(t), y)
+   end subroutine planar_set_motion
+
+   !> Motion of all bodies at a state and a time in the smooth stretch.
+   subroutine move_bodies(self, t, y)
+      class(planar_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                      !! time, in the smooth stretch [s]
+      real(wp), intent(in) :: y(2*self%n_position)   !! (2 positions) coordinates and rates, the first of a state [any]
+
       if (self%known%n > 0) call move_known(self%known, self%joints, t, self%motion)
       associate (n => 3*self%rows%n_unknown, nq => self%n_position)
          if (n > 0) call set_some_motion(self%rows%n_unknown, self%rows%unknown, y, y(nq + 1:nq + n), self%motion)
          if (self%guided%n > 0) call move_guided(self%guided, y(n + 1:nq), y(nq + n + 1:2*nq), self%motion)
       end associate
-   end subroutine planar_set_motion
+   end subroutine move_bodies
 
    !> Motion of all bodies, with accelerations, from a state and its derivative.
    subroutine planar_set_state(self, t, y, ydot)

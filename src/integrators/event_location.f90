@@ -2,7 +2,8 @@
 !>
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
-!> zero. What is found is a bracket; the integrator goes into it by its own means (a one-step method
+!> zero, at eight places, and then at least once in an interval that the caller sets (that of the output), so that no function is
+!> above zero there unseen. What is found is a bracket, the same one whatever that interval is; the integrator goes into it by its own means (a one-step method
 !> re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
@@ -18,7 +19,7 @@ module event_location
    private
    public :: dismiss_event, find_first_event, first_of, note_events, time_resolution
 
-   integer, parameter :: n_sample = 8      !! places of a step looked at
+   integer, parameter :: n_sample = 8      !! places of a step looked at, at least
    integer, parameter :: n_bisect = 30     !! halvings in search of a maximum on the interpolant
    integer, parameter :: n_narrow = 72     !! places looked at to narrow the bracket of an event, at most
    real(wp), parameter :: narrow_enough = 2.0_wp**(-18)  !! width of that bracket: re-stepping does the rest [1]
@@ -77,7 +78,8 @@ contains
 
       integer :: k
 
-      is_worth = .false.
+      is_worth = system%n_event > 0 .and. method%step%h > method%look
+      if (is_worth) return
       do k = 1, system%n_event
          is_worth = may_happen(method%g0(k) - method%threshold(k), method%step%h*method%rate0(k), &
                                method%g1(k) - method%threshold(k), method%step%h*method%rate1(k))
@@ -143,7 +145,7 @@ contains
 
       real(wp), allocatable :: g(:), rate(:), y(:)
       real(wp) :: a, b
-      integer :: i, k
+      integer :: i, k, n_inner
 
       ! the room of the integrator, while it itself is asked for states
       call move_alloc(method%scratch, y)
@@ -153,14 +155,10 @@ contains
       low = 0.0_wp
       high = 1.0_wp
       a = 0.0_wp
+      n_inner = ceiling(method%step%h/(n_sample*method%look))
       do i = 1, n_sample
          b = real(i, wp)/n_sample
-         if (i < n_sample) then
-            call values_at(b)
-         else
-            g = method%g1 - method%threshold
-            rate = method%rate1
-         end if
+         call values_at_place(b)
          do k = 1, system%n_event
             if (g(k) > 0.0_wp) event = k
          end do
@@ -168,6 +166,7 @@ contains
          do k = 1, system%n_event
             if (g(k) <= 0.0_wp .and. rate(k) < 0.0_wp .and. g(k) - rate(k)*method%step%h*(b - a) > 0.0_wp) call climb(k, a, b)
          end do
+         if (n_inner > 1) call look_between(a, b)
          if (event /= 0) exit
          a = b
       end do
@@ -191,6 +190,58 @@ contains
          call method%within(system, s, y)
          call method%look_at_events(system, method%step%t0 + s*method%step%h, y, g, rate)
       end subroutine values_at
+
+      !> Event functions at a place of the step; at its end they are known.
+      subroutine values_at_place(s)
+         real(wp), intent(in) :: s  !! place [1]
+
+         if (s < 1.0_wp) then
+            call values_at(s)
+         else
+            g = method%g1 - method%threshold
+            rate = method%rate1
+         end if
+      end subroutine values_at_place
+
+      !> Look at places between two: for an event there that is over by the upper place. The bracket of one that is not stays
+      !> what it is.
+      subroutine look_between(a, b)
+         real(wp), intent(inout) :: a   !! place before the event [1]
+         real(wp), intent(inout) :: b   !! place after it, the event functions are there [1]
+
+         logical :: is_above(system%n_event)
+         real(wp) :: before, found, s
+         integer :: i, k
+
+         is_above = g > 0.0_wp
+         if (event > 0) is_above(event) = .true.
+         k = 0
+         before = a
+         found = b
+         do i = 1, n_inner - 1
+            s = a + (b - a)*(real(i, wp)/n_inner)
+            call values_at(s)
+            if (k > 0) then
+               if (g(k) > 0.0_wp) cycle
+               is_above(k) = .false.
+               exit
+            else if (all(g <= 0.0_wp)) then
+               before = s
+            else
+               k = maxloc(g, dim=1)
+               found = s
+               if (.not. is_above(k)) exit
+            end if
+         end do
+         if (k > 0) then
+            if (.not. is_above(k)) then
+               event = k
+               a = before
+               b = found
+            end if
+         end if
+         call values_at_place(b)
+      end subroutine look_between
 
       !> Follow function k to its maximum between two places; if that is above zero, it is the event
       !> and b the place of the maximum.

@@ -70,6 +70,7 @@ module integrator
       type(controls_t) :: controls              !! what the user set
       type(step_t) :: step                      !! the last step; its end is the present state
       real(wp) :: t = 0.0_wp                    !! present time [s]
+      real(wp) :: look = huge(1.0_wp)           !! farthest that places of a step are apart at which events are looked for [s]
       real(wp), allocatable :: trial(:)         !! (n) state at the end of a trial step [any]
       real(wp), allocatable :: scale(:)         !! (n) error scales [any]
       real(wp), allocatable :: scratch(:)       !! (n) room for one state [any]

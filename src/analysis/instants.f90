@@ -1,0 +1,265 @@
+!> Instants at which functions of time are not smooth, and how long a step may be so that it passes over nothing.
+!>
+!> The expressions of loads and drivers are searched as the motion goes on (`root_scan`, `pace_scan`). An instant ends a step
+!> exactly; up to it the system evaluates all functions on their left side, then on their right one, and the integrator
+!> restarts (`smooth_piece`). Between instants a step is not longer than the functions' pace, nor than a quarter of a turn of
+!> any body that a contact may touch, unless the user has set a greatest or fixed step.
+!>
+!> Limits: laws of springs and contacts are functions of the state; their kinks are left to the control of the step.
+module instants
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
+   use expression, only: expression_t
+   use expression_switches, only: find_switches, switch_t
+   use integrator, only: integrator_t
+   use kind_info, only: cell_expression, dim_angle, same_dimension
+   use kinds, only: eps, pi, wp
+   use pace_scan, only: new_pace_scan, pace_scan_t
+   use planar_system, only: planar_system_t
+   use root_scan, only: new_root_scan, place_t, root_scan_t
+   use scene, only: scene_t, table_t
+   use smooth_piece, only: smooth_piece_t
+   implicit none (type, external)
+   private
+   public :: instants_t, new_instants, watched_t
+
+   real(wp), parameter :: one = 16.0_wp*eps     !! of the time: instants closer than this are one [1]
+   real(wp), parameter :: turn = 0.5_wp*pi      !! greatest turn of a body with contacts in a step [rad]
+
+   !> A cell of the deck whose expression is watched.
+   type :: watched_t
+      character(:), allocatable :: name        !! of the cell, as `hand.fx`
+      type(root_scan_t), allocatable :: scans(:)  !! (n) where it is not smooth
+      type(place_t), allocatable :: next(:)    !! (n) the next place of each
+      type(pace_scan_t) :: pace                !! how long a step may be
+   end type watched_t
+
+   !> All of them, and where the motion is.
+   type :: instants_t
+      type(watched_t), allocatable :: cells(:)   !! (cells or more) what is watched
+      integer :: n = 0                           !! cells
+      type(place_t) :: next                      !! the next instant
+      real(wp) :: end = 0.0_wp                   !! end of the motion [s]
+      logical :: paces = .false.                 !! some function limits the step
+   contains
+      procedure :: begin => instants_begin
+      procedure :: is_at => instants_is_at
+      procedure :: pass => instants_pass
+      procedure :: stop_after => instants_stop_after
+   end type instants_t
+
+contains
+
+   !> Watch the expressions of a scene.
+   subroutine new_instants(scene, end, has_contacts, instants)
+      type(scene_t), intent(in) :: scene           !! the scene
+      real(wp), intent(in) :: end                  !! end of the motion [s]
+      logical, intent(in) :: has_contacts          !! whether anything may touch
+      type(instants_t), intent(out) :: instants    !! nothing found yet
+
+      type(ieee_status_type) :: status
+      integer :: k
+
+      instants%end = end
+      if (.not. end > 0.0_wp) return
+      allocate (instants%cells(sum([(functions_of_time(scene%joints(k)), k=1, size(scene%joints))]) &
+                               + sum([(functions_of_time(scene%forces(k)), k=1, size(scene%forces))])))
+      call ieee_get_status(status)
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      do k = 1, size(scene%joints)
+         call watch_table(scene%joints(k), has_contacts, instants)
+      end do
+      do k = 1, size(scene%forces)
+         call watch_table(scene%forces(k), .false., instants)
+      end do
+      call ieee_set_status(status)
+   end subroutine new_instants
+
+   !> Watch the expressions of a table.
+   subroutine watch_table(table, turns_count, instants)
+      type(table_t), intent(in) :: table              !! rows of a kind
+      logical, intent(in) :: turns_count              !! whether angles must not turn by much in a step
+      type(instants_t), intent(inout) :: instants     !! cells are added
+
+      type(watched_t) :: cell
+      integer :: c, i
+
+      do c = 1, size(table%info%columns)
+         do i = 1, size(table%items)
+            if (.not. is_function_of_time(table, c, i)) cycle
+            associate (expression => table%items(i)%values(c)%expression)
+               cell%name = table%items(i)%name//"."//table%info%columns(c)%name
+               call watch(expression, instants%end, turns_count .and. same_dimension(expression%dimension, dim_angle), cell)
+               if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
+               instants%n = instants%n + 1
+               instants%cells(instants%n) = cell
+               instants%paces = instants%paces .or. .not. cell%pace%is_calm
+            end associate
+         end do
+      end do
+   end subroutine watch_table
+
+   !> Cells of a table that are functions of time.
+   pure integer function functions_of_time(table) result(n)
+      type(table_t), intent(in) :: table   !! rows of a kind
+
+      integer :: c, i
+
+      n = 0
+      do c = 1, size(table%info%columns)
+         n = n + count([(is_function_of_time(table, c, i), i=1, size(table%items))])
+      end do
+   end function functions_of_time
+
+   !> Whether a cell is a function of time, and no constant.
+   pure logical function is_function_of_time(table, c, i) result(is_one)
+      type(table_t), intent(in) :: table   !! rows of a kind
+      integer, intent(in) :: c             !! column
+      integer, intent(in) :: i             !! row
+
+      is_one = table%info%columns(c)%cell == cell_expression .and. table%info%columns(c)%variable == "t"
+      if (.not. is_one) return
+      associate (expression => table%items(i)%values(c)%expression)
+         is_one = .not. expression%is_constant .and. allocated(expression%code)
+      end associate
+   end function is_function_of_time
+
+   !> Watch an expression.
+   subroutine watch(expression, end, is_turning, cell)
+      type(expression_t), intent(in) :: expression   !! the expression
+      real(wp), intent(in) :: end                    !! end of the motion [s]
+      logical, intent(in) :: is_turning              !! it is an angle that must not turn by much in a step
+      type(watched_t), intent(inout) :: cell         !! receives the searches
+
+      type(switch_t), allocatable :: switches(:)
+      integer :: k
+
+      call find_switches(expression, switches)
+      if (allocated(cell%scans)) deallocate (cell%scans, cell%next)
+      allocate (cell%scans(size(switches)), cell%next(size(switches)))
+      do k = 1, size(switches)
+         call new_root_scan(switches(k), 0.0_wp, end, cell%scans(k))
+      end do
+      call new_pace_scan(expression, 0.0_wp, end, merge(turn, 0.0_wp, is_turning), cell%pace)
+   end subroutine watch
+
+   !> The motion begins at t = 0: functions take their right side there.
+   subroutine instants_begin(self, end, piece)
+      class(instants_t), intent(inout) :: self       !! the instants
+      real(wp), intent(in) :: end                    !! end of the motion [s]
+      type(smooth_piece_t), intent(out) :: piece     !! the first stretch
+
+      type(ieee_status_type) :: status
+      integer :: i, k
+
+      self%end = end
+      call ieee_get_status(status)
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      do i = 1, self%n
+         do k = 1, size(self%cells(i)%scans)
+            call self%cells(i)%scans(k)%next(self%cells(i)%next(k))
+         end do
+      end do
+      call find_next(self)
+      call ieee_set_status(status)
+      piece%high = self%next%low
+      piece%end = self%next%at
+      do while (self%next%at <= 0.0_wp)
+         call self%pass(piece)
+      end do
+   end subroutine instants_begin
+
+   !> Whether an instant has been reached.
+   pure logical function instants_is_at(self, t) result(is_at)
+      class(instants_t), intent(in) :: self  !! the instants
+      real(wp), intent(in) :: t              !! the time [s]
+
+      is_at = t >= self%next%at
+   end function instants_is_at
+
+   !> Pass the next instant: functions take their right side, and the one after it is looked for.
+   subroutine instants_pass(self, piece)
+      class(instants_t), intent(inout) :: self       !! the instants
+      type(smooth_piece_t), intent(inout) :: piece   !! the stretch that begins
+
+      type(ieee_status_type) :: status
+      integer :: i, k
+
+      call ieee_get_status(status)
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      piece%low = self%next%high
+      do i = 1, self%n
+         associate (cell => self%cells(i))
+            do k = 1, size(cell%scans)
+               do while (cell%next(k)%at <= self%next%at)
+                  call cell%scans(k)%next(cell%next(k))
+               end do
+            end do
+         end associate
+      end do
+      call find_next(self)
+      call ieee_set_status(status)
+      piece%high = self%next%low
+      piece%end = self%next%at
+   end subroutine instants_pass
+
+   !> The next instant; places that are round-off apart are one.
+   subroutine find_next(self)
+      class(instants_t), intent(inout) :: self  !! the instants
+
+      real(wp) :: first
+      integer :: i, k
+
+      self%next = place_t()
+      first = huge(1.0_wp)
+      do i = 1, self%n
+         if (size(self%cells(i)%next) > 0) first = min(first, minval(self%cells(i)%next%at))
+      end do
+      if (.not. first < huge(1.0_wp)) return
+      self%next = place_t(first, first, first)
+      do i = 1, self%n
+         do k = 1, size(self%cells(i)%next)
+            associate (next => self%cells(i)%next(k))
+               if (next%at > first + one*abs(first)) cycle
+               self%next = place_t(min(self%next%low, next%low), max(self%next%at, next%at), max(self%next%high, next%high))
+            end associate
+         end do
+      end do
+   end subroutine find_next
+
+   !> Where a step that begins now must end at the latest.
+   subroutine instants_stop_after(self, system, method, stop)
+      class(instants_t), intent(inout) :: self       !! the instants
+      type(planar_system_t), intent(inout) :: system !! the system; its motion becomes that of the beginning of the step
+      class(integrator_t), intent(in) :: method      !! the integrator, at the beginning of the step
+      real(wp), intent(out) :: stop                  !! its latest end [s]
+
+      type(ieee_status_type) :: status
+      real(wp) :: latest, omega
+      integer :: i, k
+
+      stop = min(self%end, self%next%at)
+      if (method%controls%maximum_step > 0.0_wp .or. method%controls%fixed_step > 0.0_wp) return
+      latest = stop
+      if (self%paces) then
+         call ieee_get_status(status)
+         call ieee_set_halting_mode(ieee_usual, .false.)
+         do i = 1, self%n
+            call self%cells(i)%pace%stop_after(method%t, latest)
+            stop = min(stop, latest)
+         end do
+         call ieee_set_status(status)
+      end if
+      if (system%n_loose == 0) return
+      call system%set_motion(method%t, method%step%y1)
+      omega = 0.0_wp
+      do k = 1, size(system%clearances)
+         associate (body => system%clearances(k)%set%body)
+            do i = 1, size(body, 2)
+               omega = max(omega, abs(system%motion%omega(3, body(1, i))), abs(system%motion%omega(3, body(2, i))))
+            end do
+         end associate
+      end do
+      if (omega*(stop - method%t) > turn) stop = method%t + turn/omega
+   end subroutine instants_stop_after
+
+end module instants

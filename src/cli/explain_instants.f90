@@ -1,0 +1,113 @@
+!> What `gudgeon explain` says of instants at which functions of time are not smooth, and of the greatest step.
+module explain_instants
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
+   use console, only: say
+   use instants, only: watched_t
+   use kinds, only: wp
+   use load, only: loaded_t
+   use root_scan, only: place_t
+   use scene, only: analysis_dynamic
+   use columns, only: column_of
+   use text, only: real_text, to_text
+   implicit none (type, external)
+   private
+   public :: explain_instants_of
+
+   integer, parameter :: n_shown = 6             !! instants that are named, of one cell
+   integer, parameter :: most_counted = 100000   !! instants that are counted
+
+contains
+
+   !> Instants by cell of the deck, paces, and the limit that is in force.
+   subroutine explain_instants_of(loaded)
+      type(loaded_t), intent(in) :: loaded   !! the deck
+
+      type(ieee_status_type) :: status
+      type(watched_t) :: cell
+      real(wp) :: fixed, greatest
+      integer :: k
+
+      if (loaded%scene%analysis /= analysis_dynamic) return
+      associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
+         fixed = values(column_of(kind, "step"))%number
+         greatest = values(column_of(kind, "maximum_step"))%number
+      end associate
+      call say("")
+      call say("instants and the greatest step")
+      call ieee_get_status(status)
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      do k = 1, loaded%plan%instants%n
+         cell = loaded%plan%instants%cells(k)
+         call explain_places(cell)
+         call explain_pace(cell)
+      end do
+      call ieee_set_status(status)
+      if (all([(size(loaded%plan%instants%cells(k)%scans) == 0, k=1, loaded%plan%instants%n)])) then
+         call say("all functions of time are smooth", 2)
+      else
+         call say("steps end at these instants, and the method begins anew there", 2)
+      end if
+      if (fixed > 0.0_wp) then
+         call say("fixed steps of "//real_text(fixed, 6)//" s: what is shorter may be passed over", 2)
+      else if (greatest > 0.0_wp) then
+         call say("no step is longer than "//real_text(greatest, 6)//" s (maximum_step): what is shorter may be passed over", 2)
+      else
+         if (loaded%plan%instants%paces) call say("no step is longer than what a function of time does, as said above", 2)
+         if (loaded%system%n_loose > 0) then
+            call say("no step is longer than a quarter of a turn of a body that may touch another", 2)
+         end if
+         call say("the length of a step is else what the error allows; contacts are looked for at 8 places of it, and at least "// &
+                  "once in an output interval", 2)
+      end if
+   end subroutine explain_instants_of
+
+   !> The instants of a cell.
+   subroutine explain_places(cell)
+      type(watched_t), intent(inout) :: cell   !! the cell; its searches are used up
+
+      type(place_t) :: next(size(cell%scans))
+      character(:), allocatable :: words
+      real(wp) :: t
+      integer :: k, n
+
+      if (size(next) == 0) return
+      words = ""
+      n = 0
+      do k = 1, size(next)
+         call cell%scans(k)%next(next(k))
+      end do
+      do
+         t = minval(next%at)
+         if (t >= huge(t) .or. n == most_counted) exit
+         n = n + 1
+         if (n <= n_shown) words = words//" "//real_text(t, 9)
+         do k = 1, size(next)
+            do while (next(k)%at <= t)
+               call cell%scans(k)%next(next(k))
+            end do
+         end do
+      end do
+      if (n == 0) then
+         call say(cell%name//": smooth over the motion", 2)
+      else if (n <= n_shown) then
+         call say(cell%name//": not smooth at t ="//words//" s", 2)
+      else if (n == most_counted) then
+         call say(cell%name//": not smooth at more than "//to_text(n)//" instants, t ="//words//" ... s", 2)
+      else
+         call say(cell%name//": not smooth at "//to_text(n)//" instants, t ="//words//" ... s", 2)
+      end if
+   end subroutine explain_places
+
+   !> The shortest pace of a cell.
+   subroutine explain_pace(cell)
+      type(watched_t), intent(inout) :: cell   !! the cell; its search is used up
+
+      real(wp) :: at, pace
+
+      if (cell%pace%is_calm) return
+      call cell%pace%shortest(pace, at)
+      if (pace >= huge(pace)) return
+      call say(cell%name//": steps up to "//real_text(pace, 3)//" s near t = "//real_text(at, 6)//" s, where it is quickest", 2)
+   end subroutine explain_pace
+
+end module explain_instants

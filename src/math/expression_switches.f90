@@ -1,0 +1,158 @@
+!> Where an expression is not smooth: functions of its first variable that change sign, or touch zero, there.
+!>
+!> | operation | function | |
+!> |---|---|---|
+!> | step(u), abs(u) | u | changes sign |
+!> | min(a, b), max(a, b) | a - b, with the sign for which below zero means b | changes sign |
+!> | atan2(y, x) | y, where x is negative | changes sign |
+!> | a curve that holds or goes on straight | its argument less its first, its last place | changes sign |
+!> | sqrt(u), u^p with p < 2 | u | touches zero |
+!> | asin(u), acos(u) | 1 - u^2 | touches zero |
+!>
+!> The operations choose their branch by `function < 0`, and so does whoever looks for the places, so that a place is between
+!> two neighbouring numbers. Each function is itself an expression, the part of the program that makes the argument.
+!> Limits: a cubic spline is twice continuously differentiable; its knots are no such places.
+module expression_switches
+   use curve, only: beyond_hold, beyond_linear
+   use expression, only: expression_t, op_abs, op_acos, op_add, op_asin, op_atan2, op_curve, op_integer_power, op_max, op_min, &
+      op_number, op_real_power, op_sqrt, op_step, op_subtract, op_time
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: find_switches, switch_t
+
+   !> A function whose sign, or zero, says where an expression is not smooth.
+   type :: switch_t
+      type(expression_t) :: g                 !! the function
+      logical :: touches = .false.            !! it does not change its sign but touches zero
+      type(expression_t), allocatable :: condition  !! it counts only where this is negative
+   end type switch_t
+
+contains
+
+   !> All switches of an expression; none if it is smooth.
+   subroutine find_switches(expression, switches)
+      type(expression_t), intent(in) :: expression             !! the expression
+      type(switch_t), allocatable, intent(out) :: switches(:)  !! (n) what to look at
+
+      integer :: first, k, middle
+
+      allocate (switches(0))
+      if (expression%is_constant) return
+      do k = 1, size(expression%code)
+         select case (expression%code(k))
+         case (op_step, op_abs)
+            call add(part(expression, begin_of(expression, k - 1), k - 1), .false.)
+         case (op_sqrt)
+            call add(part(expression, begin_of(expression, k - 1), k - 1), .true.)
+         case (op_real_power)
+            if (expression%operand(k) < 2.0_wp .and. expression%operand(k) > 0.0_wp) then
+               call add(part(expression, begin_of(expression, k - 1), k - 1), .true.)
+            end if
+         case (op_asin, op_acos)
+            first = begin_of(expression, k - 1)
+            call add(extended(extended(part(expression, first, k - 1), op_integer_power, 2.0_wp), op_subtract, 1.0_wp), .true.)
+         case (op_min, op_max, op_atan2)
+            middle = begin_of(expression, k - 1)
+            first = begin_of(expression, middle - 1)
+            if (expression%code(k) == op_max) then
+               call add(part(expression, first, k - 1, op_subtract), .false.)
+            else if (expression%code(k) == op_min) then
+               call add(part(expression, middle, k - 1, op_subtract, first), .false.)
+            else
+               call add(part(expression, first, middle - 1), .false.)
+               if (size(switches) > 0) call set_condition(switches(size(switches)), part(expression, middle, k - 1))
+            end if
+         case (op_curve)
+            associate (curve => expression%curves(nint(expression%operand(k))))
+               if (curve%beyond /= beyond_hold .and. curve%beyond /= beyond_linear) cycle
+               first = begin_of(expression, k - 1)
+               call add(extended(part(expression, first, k - 1), op_subtract, curve%x(1)), .false.)
+               call add(extended(part(expression, first, k - 1), op_subtract, curve%x(size(curve%x))), .false.)
+            end associate
+         end select
+      end do
+
+   contains
+
+      !> Append a switch whose function moves.
+      subroutine add(g, touches)
+         type(expression_t), intent(in) :: g   !! its function
+         logical, intent(in) :: touches        !! whether it is one that touches zero
+
+         if (.not. any(g%code == op_time .and. nint(g%operand) == 1)) return
+         switches = [switches, switch_t(g, touches)]
+      end subroutine add
+
+   end subroutine find_switches
+
+   !> A switch counts only where a function is negative.
+   subroutine set_condition(switch, condition)
+      type(switch_t), intent(inout) :: switch      !! the switch
+      type(expression_t), intent(in) :: condition  !! the function
+
+      switch%condition = condition
+   end subroutine set_condition
+
+   !> Where the operand begins that ends with an operation.
+   pure integer function begin_of(expression, last) result(first)
+      type(expression_t), intent(in) :: expression  !! the expression
+      integer, intent(in) :: last                   !! number of the last operation
+
+      integer :: wanted
+
+      wanted = 1
+      first = last + 1
+      do while (wanted > 0)
+         first = first - 1
+         select case (expression%code(first))
+         case (op_number, op_time)
+            wanted = wanted - 1
+         case (op_add:op_atan2)
+            wanted = wanted + 1
+         end select
+      end do
+   end function begin_of
+
+   !> A part of a program, followed by that from `again` to before its first operation, and by an operation.
+   pure function part(expression, first, last, op, again) result(g)
+      type(expression_t), intent(in) :: expression  !! the expression
+      integer, intent(in) :: first                  !! first operation
+      integer, intent(in) :: last                   !! last operation
+      integer, intent(in), optional :: op           !! operation to follow
+      integer, intent(in), optional :: again        !! first operation of the other operand
+      type(expression_t) :: g                       !! the part
+
+      g%code = expression%code(first:last)
+      g%operand = expression%operand(first:last)
+      if (present(again)) then
+         g%code = [g%code, expression%code(again:first - 1)]
+         g%operand = [g%operand, expression%operand(again:first - 1)]
+      end if
+      if (present(op)) then
+         g%code = [g%code, op]
+         g%operand = [g%operand, 0.0_wp]
+      end if
+      if (allocated(expression%curves)) g%curves = expression%curves
+      g%others = expression%others
+      g%is_constant = .false.
+   end function part
+
+   !> A program with an operation more: a power, or one with a number as second operand.
+   pure function extended(expression, op, number) result(g)
+      type(expression_t), intent(in) :: expression  !! the program
+      integer, intent(in) :: op                     !! the operation
+      real(wp), intent(in) :: number                !! its number [any]
+      type(expression_t) :: g                       !! the longer program
+
+      g = expression
+      if (op == op_integer_power) then
+         g%code = [g%code, op]
+         g%operand = [g%operand, number]
+      else
+         g%code = [g%code, op_number, op]
+         g%operand = [g%operand, number, 0.0_wp]
+      end if
+   end function extended
+
+end module expression_switches
