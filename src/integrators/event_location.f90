@@ -3,8 +3,8 @@
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
 !> zero, at eight places, and then at least once in an interval that the caller sets (that of the output), so that no function is
-!> above zero there unseen. What is found is a bracket, the same one whatever that interval is; the integrator goes into it by its own means (a one-step method
-!> re-steps, so that the event is as accurate as the step, not as the interpolant).
+!> above zero there unseen. What is found is a bracket, the same one whatever that interval is; the integrator
+!> goes into it by its own means (a one-step method re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
 !> - a function that begins a step at g_0 > -r must rise above g_0 + r, its threshold, to be at its event: one that has just had it,
@@ -13,7 +13,7 @@
 !> - all functions that rise, at zero to r and to the spacing of time, are at their events together with the first one.
 module event_location
    use integrator, only: integrator_t
-   use kinds, only: eps, wp
+   use kinds, only: eps, i8, wp
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
@@ -145,7 +145,8 @@ contains
 
       real(wp), allocatable :: g(:), rate(:), y(:)
       real(wp) :: a, b
-      integer :: i, k, n_inner
+      integer(i8) :: n_inner
+      integer :: i, k
 
       ! the room of the integrator, while it itself is asked for states
       call move_alloc(method%scratch, y)
@@ -155,7 +156,7 @@ contains
       low = 0.0_wp
       high = 1.0_wp
       a = 0.0_wp
-      n_inner = ceiling(method%step%h/(n_sample*method%look))
+      n_inner = ceiling(method%step%h/n_sample/method%look, i8)
       do i = 1, n_sample
          b = real(i, wp)/n_sample
          call values_at_place(b)
@@ -211,7 +212,8 @@ contains
 
          logical :: is_above(system%n_event)
          real(wp) :: before, found, s
-         integer :: i, k
+         integer(i8) :: i
+         integer :: k
 
          is_above = g > 0.0_wp
          if (event > 0) is_above(event) = .true.
