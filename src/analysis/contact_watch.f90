@@ -5,9 +5,10 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
    use integrator, only: integrator_t, onset_located
-   use kinds, only: not_a_number, wp
+   use kinds, only: not_a_number, pi, wp
    use memory, only: get, put
    use planar_system, only: n_ledger, planar_system_t
    use recorder, only: event_t
@@ -247,11 +248,11 @@ contains
       if (number > system%n_contact) then
          is_over = .not. (system%first_turn > 0 .and. number > system%first_turn)
          if (is_over) then
-            call handle_slip(system, method%t, method%step%y1, k, i, row)
+            call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
          else
             call handle_turn(system, method%t, method%step%y1, k, i)
          end if
-         step_hint = step_in_contact(system%clearances(k)%set%contact(i)%impact_speed)
+         step_hint = step_in_contact()
          return
       end if
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
@@ -269,7 +270,8 @@ contains
          else
             rate = max(rate, 0.0_wp)
             call set%begin_contact(i, method%t, rate, loss_of(system, method%step%y1, number))
-            step_hint = step_in_contact(rate)
+            call set%note_swing(i, penetration%value)
+            step_hint = step_in_contact()
          end if
          if (.not. (set%energy_jumps .and. system%with_ledger)) return
          lost = stored - set%elastic_energy(system%motion)
@@ -280,11 +282,15 @@ contains
 
    contains
 
-      !> Step that suits the contact.
-      real(wp) function step_in_contact(speed) result(step)
-         real(wp), intent(in) :: speed  !! its impact speed [m/s]
-
-         step = first_step*system%clearances(k)%set%contact_time(i, max(speed, tiny(1.0_wp)), system%inverse_mass(1, :))
+      !> Step that suits the contact: a part of its swing; of that of the slowest impact if it has neither speed nor depth.
+      real(wp) function step_in_contact() result(step)
+         associate (set => system%clearances(k)%set)
+            if (set%contact(i)%swing > 0.0_wp) then
+               step = first_step*pi/set%contact(i)%swing
+            else
+               step = first_step*set%contact_time(i, at_rest*system%pace*system%length_scale, system%inverse_mass(1, :))
+            end if
+         end associate
       end function step_in_contact
 
    end subroutine handle_event

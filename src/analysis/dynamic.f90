@@ -136,6 +136,7 @@ contains
 
       run%instants = plan%instants
       call run%instants%begin(plan%end, system%piece)
+      call system%begin_pace(0.0_wp, y, plan%end)
       call system%set_motion(0.0_wp, y)
       call decide_slips(system, 0.0_wp, y, recorder, run, error)
       if (allocated(error)) return
@@ -188,9 +189,9 @@ contains
       end do
    end subroutine integrate
 
-   !> Constraint violation and energy balance at the end of a step.
+   !> Pace, constraint violation and energy balance at the end of a step.
    subroutine look_at_step(system, method, run)
-      type(planar_system_t), intent(in) :: system     !! the system, last evaluated at the end of the step
+      type(planar_system_t), intent(inout) :: system  !! the system, last evaluated at the end of the step
       class(integrator_t), intent(in) :: method       !! the integrator
       type(run_t), intent(inout) :: run               !! maxima are raised
 
@@ -198,6 +199,7 @@ contains
       real(wp) :: scaled
       integer :: k
 
+      call system%follow_pace(method%step%y1)
       do k = 1, system%rows%n_solve
          scaled = system%row_weight(k)*abs(system%rows%phi(k))
          run%is_lost = run%is_lost .or. scaled > merge(lost_angle, lost_length, system%rows%is_angle(k))
@@ -294,11 +296,13 @@ contains
       type(run_t), intent(inout) :: run                   !! state of the run
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
 
+      real(wp), allocatable :: before(:)
       integer :: status
 
       call run%sampler%before_instant(system, method, plan, run%watch, run%residual, recorder, error)
       if (allocated(error)) return
       method%g = method%g1
+      before = method%step%f1
       call run%instants%pass(system%piece)
       call decide_slips(system, method%t, method%step%y1, recorder, run, error)
       if (allocated(error)) return
@@ -307,6 +311,7 @@ contains
          call describe_failure(system, method, status, error)
          return
       end if
+      call system%follow_pace(method%step%y1, method%step%f1 - before)
       call look_at_step(system, method, run)  ! a jump of a driver is seen here, before the stabilisation acts
       if (run%is_lost) then
          call describe_failure(system, method, constraints_lost, error)

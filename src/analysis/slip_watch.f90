@@ -2,6 +2,7 @@
 module slip_watch
    use catalogue, only: state_free, state_name
    use contact_grip, only: is_undecided, sticks
+   use floors, only: at_rest
    use friction_law, only: memory_slip
    use integrator, only: integrator_t
    use kinds, only: not_a_number, wp
@@ -16,20 +17,23 @@ module slip_watch
 
 contains
 
-   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way.
-   subroutine handle_slip(system, t, y, slot, k, row)
+   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; there is
+   !> nothing to tell of one that goes on as before.
+   subroutine handle_slip(system, t, y, slot, k, has_row, row)
       type(planar_system_t), intent(inout) :: system   !! the system; the contact's state is changed
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       integer, intent(in) :: slot                      !! set of the contact
       integer, intent(in) :: k                         !! contact of the set
+      logical, intent(out) :: has_row                  !! something changed: `row` tells of it
       type(event_t), intent(out) :: row                !! what happened
 
       integer :: before
 
       before = system%clearances(slot)%set%grip%slip(k)
       call system%decide_slip(t, y, slot, k)
-      call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", before == sticks), row)
+      has_row = system%clearances(slot)%set%grip%slip(k) /= before
+      if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", before == sticks), row)
    end subroutine handle_slip
 
    !> Decide about the first contact that has begun and is not decided. The row tells of it if it sticks.
@@ -86,17 +90,27 @@ contains
    end subroutine tell
 
    !> Contacts whose event of friction a jump of a load brought about, as what happened at the end of the last step: `g` holds
-   !> the event functions before the jump, the integrator was begun anew behind it.
+   !> the event functions before the jump, the integrator was begun anew behind it. So do those that slip with no speed to speak
+   !> of: drivers may have come to rest, but for round-off, or may be about to turn.
    subroutine note_jumps(system, method)
       type(planar_system_t), intent(in) :: system       !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator
 
-      integer :: k
+      integer :: contact, k, slot
+      logical :: is_slow
 
       method%n_happened = 0
       if (system%grips%n_slip == 0) return
       do k = system%n_contact + 1, 2*system%n_contact
-         if (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp) cycle
+         call system%find_contact(k, slot, contact)
+         associate (set => system%clearances(slot)%set)
+            is_slow = .false.
+            if (set%grip%memory == memory_slip .and. set%contact(contact)%is_touching) then
+               is_slow = abs(set%grip%slip(contact)) == 1 .and. &
+                         abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%pace*system%length_scale
+            end if
+         end associate
+         if (.not. is_slow .and. (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp)) cycle
          method%n_happened = method%n_happened + 1
          method%happened(method%n_happened) = k
       end do

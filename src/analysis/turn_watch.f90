@@ -10,14 +10,12 @@
 !> Signs: rates are positive while approaching. Source: A. F. Filippov, Differential Equations with Discontinuous Righthand Sides
 !> (1988), chapter 2, with the sliding mode smoothed. Limits: contacts change one after another, each for the others as they are.
 module turn_watch
-   use clearance_set, only: approaches, parts, rests
+   use contact_memory, only: approaches, parts, rests
    use kinds, only: wp
    use planar_system, only: planar_system_t
    implicit none (type, external)
    private
    public :: handle_turn
-
-   real(wp), parameter :: lightest = 1.0e-9_wp  !! inverse of the reduced mass: bodies that cannot move [1/kg]
 
 contains
 
@@ -60,7 +58,7 @@ contains
       associate (set => system%clearances(slot)%set)
          call set%law%force(2, [delta, delta], [1.0_wp, -1.0_wp], spread(set%contact(k)%impact_speed, 1, 2), &
                             spread(set%parameters(:, k), 2, 2), f, by_delta, by_rate, elastic)
-         speed = 0.5_wp*(f(1) - f(2))*sqrt(max(set%pairs(set%item_of(k))%inverse_mass, lightest)/max(by_delta(1), tiny(1.0_wp)))
+         speed = 0.5_wp*(f(1) - f(2))*sqrt(set%pairs(set%item_of(k))%inverse_mass/max(by_delta(1), tiny(1.0_wp)))
       end associate
       speed = max(speed, tiny(1.0_wp))
    end function speed_of_rest

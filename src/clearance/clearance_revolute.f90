@@ -14,7 +14,8 @@
 !> book prints. Limits: both surfaces round; one contact per joint.
 module clearance_revolute
    use bodies, only: material_t
-   use clearance_set, only: clearance_set_t, contact_memory_t, loss_contact, loss_friction
+   use clearance_set, only: clearance_set_t, loss_contact, loss_friction
+   use contact_memory, only: contact_memory_t
    use contact_grip, only: tangent_t
    use friction_law, only: memory_none
    use item, only: item_t

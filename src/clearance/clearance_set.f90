@@ -9,38 +9,23 @@ module clearance_set
    use bodies, only: material_t, points_t
    use catalogue, only: state_contact, state_free, state_name
    use contact_grip, only: grip_t, n_grip_memory, new_grip, slip_force, tangent_t
+   use contact_memory, only: contact_memory_t, n_contact_memory, rests
+   use floors, only: gentle
    use friction_law, only: friction_law_t, memory_none
    use item, only: item_t
    use kind_info, only: kind_info_t
-   use kinds, only: not_a_number, wp
-   use memory, only: get, put
+   use kinds, only: not_a_number, pi, wp
    use motion, only: loads_t, motion_t
-   use normal_law, only: n_law_parameter, normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use recorder, only: event_t
    use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: approaches, clearance_fit_law, clearance_set_t, clearance_slot_t, contact_memory_t, loss_contact, loss_friction, &
-      parts, rests
+   public :: clearance_fit_law, clearance_set_t, clearance_slot_t, loss_contact, loss_friction
 
-   integer, parameter :: approaches = 1     !! course: the penetration grows
-   integer, parameter :: parts = -1         !! course: it falls
-   integer, parameter :: rests = 0          !! course: a load between both forces keeps it from either
    integer, parameter :: loss_contact = 1   !! power taken by contact damping
    integer, parameter :: loss_friction = 2  !! power taken by friction
-
-   !> What a contact remembers.
-   type :: contact_memory_t
-      logical :: is_touching = .false.          !! between onset and end
-      real(wp) :: onset = 0.0_wp                !! time of the onset [s]
-      real(wp) :: impact_speed = 0.0_wp         !! normal approach speed at the onset [m/s]
-      real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
-      real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
-      real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
-      integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
-      real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
-   end type contact_memory_t
 
    !> All items that share a geometry and its laws.
    type, abstract :: clearance_set_t
@@ -85,6 +70,7 @@ module clearance_set
       procedure :: rub => clearance_rub
       procedure :: fit_law => clearance_fit_law
       procedure :: begin_contact => clearance_begin_contact
+      procedure :: note_swing => clearance_note_swing
       procedure :: end_contact => clearance_end_contact
       procedure :: contact_time => clearance_contact_time
       procedure :: memory_size => clearance_memory_size
@@ -340,21 +326,27 @@ contains
    end subroutine clearance_rub
 
    !> Fit the normal law to the surfaces. A law that does not fit was a mistake of the deck, unless the joint is an ideal
-   !> one that is taken as loose for its channels only: no contact is evaluated then.
-   subroutine clearance_fit_law(self, items, materials, mass)
+   !> one that is taken as loose for its channels only: no contact is evaluated then. A body that drivers move cannot be pushed;
+   !> between two of them the masses of the deck are all there is.
+   subroutine clearance_fit_law(self, items, materials, mass, is_driven)
       class(clearance_set_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)           !! (n) rows of the table
       type(material_t), intent(in) :: materials(:)   !! (materials) all materials
       real(wp), intent(in) :: mass(:)                !! (bodies) masses of the bodies [kg]
+      logical, intent(in) :: is_driven(:)            !! (bodies) whether drivers alone say how they move
 
       character(:), allocatable :: help, message
       real(wp) :: parameters(n_law_parameter)
+      integer, allocatable :: bodies(:)
       integer :: c, k
 
       do k = 1, self%n
          call self%describe(items(k), materials, self%pairs(k))
-         self%pairs(k)%inverse_mass = sum(1.0_wp/mass(pack(self%body(:, k), self%body(:, k) > 0)))
+         bodies = pack(self%body(:, k), self%body(:, k) > 0)
+         if (.not. all(is_driven(bodies))) bodies = pack(bodies, .not. is_driven(bodies))
+         self%pairs(k)%inverse_mass = sum(1.0_wp/mass(bodies))
          call self%law%fit(self%pairs(k), parameters, message, help)
+         parameters(parameter_gentle) = gentle**2*self%pairs(k)%inverse_mass
          do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
             self%parameters(:, c) = parameters
          end do
@@ -373,6 +365,22 @@ contains
       self%n_touching = self%n_touching + 1
       call self%grip%forget(k)
    end subroutine clearance_begin_contact
+
+   !> How fast a contact that has begun swings: as an impact with its speed, or as one that gets as deep as it is, which one that
+   !> begins overlapping is without any speed. 0 if that is not known.
+   pure subroutine clearance_note_swing(self, k, delta)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                       !! contact of the set
+      real(wp), intent(in) :: delta                  !! its penetration [m]
+
+      real(wp) :: speed, time
+
+      associate (inverse_mass => self%pairs(self%item_of(k))%inverse_mass)
+         speed = sqrt(2.0_wp*inverse_mass*self%law%potential(max(delta, 0.0_wp), self%parameters(:, k)))
+         time = self%law%contact_time(self%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
+      end associate
+      if (time > 0.0_wp) self%contact(k)%swing = pi/time
+   end subroutine clearance_note_swing
 
    !> A contact ends, or the run ends within it: tell its story in one row.
    subroutine clearance_end_contact(self, k, t, release_speed, loss, is_over, event)
@@ -427,7 +435,7 @@ contains
    integer function clearance_memory_size(self) result(n)
       class(clearance_set_t), intent(in) :: self  !! the set
 
-      n = 8*self%n_contact
+      n = n_contact_memory*self%n_contact
       if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
    end function clearance_memory_size
 
@@ -440,12 +448,7 @@ contains
       integer :: k
 
       do k = 1, self%n_contact
-         associate (contact => self%contact(k))
-            call put(row, place, contact%is_touching)
-            call put(row, place, [contact%onset, contact%impact_speed, contact%peak_force, &
-                                  contact%peak_penetration, contact%loss_at_onset, contact%rest_speed])
-            call put(row, place, contact%course)
-         end associate
+         call self%contact(k)%save(row, place)
       end do
       call self%grip%save(row, place)
    end subroutine clearance_save
@@ -459,16 +462,7 @@ contains
       integer :: k
 
       do k = 1, self%n_contact
-         associate (contact => self%contact(k))
-            call get(row, place, contact%is_touching)
-            call get(row, place, contact%onset)
-            call get(row, place, contact%impact_speed)
-            call get(row, place, contact%peak_force)
-            call get(row, place, contact%peak_penetration)
-            call get(row, place, contact%loss_at_onset)
-            call get(row, place, contact%rest_speed)
-            call get(row, place, contact%course)
-         end associate
+         call self%contact(k)%load(row, place)
       end do
       self%n_touching = count(self%contact%is_touching)
       call self%grip%load(row, place)

@@ -31,12 +31,13 @@ module clearance_translational
    use bodies, only: material_t
    use clearance_set, only: clearance_fit_law
    use flat_contacts, only: add_contact_channels, flat_contacts_t, flat_gaps, flat_report, flat_t
+   use floors, only: gentle
    use item, only: item_t
    use joint_translational, only: add_axis_columns
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
-   use normal_law, only: n_law_parameter
+   use normal_law, only: n_law_parameter, parameter_gentle
    use slider_faces, only: bedding_energy, blend_energy, find_blend, find_face
    use surfaces, only: set_materials, shape_face, shape_plane, surfaces_t
    use text, only: text_t
@@ -257,22 +258,24 @@ contains
    end subroutine translational_describe
 
    !> Fit the corner law, and the face law if there is one.
-   subroutine translational_fit_law(self, items, materials, mass)
+   subroutine translational_fit_law(self, items, materials, mass, is_driven)
       class(clearance_translational_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                     !! (n) rows of the table
       type(material_t), intent(in) :: materials(:)             !! (materials) all materials
       real(wp), intent(in) :: mass(:)                          !! (bodies) masses of the bodies [kg]
+      logical, intent(in) :: is_driven(:)                      !! (bodies) whether drivers alone say how they move
 
       type(surfaces_t) :: pair
       character(:), allocatable :: help, message
       integer :: k
 
-      call clearance_fit_law(self, items, materials, mass)
+      call clearance_fit_law(self, items, materials, mass, is_driven)
       if (.not. allocated(self%face_law)) return
       do k = 1, self%n
          pair = self%pairs(k)
          pair%shape = shape_face
          call self%face_law%fit(pair, self%face_parameters(:, k), message, help)
+         self%face_parameters(parameter_gentle, k) = gentle**2*pair%inverse_mass
       end do
    end subroutine translational_fit_law
 

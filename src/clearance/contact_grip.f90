@@ -31,6 +31,7 @@ module contact_grip
       real(wp) :: drift = 0.0_wp       !! part of its rate that does not depend on accelerations [m/s^2]
       real(wp) :: f_n = 0.0_wp         !! normal force [N]
       real(wp) :: f_t = 0.0_wp         !! friction force on j along t [N]
+      logical :: is_driven = .false.   !! it sticks, but drivers alone prescribe how it slides
    end type tangent_t
 
    !> The grip of all contacts of a set.

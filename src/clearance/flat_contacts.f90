@@ -344,7 +344,6 @@ contains
       real(wp), parameter :: places(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
       real(wp), parameter :: part = 1.0e-3_wp    ! of the time in which the penetration would be gone [1]
-      real(wp), parameter :: least = 1.0e-15_wp  ! penetration that counts for that [m]
       type(flat_t) :: contacts(most_sharing), later(most_sharing)
       real(wp) :: acceleration(most_sharing), h
       integer :: c, first, item, place
@@ -357,7 +356,8 @@ contains
       end do
       force = force_in_faces(self, item, contacts, k - first)
       associate (n => self%n_contact_item)  ! the others move too, and may be faster
-         h = max(abs(contacts(k - first)%delta), least)
+         ! at the onset, of the last digit of the penetration
+         h = max(abs(contacts(k - first)%delta), epsilon(1.0_wp)*(abs(self%height(k)) + norm2(contacts(k - first)%arm_i)))
          h = part*min(h/max(maxval(abs(contacts(:n)%rate)), tiny(1.0_wp)), sqrt(h/max(maxval(abs(acceleration(:n))), tiny(1.0_wp))))
       end associate
       force_rate = 0.0_wp

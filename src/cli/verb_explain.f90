@@ -8,6 +8,7 @@ module verb_explain
    use deck_reader, only: all_defaults
    use errors, only: error_t
    use explain_dropped, only: say_dropped
+   use explain_floors, only: floors_of_scene
    use explain_guards, only: say_guards
    use explain_instants, only: explain_instants_of
    use imsl_names, only: is_imsl_name
@@ -114,6 +115,7 @@ contains
       call explain_method(loaded)
       call explain_instants_of(loaded)
       call say_guards(loaded)
+      if (allocated(y) .and. loaded%scene%analysis == analysis_dynamic) call floors_of_scene(loaded%system, y, loaded%plan%end)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
       defaults = all_defaults(loaded%deck)
       call say("")
@@ -279,6 +281,10 @@ contains
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
                if (loaded%scene%analysis /= analysis_dynamic) cycle
                do v = 1, size(speeds)
+                  if (.not. contact_time(loaded%system, set, c, speeds(v)) > 0.0_wp) then
+                     call say("no impact of free bodies: drivers move both, or the law stores nothing", 4)
+                     exit
+                  end if
                   call say("an elastic impact at "//to_text(speeds(v))//" m/s lasts about "// &
                            real_text(1.0e6_wp*contact_time(loaded%system, set, c, speeds(v)), 3)//" us, "// &
                            real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &

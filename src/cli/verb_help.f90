@@ -6,6 +6,7 @@ module verb_help
    use console, only: say
    use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
+   use explain_floors, only: floors_manual
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
@@ -200,6 +201,7 @@ contains
          call say("")
          call write_kind(kinds(k), .true.)
       end do
+      call floors_manual()
    end subroutine write_manual
 
    !> All that a kind says of itself.

@@ -18,7 +18,7 @@ module cylinder_family
    use kind_info, only: add_flag, add_number, dim_length, kind_info_t
    use kinds, only: wp
    use law_exact, only: exact_hysteresis
-   use normal_law, only: n_law_parameter, normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use surfaces, only: shape_internal, surfaces_t
    use text, only: real_text
    implicit none (type, external)
@@ -89,7 +89,7 @@ contains
 
       real(wp) :: length, sigma
 
-      parameters = [1.0_wp, 1.0_wp, range]
+      parameters = [1.0_wp, 1.0_wp, range, 0.0_wp]
       length = pair%length
       if (self%length > 0.0_wp) length = self%length
       message = ""
@@ -126,7 +126,8 @@ contains
 
       do k = 1, n
          call invert(parameters(:, k), delta(k), f_elastic(k), df_ddelta(k), energy)
-         call damp(self%hysteresis, rate(k), impact_speed(k), f_elastic(k), f(k), df_ddelta(k), df_drate(k))
+         call damp(self%hysteresis, delta(k), rate(k), impact_speed(k), parameters(parameter_gentle, k), f_elastic(k), f(k), &
+                   df_ddelta(k), df_drate(k))
       end do
    end subroutine family_force
 

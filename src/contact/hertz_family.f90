@@ -2,16 +2,17 @@
 !>
 !> F_N = K delta^n ( 1 + h rate / v0 ),   n = 3/2, v0 the impact speed;   energy = K delta^(n+1) / (n+1)
 !>
-!> The members differ in h as a function of the coefficient of restitution ce. The force is cut off at zero, and v0 is
-!> not less than 1 mm/s in the damping term: a contact that opened gently must not pull. Two free bodies show a
+!> The members differ in h as a function of the coefficient of restitution ce. The force is cut off at zero, and v0 is not less
+!> than a tenth of the speed of the depth in the damping term (`normal_law`), which two free bodies never reach. They show a
 !> restitution e that is not ce, whatever the elastic force, the masses and the speed: h(1+e) = ln[(1+h)/(1-h e)].
 !>
 !> Source: Flores et al. (2008), section 3.2. Limits: quasi-static contact, so impact speeds below 1e-5 sqrt(E/rho).
 module hertz_family
+   use deep_damping, only: damp_all_deep, damp_deep
    use item, only: item_t
    use kind_info, only: add_number, dim_contact_stiffness, dim_none, kind_info_t
    use kinds, only: wp
-   use normal_law, only: least_impact_speed, n_law_parameter, normal_law_t, parameter_deepest
+   use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use stiffness, only: curved_stiffness
    use surfaces, only: surfaces_t
    use text, only: real_text
@@ -75,13 +76,13 @@ contains
    subroutine family_fit(self, pair, parameters, message, help)
       class(hertz_family_t), intent(in) :: self              !! the law
       type(surfaces_t), intent(in) :: pair                   !! the surfaces
-      real(wp), intent(out) :: parameters(n_law_parameter)   !! (n_law_parameter) stiffness, unused, any depth [N/m^1.5, 1, m]
+      real(wp), intent(out) :: parameters(n_law_parameter)   !! (n_law_parameter) stiffness, 0, any depth, 0 [any]
       character(:), allocatable, intent(out) :: message      !! what is wrong, empty: the law fits
       character(:), allocatable, intent(out) :: help         !! what would be right
 
       message = ""
       help = ""
-      parameters = [self%stiffness, 0.0_wp, huge(1.0_wp)]
+      parameters = [self%stiffness, 0.0_wp, huge(1.0_wp), 0.0_wp]
       if (self%stiffness > 0.0_wp) return
       parameters(1) = curved_stiffness(pair)
       if (parameters(1) > 0.0_wp) return
@@ -102,12 +103,32 @@ contains
       real(wp), intent(out) :: df_drate(n)                   !! (n) its derivative by rate [N.s/m]
       real(wp), intent(out) :: f_elastic(n)                  !! (n) elastic part of the force [N]
 
+      real(wp) :: by_delta, elastic, factor, slope
       integer :: k
+      logical :: is_deep
 
+      is_deep = .false.
       do k = 1, n
-         call elastic_force(parameters(1, k), delta(k), f_elastic(k), df_ddelta(k))
-         call damp(self%hysteresis, rate(k), impact_speed(k), f_elastic(k), f(k), df_ddelta(k), df_drate(k))
+         call elastic_force(parameters(1, k), delta(k), elastic, by_delta)
+         f_elastic(k) = elastic
+         if (parameters(parameter_gentle, k)*elastic*delta(k) < impact_speed(k)*impact_speed(k)) then
+            slope = self%hysteresis/impact_speed(k)
+            factor = 1.0_wp + slope*rate(k)
+            if (factor < 0.0_wp) then
+               f(k) = 0.0_wp
+               df_ddelta(k) = 0.0_wp
+               df_drate(k) = 0.0_wp
+            else
+               f(k) = elastic*factor
+               df_ddelta(k) = by_delta*factor
+               df_drate(k) = elastic*slope
+            end if
+         else
+            df_ddelta(k) = by_delta
+            is_deep = .true.
+         end if
       end do
+      if (is_deep) call damp_all_deep(self%hysteresis, n, delta, rate, impact_speed, parameters, f, df_ddelta, df_drate, f_elastic)
    end subroutine family_force
 
    !> Elastic energy of one contact.
@@ -152,26 +173,33 @@ contains
       energy = 0.4_wp*stiffness*sqrt(max(delta, 0.0_wp))*max(delta, 0.0_wp)**2
    end function elastic_potential
 
-   !> Hysteresis damping of any elastic force: F = F_elastic ( 1 + h rate / v0 ), cut off at zero.
-   elemental subroutine damp(hysteresis, rate, impact_speed, f_elastic, f, df_ddelta, df_drate)
+   !> Hysteresis damping of any elastic force: F = F_elastic ( 1 + h rate / v0 ), cut off at zero; v0 as `normal_law` has it.
+   elemental subroutine damp(hysteresis, delta, rate, impact_speed, gently, f_elastic, f, df_ddelta, df_drate)
       real(wp), intent(in) :: hysteresis     !! h [1]
+      real(wp), intent(in) :: delta          !! penetration [m]
       real(wp), intent(in) :: rate           !! penetration rate [m/s]
       real(wp), intent(in) :: impact_speed   !! rate at the onset [m/s]
+      real(wp), intent(in) :: gently         !! parameter_gentle of the contact [1/kg]
       real(wp), intent(in) :: f_elastic      !! elastic force [N]
       real(wp), intent(out) :: f             !! normal force [N]
       real(wp), intent(inout) :: df_ddelta   !! derivative by penetration: of the elastic force, then of the normal force [N/m]
       real(wp), intent(out) :: df_drate      !! derivative of the normal force by rate [N.s/m]
 
-      real(wp) :: slope
+      real(wp) :: factor, slope
 
-      slope = hysteresis/max(impact_speed, least_impact_speed)
-      f = f_elastic*(1.0_wp + slope*rate)
-      df_ddelta = df_ddelta*(1.0_wp + slope*rate)
-      df_drate = f_elastic*slope
-      if (f < 0.0_wp) then
-         f = 0.0_wp
-         df_ddelta = 0.0_wp
-         df_drate = 0.0_wp
+      if (gently*f_elastic*delta < impact_speed*impact_speed) then
+         slope = hysteresis/impact_speed
+         factor = 1.0_wp + slope*rate
+         f = f_elastic*factor
+         df_ddelta = df_ddelta*factor
+         df_drate = f_elastic*slope
+         if (f < 0.0_wp) then
+            f = 0.0_wp
+            df_ddelta = 0.0_wp
+            df_drate = 0.0_wp
+         end if
+      else
+         call damp_deep(hysteresis, delta, rate, impact_speed, gently, f_elastic, f, df_ddelta, df_drate)
       end if
    end subroutine damp
 

@@ -2,9 +2,9 @@
 !>
 !> F_N = f(delta, rate, v0) where delta > 0, else 0;   energy = integral of f(s, 0, 1 m/s) from s = 0 to delta
 !>
-!> v0 is the impact speed, not less than 1 mm/s; the force is cut off at zero. The elastic part, which the ledger books as
-!> stored, is the force at rate zero (and v0 = 1 m/s, should that matter there); all the rest of its power is counted as
-!> lost, with its sign: an expression that drives the contact gives a negative loss.
+!> v0 is the impact speed, not less than a tenth of the speed of the depth (`normal_law`); the force is cut off at zero. The elastic
+!> part, which the ledger books as stored, is the force at rate zero (and v0 = 1 m/s, should that matter there); all the rest of its
+!> power is counted as lost, with its sign: an expression that drives the contact gives a negative loss.
 !>
 !> Source: none. Limits: the force should rise from zero with the penetration and be smooth; where the expression is not a
 !> number the run ends with an error.
@@ -13,7 +13,7 @@ module law_expression
    use item, only: item_t
    use kind_info, only: add_expression, dim_force, dim_length, dim_speed, kind_info_t
    use kinds, only: wp
-   use normal_law, only: least_impact_speed, n_law_parameter, normal_law_t
+   use normal_law, only: impact_speed_of_depth, n_law_parameter, normal_law_t, parameter_deepest, parameter_gentle
    use quadrature, only: integral_of
    use surfaces, only: surfaces_t
    implicit none (type, external)
@@ -67,7 +67,7 @@ contains
 
       message = repeat("", len(self%name) + pair%shape)
       help = message
-      parameters = [0.0_wp, 0.0_wp, huge(1.0_wp)]
+      parameters = [0.0_wp, 0.0_wp, huge(1.0_wp), 0.0_wp]
    end subroutine expression_fit
 
    !> Force of n contacts.
@@ -83,7 +83,7 @@ contains
       real(wp), intent(out) :: df_drate(n)                   !! (n) its derivative by rate [N.s/m]
       real(wp), intent(out) :: f_elastic(n)                  !! (n) elastic part of the force [N]
 
-      real(wp) :: d1, x(3)
+      real(wp) :: d1, dspeed, speed, x(3)
       integer :: k
 
       do k = 1, n
@@ -91,11 +91,16 @@ contains
          df_ddelta(k) = 0.0_wp
          df_drate(k) = 0.0_wp
          f_elastic(k) = 0.0_wp
-         if (.not. (delta(k) > 0.0_wp .and. delta(k) < parameters(n_law_parameter, k))) cycle
+         if (.not. (delta(k) > 0.0_wp .and. delta(k) < parameters(parameter_deepest, k))) cycle
          call self%elastic%evaluate_at([delta(k), self%elastic%others], 1, f_elastic(k), d1)
-         x = [delta(k), rate(k), max(impact_speed(k), least_impact_speed)]
+         call impact_speed_of_depth(delta(k), f_elastic(k), d1, impact_speed(k), parameters(parameter_gentle, k), speed, dspeed)
+         x = [delta(k), rate(k), max(speed, tiny(1.0_wp))]
          call self%whole%evaluate_at(x, 1, f(k), df_ddelta(k))
          call self%whole%evaluate_at(x, 2, f(k), df_drate(k))
+         if (dspeed > 0.0_wp) then
+            call self%whole%evaluate_at(x, 3, f(k), d1)
+            df_ddelta(k) = df_ddelta(k) + d1*dspeed
+         end if
          if (f(k) < 0.0_wp) then
             f(k) = 0.0_wp
             df_ddelta(k) = 0.0_wp
@@ -111,7 +116,7 @@ contains
       real(wp), intent(in) :: parameters(n_law_parameter)  !! (n_law_parameter) depth last [m]
       real(wp) :: energy                                   !! energy stored [J]
 
-      energy = integral_of(self%elastic, min(max(delta, 0.0_wp), parameters(n_law_parameter)))
+      energy = integral_of(self%elastic, min(max(delta, 0.0_wp), parameters(parameter_deepest)))
    end function expression_potential
 
    !> The expression in words.
@@ -121,7 +126,7 @@ contains
       character(:), allocatable :: words                   !! for `gudgeon explain`
 
       words = "force = "//self%whole%source
-      if (parameters(n_law_parameter) < huge(1.0_wp)) words = words//" within its range"
+      if (parameters(parameter_deepest) < huge(1.0_wp)) words = words//" within its range"
    end function expression_story
 
 end module law_expression

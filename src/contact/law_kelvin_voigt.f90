@@ -87,7 +87,7 @@ contains
 
       message = ""
       help = ""
-      parameters = [self%stiffness, 0.0_wp, huge(1.0_wp)]
+      parameters = [self%stiffness, 0.0_wp, huge(1.0_wp), 0.0_wp]
       if (pair%inverse_mass > 0.0_wp) parameters(2) = 2.0_wp*self%damping_ratio*sqrt(self%stiffness/pair%inverse_mass)
    end subroutine kelvin_voigt_fit
 

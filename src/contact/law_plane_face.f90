@@ -3,7 +3,8 @@
 !> F_N = K delta ( 1 + h rate / v0 ),   K = sqrt(a b) / (m (sigma_i + sigma_j)),   energy = K delta^2 / 2
 !>
 !> a and b are the sides of the face, m the factor of the mean displacement of a rectangle under uniform pressure (see
-!> stiffness). The exponent is one: K is in N/m. v0 is the impact speed, not less than 1 mm/s; the force is cut off at zero.
+!> stiffness). The exponent is one: K is in N/m. v0 is the impact speed, or what takes its place in deep contacts
+!> (`normal_law`); the force is cut off at zero.
 !> h = 3 (1 - ce^2) / 4 as in the law of Lankarani and Nikravesh, or with `damping = exact` what makes two free bodies
 !> part with ce.
 !>
@@ -16,7 +17,7 @@ module law_plane_face
    use kinds, only: wp
    use law_exact, only: exact_hysteresis
    use law_lankarani_nikravesh, only: lankarani_nikravesh_hysteresis
-   use normal_law, only: n_law_parameter, normal_law_t
+   use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use stiffness, only: face_stiffness
    use surfaces, only: shape_face, surfaces_t
    use text, only: real_text
@@ -68,13 +69,13 @@ contains
    subroutine plane_face_fit(self, pair, parameters, message, help)
       class(law_plane_face_t), intent(in) :: self            !! the law
       type(surfaces_t), intent(in) :: pair                   !! the surfaces
-      real(wp), intent(out) :: parameters(n_law_parameter)   !! (n_law_parameter) stiffness, unused, any depth [N/m, 1, m]
+      real(wp), intent(out) :: parameters(n_law_parameter)   !! (n_law_parameter) stiffness, unused, any depth, 0 [N/m, 1, m, 1/kg]
       character(:), allocatable, intent(out) :: message      !! what is wrong, empty: the law fits
       character(:), allocatable, intent(out) :: help         !! what would be right
 
       message = ""
       help = ""
-      parameters = [self%stiffness, 0.0_wp, huge(1.0_wp)]
+      parameters = [self%stiffness, 0.0_wp, huge(1.0_wp), 0.0_wp]
       if (self%stiffness > 0.0_wp) return
       if (pair%shape == shape_face) parameters(1) = face_stiffness(pair)
       if (parameters(1) > 0.0_wp) return
@@ -100,7 +101,8 @@ contains
       do k = 1, n
          f_elastic(k) = parameters(1, k)*max(delta(k), 0.0_wp)
          df_ddelta(k) = merge(parameters(1, k), 0.0_wp, delta(k) > 0.0_wp)
-         call damp(self%hysteresis, rate(k), impact_speed(k), f_elastic(k), f(k), df_ddelta(k), df_drate(k))
+         call damp(self%hysteresis, delta(k), rate(k), impact_speed(k), parameters(parameter_gentle, k), f_elastic(k), f(k), &
+                   df_ddelta(k), df_drate(k))
       end do
    end subroutine plane_face_force
 

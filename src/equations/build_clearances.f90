@@ -26,10 +26,11 @@ module build_clearances
 contains
 
    !> Joints with clearance: sets of loose ones that share geometry and laws, and sets of ideal ones, one per kind of joint.
-   subroutine add_clearances(scene, levels, angle, system)
+   subroutine add_clearances(scene, levels, angle, is_driven, system)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: levels                   !! how they are taken, one of the above
       real(wp), intent(in) :: angle(0:)               !! (0:bodies) angles at the start [rad]
+      logical, intent(in) :: is_driven(:)             !! (bodies) whether drivers alone say how they move
       type(planar_system_t), intent(inout) :: system  !! clearances and ideal joints are set
 
       type(clearance_slot_t), allocatable :: slots(:)
@@ -51,7 +52,7 @@ contains
                              [(.not. is_done(i) .and. share_laws(info, items(i), items(first)), i=1, size(items))])
                is_done(chosen) = .true.
                n = n + 1
-               call add_loose_set(scene, k, scene%clearances(k)%items(chosen), slots(n), system)
+               call add_loose_set(scene, k, scene%clearances(k)%items(chosen), is_driven, slots(n), system)
             end do
             if (any(is_twin)) then
                chosen = pack([(i, i=1, size(items))], is_twin)
@@ -136,10 +137,11 @@ contains
    end function count_clearances
 
    !> One set of loose joints with its laws, fitted to the surfaces.
-   subroutine add_loose_set(scene, kind, items, slot, system)
+   subroutine add_loose_set(scene, kind, items, is_driven, slot, system)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: kind                     !! number of the geometry
       type(item_t), intent(in) :: items(:)            !! rows that share their laws
+      logical, intent(in) :: is_driven(:)             !! (bodies) whether drivers alone say how they move
       type(clearance_slot_t), intent(inout) :: slot   !! the set is made here
       type(planar_system_t), intent(inout) :: system  !! joints and contacts are counted
 
@@ -159,7 +161,7 @@ contains
       system%n_loose = system%n_loose + slot%set%n
       system%n_contact = system%n_contact + slot%set%n_contact
       call slot%set%prepare(items)
-      call slot%set%fit_law(items, scene%materials, scene%bodies%mass)
+      call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set
 
 end module build_clearances

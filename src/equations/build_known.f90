@@ -27,6 +27,7 @@ module build_known
       type(link_t), allocatable :: links(:)        !! (known bodies) how they are fixed
       type(guide_t), allocatable :: guides(:)      !! (guided bodies) how they are held
       type(choice_t) :: choices(n_joint_kinds)     !! (kinds) which rows of each table leave the equations
+      logical, allocatable :: is_driven(:)         !! (bodies) whether drivers alone say how they move, left out or not
    end type reduction_t
 
 contains
@@ -56,9 +57,11 @@ contains
          allocate (reduction%choices(k)%is_fixing(size(scene%joints(k)%items)), source=.false.)
       end do
       allocate (reduction%links(0), reduction%guides(0))
+      allocate (reduction%is_driven(scene%bodies%n), source=.false.)
       if (scene%analysis /= analysis_dynamic) return
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") return
       call find_known_bodies(scene, reduction%links)
+      reduction%is_driven(reduction%links%body) = .true.
+      if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") reduction%links = reduction%links(:0)
       ! without any unknown nothing would control the step, and the works would be as good as chance
       if (size(reduction%links) == scene%bodies%n) reduction%links = reduction%links(:0)
       associate (links => reduction%links)
@@ -67,6 +70,7 @@ contains
             if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
          end do
          if (with_start_rows) return
+         if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") return
          associate (method => scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text)
             if (method == "ida" .or. (method == "bdf" .and. is_large(scene))) return
          end associate

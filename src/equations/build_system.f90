@@ -53,6 +53,7 @@ contains
          system%weight(:, k) = scene%bodies%mass(k)*scene%gravity
       end do
       system%length_scale = size_of_bodies(scene)
+      system%tolerance = scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number
       call new_motion(n, system%motion)
       call new_loads(n, system%loads)
       with_start_rows = .false.
@@ -65,7 +66,7 @@ contains
          call count_sets(scene, choices, is_taken, system)
          call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), system%motion)
          call add_joints(scene, choices, is_taken, .true., system)
-         call add_clearances(scene, levels, start_angles(scene), system)
+         call add_clearances(scene, levels, start_angles(scene), reduction%is_driven, system)
          system%rows%n_solve = system%rows%n
          system%n_solved_set = count([(allocated(system%joints(k)%set), k=1, size(system%joints))])
          call add_joints(scene, choices, is_taken, .false., system)
@@ -90,6 +91,10 @@ contains
          system%n_event = system%n_event + system%n_contact
       end if
       system%is_large = is_large(scene) .and. system%guided%n == 0 .and. system%grips%n_bristle == 0
+      ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
+      if (system%grips%n_slip > 0 .and. scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text == "ida") then
+         system%is_large = .false.
+      end if
       allocate (system%held(2*system%n_position), source=0.0_wp)
    end subroutine new_system
 

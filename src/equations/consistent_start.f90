@@ -23,6 +23,7 @@ module consistent_start
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
    real(wp), parameter :: share = 1.0e-6_wp             !! least part of a scaled row in a combination that vanishes [1]
+   real(wp), parameter :: agreed = 1.0e-8_wp            !! greatest rate left over of consistent velocities, of the rates [1]
    real(wp), parameter :: closed = 1.0e-10_wp           !! greatest scaled violation of an assembled mechanism [1]
    real(wp), parameter :: round_off = 1.0e-15_wp        !! scaled violation at which Newton stops early [1]
    real(wp), parameter :: give_way = 1.0e4_wp           !! how much easier a velocity changes that is not given [1]
@@ -94,7 +95,8 @@ contains
       report%rate_changed = maxval(correction)
       report%changed_body = (maxloc(correction, dim=1) + 2)/3
       call rates(system, v, right)
-      if (maxval(abs(right)*row_scale(system)) > 1.0e-8_wp*(1.0_wp + maxval(abs(system%rows%phi_t)*row_scale(system)))) then
+      if (maxval(abs(right)*row_scale(system)) > agreed*(maxval(abs(v)*coordinate_scale(system, n)) &
+                                                          + maxval(abs(system%rows%phi_t)*row_scale(system)))) then
          call velocity_error(system, right, error)
       end if
 

@@ -1,5 +1,6 @@
 !> Room for the friction forces of contacts that stick, and the small system that they solve.
 module grip_forces
+   use floors, only: least_mobility
    use kinds, only: wp
    use lapack, only: dsyev
    implicit none (type, external)
@@ -15,6 +16,9 @@ module grip_forces
       integer, allocatable :: contact(:)         !! (n_slip) the contacts
       real(wp), allocatable :: matrix(:, :)      !! (n_slip, n_slip) what a unit force does to the sliding accelerations [1/kg]
       real(wp), allocatable :: force(:)          !! (n_slip) forces [N]
+      real(wp), allocatable :: mobility(:)       !! (n_slip) its diagonal if the bodies were free [1/kg]
+      logical, allocatable :: is_fixed(:)        !! (n_slip) whether no force of its own moves it
+      real(wp), allocatable :: left(:)           !! (n_slip) sliding acceleration that no force can change [m/s^2]
       real(wp), allocatable :: root(:)           !! (n_slip) roots of the normal forces [N^0.5]
       real(wp), allocatable :: eigenvalue(:)     !! (n_slip) of the scaled matrix [N/kg]
       real(wp), allocatable :: work(:)           !! (any) scratch [any]
@@ -39,31 +43,37 @@ contains
       grips%n_bristle = n_bristle
       if (n_slip == 0) return
       allocate (grips%slot(n_slip), grips%contact(n_slip), source=0)
-      allocate (grips%matrix(n_slip, n_slip), grips%force(n_slip), grips%root(n_slip), grips%eigenvalue(n_slip), &
+      allocate (grips%is_fixed(n_slip), source=.false.)
+      allocate (grips%matrix(n_slip, n_slip), grips%mobility(n_slip), grips%left(n_slip), grips%force(n_slip), &
+                grips%root(n_slip), grips%eigenvalue(n_slip), &
                 grips%work(34*n_slip), grips%unit(3, 0:n_body), grips%b(n_row), grips%y(n), &
                 grips%ydot(n), source=0.0_wp)
    end subroutine new_grip_forces
 
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each
-   !> to the same part of what its normal force lets it hold: least sum of x^2 / F_N.
-   subroutine solve_grips(n, lead, matrix, root, force, eigenvalue, work)
+   !> to the same part of what its normal force lets it hold: least sum of x^2 / F_N. What no force can change of r is left: where
+   !> drivers prescribe the sliding.
+   subroutine solve_grips(n, lead, matrix, mobility, root, force, left, eigenvalue, work)
       integer, intent(in) :: n                      !! contacts
       integer, intent(in) :: lead                   !! first extent of the matrix
       real(wp), intent(inout) :: matrix(lead, n)    !! (lead, n) A, destroyed [1/kg]
+      real(wp), intent(in) :: mobility(n)           !! (n) diagonal of A if the bodies were free [1/kg]
       real(wp), intent(in) :: root(n)               !! (n) roots of the normal forces, positive [N^0.5]
       real(wp), intent(inout) :: force(n)           !! (n) r [m/s^2], then x [N]
+      real(wp), intent(out) :: left(n)              !! (n) r - A x [m/s^2]
       real(wp), intent(out) :: eigenvalue(n)        !! (n) scratch [N/kg]
       real(wp), intent(out) :: work(:)              !! (34 n) scratch [any]
 
-      real(wp), parameter :: negligible = 1.0e-11_wp  ! eigenvalue of a direction in which nothing moves, of the greatest [1]
-      real(wp) :: part
+      real(wp) :: least, part
       integer :: i, info, j
 
+      left = 0.0_wp
       if (n == 1) then
-         if (matrix(1, 1) > 0.0_wp) then
+         if (matrix(1, 1) > least_mobility*mobility(1)) then
             force(1) = force(1)/matrix(1, 1)
          else
-            force(1) = 0.0_wp  ! between bodies whose motion is known
+            left(1) = force(1)
+            force(1) = 0.0_wp
          end if
          return
       end if
@@ -74,14 +84,17 @@ contains
          force(j) = root(j)*force(j)
       end do
       call dsyev("V", "U", n, matrix, lead, eigenvalue, work, size(work), info)
+      least = least_mobility*max(eigenvalue(n), maxval(root**2*mobility))
       work(:n) = 0.0_wp
       do i = 1, n
-         if (info /= 0 .or. eigenvalue(i) <= negligible*eigenvalue(n)) cycle
-         part = dot_product(matrix(:n, i), force)/eigenvalue(i)
-         do j = 1, n
-            work(j) = work(j) + part*matrix(j, i)
-         end do
+         part = dot_product(matrix(:n, i), force)
+         if (info /= 0 .or. eigenvalue(i) <= least) then
+            left = left + part*matrix(:n, i)
+         else
+            work(:n) = work(:n) + part/eigenvalue(i)*matrix(:n, i)
+         end if
       end do
+      left = left/root
       force = root*work(:n)
    end subroutine solve_grips
 

@@ -2,8 +2,8 @@
 !>
 !> With e the greatest scaled violation at the start of a step and e_0 the target, the gain of the next step is
 !>
-!> alpha = min( 0.3/h, w, alpha_before sqrt(e/e_0) ), the root between 1/2 and 1 + alpha h, alpha at least 1/s: it grows
-!> no faster than a violation can answer, and not at all when a step is tried again:
+!> alpha = min( 0.3/h, w, alpha_before sqrt(e/e_0) ), the root between 1/2 and 1 + alpha h, at most 2, alpha at least a
+!> tenth of the mechanism's pace: it grows no faster than a violation can answer, and not at all when a step is tried again:
 !>
 !> strong gains where the violation calls for them, weak ones that leave the motion alone elsewhere; never so strong that
 !> gain times step endangers the integration, nor faster than the mechanism itself, whose greatest rate is w: beyond that
@@ -12,6 +12,7 @@
 !> Source: the idea, gains that follow the error at critical damping, is that of Chang and Nikravesh (1985), cited by Flores
 !> et al. (2008), section 2.5; the rule is gudgeon's own. Limits: the target must be above round-off.
 module hold_baumgarte_adaptive
+   use floors, only: least_hold
    use hold, only: hold_t, option_number
    use hold_baumgarte, only: set_gains
    use item, only: option_t
@@ -25,7 +26,6 @@ module hold_baumgarte_adaptive
    public :: hold_baumgarte_adaptive_t
 
    real(wp), parameter :: most = 0.3_wp          !! gain times step [1]
-   real(wp), parameter :: least = 1.0_wp         !! gain [1/s]
    real(wp), parameter :: smallest = 1.0e-14_wp  !! target [1]
 
    !> A gain that follows.
@@ -85,14 +85,14 @@ contains
          worst = maxval(system%row_weight(:system%rows%n_solve)*abs(system%rows%phi(:system%rows%n_solve)))
          ! the same violation again: the step is tried again, shorter, and a gain that grew as it shrinks would not let it succeed
          if (abs(worst - self%worst) > 0.0_wp) then
-            self%alpha = self%alpha*min(1.0_wp + self%alpha*min(h, 1.0_wp), max(0.5_wp, sqrt(worst/self%target)))
+            self%alpha = self%alpha*min(1.0_wp + min(self%alpha*h, 1.0_wp), max(0.5_wp, sqrt(worst/self%target)))
          end if
          self%worst = worst
          rate = 0.0_wp
          do body = 1, system%n_body
             rate = max(rate, norm2(system%motion%v(:, body))/system%length_scale, abs(system%motion%omega(3, body)))
          end do
-         self%alpha = max(least, min(self%alpha, most/h, rate))
+         self%alpha = max(least_hold*system%pace, min(self%alpha, most/h, rate))
       end select
       call set_gains(system, self%alpha, self%alpha)
    end subroutine adaptive_begin_step

@@ -8,26 +8,34 @@ contains
 
    !> What is left of the equations.
    module procedure planar_dae_residual
-      integer :: m, n
+      integer :: m, n, n_state
 
       n = self%rows%n_unknown
+      n_state = self%n - self%n_quadrature
       m = self%n_row
       self%n_evaluations = self%n_evaluations + 1
+      if (self%grips%n_bristle > 0) call self%take_bristles(y)
       call self%set_motion(t, y)
       call self%evaluate_terms(t, status)
       if (status /= 0) return
+      if (self%grips%n_slip > 0) then  ! forces of contacts that stick, into g
+         call self%find_accelerations(self%g, .true., status)
+         if (status == 0) call self%stick(status)
+         if (status /= 0) return
+      end if
       call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, lambda, self%a)
       call remains(n, self%rows%unknown, self%n_body, y, ydot, self%inverse_mass, self%g, self%a, r_y)
       call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, mu, self%a)
       call add_positions(n, self%rows%unknown, self%n_body, self%a, r_y)
+      if (self%grips%n_bristle > 0) call self%bristle_rates(r_y)
       if (self%with_ledger) then
          self%lambda(:m) = lambda
-         call self%ledger_rates(r_y(6*n + 1:))
-         r_y(6*n + 1:) = ydot(6*n + 1:) - r_y(6*n + 1:)
+         call self%ledger_rates(r_y(n_state + 1:))
       end if
+      r_y(6*n + 1:) = ydot(6*n + 1:) - r_y(6*n + 1:)
       r_lambda = self%phi_dot(:m)
       r_mu = self%rows%phi(:m)
-      if (.not. all(ieee_is_finite(r_y(:6*n)))) status = 1
+      if (.not. all(ieee_is_finite(r_y(:n_state)))) status = 1
    end procedure planar_dae_residual
 
    !> M^{-1} Phi_q^T x.

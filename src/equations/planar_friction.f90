@@ -5,30 +5,22 @@
 !> v_T' = -2 kappa v_T:   A x = -(G a_0 + drift + 2 kappa v_T),   A = G K^-1 G^T,
 !>
 !> with G their tangential rows (`contact_grip`), a_0 the accelerations without these forces and K the augmented matrix: one
-!> solution of the augmented equations for each of them and one with all loads. kappa keeps the sliding velocity at round-off.
+!> solution of the augmented equations for each of them and one with all loads. kappa, a multiple of the mechanism's pace
+!> (`planar_scales`), keeps the sliding velocity at round-off.
 !> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
 !>
-!> Events: slip s = +-1 ends where s v_T falls to zero; sticking ends where |x| = c_s F_N, its rate by a difference along the
-!> motion, or where a driver has torn the contact loose. A slip that ends at once again and again ends at a small speed the wrong
-!> way, which doubles each time up to a limit: so a contact that can neither slip nor stick costs a bounded number of steps.
+!> Sliding that drivers prescribe no force can keep back: such a contact sticks only while it is at rest, where friction is any
+!> force between its limits and the drivers take the rest; it is given none. It slips as soon as it moves, at a reversal at once.
 !>
 !> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
 !> (1996), section 5.3. Limits: contacts change one after another, each for the others as they are.
 submodule(planar_system) planar_friction
    use clearance_set, only: loss_friction
-   use contact_grip, only: is_undecided, sticks
+   use contact_grip, only: sticks
    use friction_law, only: memory_bristle, memory_slip
+   use floors, only: least_mobility, no_acceleration, settling
    use grip_forces, only: solve_grips
    implicit none (type, external)
-
-   real(wp), parameter :: kappa = 100.0_wp          !! rate at which a sliding velocity left over decays [1/s]
-   real(wp), parameter :: at_rest = 1.0e-12_wp      !! sliding velocity that is none at an onset [m/s]
-   real(wp), parameter :: part = 1.0e-4_wp          !! of the step: distance of the difference that gives rates [1]
-   real(wp), parameter :: least_step = 1.0e-7_wp    !! for that distance [s]
-   real(wp), parameter :: shortest = 1.0e-7_wp      !! time between two decisions that is no chatter [s]
-   real(wp), parameter :: least_band = 1.0e-12_wp   !! first speed the wrong way that is borne after a chatter [m/s]
-   real(wp), parameter :: widest_band = 1.0e-5_wp   !! last one [m/s]
-   real(wp), parameter :: torn = 1.0e-4_wp          !! speed at which a contact that sticks has been torn loose by a driver [m/s]
 
 contains
 
@@ -54,7 +46,8 @@ contains
          do c = 1, m
             associate (tangent => self%clearances(grips%slot(c))%set%grip%tangent(grips%contact(c)))
                grips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
-               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift + 2.0_wp*kappa*tangent%v)
+               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift + 2.0_wp*settling*self%pace*tangent%v)
+               grips%mobility(c) = mobility_of(self, c)
             end associate
          end do
          grips%b(:n) = self%b(:n)
@@ -67,15 +60,18 @@ contains
             do c = 1, m
                grips%matrix(c, d) = sliding_acceleration(self, c, .false.)
             end do
+            grips%is_fixed(d) = grips%matrix(d, d) <= least_mobility*grips%mobility(d)
          end do
          self%b(:n) = grips%b(:n)
          if (status /= 0) return
-         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%root(:m), grips%force(:m), &
-                          grips%eigenvalue(:m), grips%work)
+         call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
+                          grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%g)
             associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
                set%grip%tangent(k)%f_t = grips%force(c)
+               set%grip%tangent(k)%is_driven = grips%is_fixed(c) &
+                                               .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2
                self%losses(loss_friction, set%first_contact + k) = -grips%force(c)*set%grip%tangent(k)%v
             end associate
          end do
@@ -124,6 +120,24 @@ contains
          end do
       end associate
    end function tangential
+
+   !> What a unit force would do to the sliding acceleration of a contact on the list if the bodies were free.
+   pure real(wp) function mobility_of(self, c) result(mobility)
+      class(planar_system_t), intent(in) :: self   !! the system
+      integer, intent(in) :: c                     !! place on the list of contacts that stick
+
+      integer :: i, j, item
+
+      associate (set => self%clearances(self%grips%slot(c))%set)
+         associate (tangent => set%grip%tangent(self%grips%contact(c)))
+            item = set%item_of(self%grips%contact(c))
+            i = set%body(1, item)
+            j = set%body(2, item)
+            mobility = self%inverse_mass(1, i) + self%inverse_mass(3, i)*moment_of(tangent%arm_i, tangent%t)**2 &
+                       + self%inverse_mass(1, j) + self%inverse_mass(3, j)*moment_of(tangent%arm_j, tangent%t)**2
+         end associate
+      end associate
+   end function mobility_of
 
    !> Add the pair of tangential forces of a contact on the list to loads on the coordinates.
    pure subroutine add_pair(self, c, force, g)
@@ -193,119 +207,5 @@ contains
          end associate
       end do
    end procedure planar_bristle_weights
-
-   !> Event functions of friction.
-   module procedure planar_friction_events
-      real(wp) :: moment
-      integer :: k, number, slot, status
-
-      g(self%n_contact + 1:) = -1.0_wp
-      rate(self%n_contact + 1:) = 0.0_wp
-      moment = part*max(self%grips%h, least_step)
-      if (any_sticks(self)) then
-         call self%evaluate(t, y, self%grips%ydot, status)
-         self%grips%y = y + moment*self%grips%ydot
-         call self%evaluate(t + moment, self%grips%y, self%grips%ydot, status)
-         call note_holds(self, rate)
-      end if
-      call self%evaluate(t, y, self%grips%ydot, status)
-      do slot = 1, size(self%clearances)
-         associate (set => self%clearances(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            do k = 1, set%n_contact
-               number = self%n_contact + set%first_contact + k
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
-               associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
-                  if (slip == sticks) then
-                     g(number) = short_of(tangent%f_t, tangent%v, set%friction%stick_limit(tangent%f_n))
-                     rate(number) = (rate(number) - g(number))/moment
-                  else
-                     g(number) = -slip*tangent%v - set%grip%band(k)
-                     rate(number) = -slip*(tangential(self, slot, k, .true.) + tangent%drift)
-                  end if
-               end associate
-            end do
-         end associate
-      end do
-   end procedure planar_friction_events
-
-   !> What the contacts that stick are short of giving way, as of the last evaluation.
-   subroutine note_holds(self, g)
-      class(planar_system_t), intent(in) :: self   !! the system
-      real(wp), intent(inout) :: g(:)              !! (n_event) event functions [N]
-
-      integer :: k, slot
-
-      do slot = 1, size(self%clearances)
-         associate (set => self%clearances(slot)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            do k = 1, set%n_contact
-               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               associate (tangent => set%grip%tangent(k))
-                  g(self%n_contact + set%first_contact + k) = short_of(tangent%f_t, tangent%v, &
-                                                                       set%friction%stick_limit(tangent%f_n))
-               end associate
-            end do
-         end associate
-      end do
-   end subroutine note_holds
-
-   !> What a contact that sticks is beyond giving way: by its force, or by a speed that only a driver can have given it.
-   pure real(wp) function short_of(f_t, v, limit) result(g)
-      real(wp), intent(in) :: f_t     !! force that keeps it from sliding [N]
-      real(wp), intent(in) :: v       !! sliding velocity that is left [m/s]
-      real(wp), intent(in) :: limit   !! greatest force that it holds [N]
-
-      g = max(abs(f_t) - limit, limit*(abs(v)/torn - 1.0_wp))
-   end function short_of
-
-   !> Whether any contact sticks.
-   pure logical function any_sticks(self)
-      class(planar_system_t), intent(in) :: self   !! the system
-
-      integer :: k
-
-      any_sticks = .false.
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
-            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
-            any_sticks = any_sticks .or. any(set%contact%is_touching .and. set%grip%slip == sticks)
-         end associate
-      end do
-   end function any_sticks
-
-   !> Decide whether a contact slips, which way, or sticks. One whose slip ended, or that begins without sliding, is tried as
-   !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
-   !> that sticks until now.
-   module procedure planar_decide_slip
-      integer :: before, status
-
-      associate (set => self%clearances(slot)%set)
-         before = set%grip%slip(k)
-         if (t - set%grip%since(k) < shortest) then
-            set%grip%band(k) = min(max(2.0_wp*set%grip%band(k), least_band), widest_band)
-         else
-            set%grip%band(k) = 0.0_wp
-         end if
-         set%grip%since(k) = t
-         if (before == is_undecided) then
-            call set%lie(k, self%motion, set%grip%tangent(k))
-            if (abs(set%grip%tangent(k)%v) > at_rest) then
-               set%grip%slip(k) = nint(sign(1.0_wp, set%grip%tangent(k)%v))
-               return
-            end if
-         end if
-         set%grip%slip(k) = sticks
-         call self%evaluate(t, y, self%grips%ydot, status)
-         associate (tangent => set%grip%tangent(k))
-            if (abs(tangent%v) > 0.5_wp*torn) then
-               set%grip%slip(k) = nint(sign(1.0_wp, tangent%v))
-               return
-            end if
-            if (before /= sticks .and. abs(tangent%f_t) <= set%friction%stick_limit(tangent%f_n)) return
-            set%grip%slip(k) = nint(-sign(1.0_wp, tangent%f_t))
-         end associate
-      end associate
-   end procedure planar_decide_slip
 
 end submodule planar_friction

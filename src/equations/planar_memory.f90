@@ -5,11 +5,11 @@ submodule(planar_system) planar_memory
 
 contains
 
-   !> Numbers that a checkpoint needs: the memory of all sets, the counters and the stretch of smooth time.
+   !> Numbers that a checkpoint needs: the memory of all sets, the counters, the pace and the stretch of smooth time.
    module procedure planar_memory_size
       integer :: k
 
-      n = 6 + self%way%memory_size()
+      n = 9 + self%way%memory_size()
       do k = 1, size(self%joints)
          n = n + self%joints(k)%set%memory_size()
       end do
@@ -27,6 +27,7 @@ contains
 
       call put(row, place, self%n_evaluations)
       call put(row, place, self%n_damped)
+      call put(row, place, [self%pace, self%late_rate, self%grips%h])
       call self%way%save(row, place)
       call put(row, place, self%solver%n_factorisations)
       call put(row, place, self%piece%low)
@@ -49,6 +50,9 @@ contains
 
       call get(row, place, self%n_evaluations)
       call get(row, place, self%n_damped)
+      call get(row, place, self%pace)
+      call get(row, place, self%late_rate)
+      call get(row, place, self%grips%h)
       call self%way%load(row, place)
       call get(row, place, self%solver%n_factorisations)
       call get(row, place, self%piece%low)

@@ -1,51 +1,10 @@
-!> What is asked of a planar scene beside its evaluation: error scales, event functions, names.
+!> What is asked of a planar scene beside its evaluation: event functions, names.
 submodule(planar_system) planar_queries
-   use clearance_set, only: rests
+   use contact_memory, only: rests
    use gap_noise, only: find_gap_noise
    implicit none (type, external)
 
 contains
-
-   !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
-   !> greatest present rate of the mechanism, at least one per second. Angles are not scaled by
-   !> their value, so that the error does not grow as a crank counts turns. While surfaces touch,
-   !> all scales are a tenth: what an impact gives back is the difference of two large energies, and
-   !> its dozen steps add up.
-   module procedure planar_weights
-      real(wp), parameter :: touching = 0.1_wp  ! scales during contact [1]
-      real(wp) :: rate
-      integer :: body, k, n, nq
-
-      nq = self%n_position
-      n = 3*self%rows%n_unknown
-      rate = 1.0_wp
-      do k = nq + 1, nq + n, 3
-         rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
-      end do
-      do k = 1, self%known%n
-         body = self%known%item(k)%body
-         rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
-      end do
-      do k = 1, self%guided%n
-         scale(n + k) = merge(1.0_wp, self%length_scale, k <= self%guided%n_turning)
-         rate = max(rate, abs(y(nq + n + k))/scale(n + k))
-      end do
-      scale(nq + n + 1:2*nq) = scale(n + 1:nq)*rate
-      do k = 1, n, 3
-         scale(k) = self%length_scale
-         scale(k + 1) = self%length_scale
-         scale(k + 2) = 1.0_wp
-         scale(nq + k) = self%length_scale*rate
-         scale(nq + k + 1) = self%length_scale*rate
-         scale(nq + k + 2) = rate
-      end do
-      if (self%grips%n_bristle > 0) call self%bristle_weights(scale)
-      do k = 1, size(self%clearances)
-         if (self%clearances(k)%set%n_touching == 0) cycle
-         scale(:2*nq) = touching*scale(:2*nq)
-         exit
-      end do
-   end procedure planar_weights
 
    !> Event functions: penetrations of free contacts, their negatives of touching ones.
    module procedure planar_events
@@ -102,12 +61,10 @@ contains
 
    !> Rates of all penetrations and their rates.
    module procedure planar_turns
-      real(wp), parameter :: part = 1.0e-4_wp        ! of the step: distance of the difference [1]
-      real(wp), parameter :: least_step = 1.0e-6_wp  ! for that distance [s]
       real(wp) :: delta(self%n_contact), moment, ydot(size(y))
       integer :: k, status
 
-      moment = part*max(self%grips%h, least_step)
+      moment = self%time_of_difference(t)
       call self%evaluate(t, y, ydot, status)
       call self%set_motion(t + moment, y + moment*ydot)
       do k = 1, size(self%clearances)

@@ -53,6 +53,9 @@ module planar_system
       real(wp), allocatable :: weight(:, :)              !! (3, 0:bodies) force of gravity [N]
       real(wp) :: gravity(3) = 0.0_wp                    !! (3) acceleration of free fall [m/s^2]
       real(wp) :: length_scale = 1.0_wp                  !! size of the bodies, for error scales [m]
+      real(wp) :: tolerance = 1.0e-8_wp                  !! of the integrator, for what round-off allows [1]
+      real(wp) :: pace = 1.0_wp                          !! greatest rate of the mechanism so far, see `planar_scales` [1/s]
+      real(wp) :: late_rate = 0.01_wp                    !! rate that errors are measured by at least [1/s]
       real(wp) :: alpha = 0.0_wp                         !! Baumgarte's gain on the rate of violation [1/s]
       real(wp) :: beta = 0.0_wp                          !! Baumgarte's gain on the violation [1/s]
       logical :: with_ledger = .true.                    !! whether the ledger is kept
@@ -87,34 +90,20 @@ module planar_system
       type(grip_forces_t) :: grips                       !! contacts whose friction remembers
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
-      procedure :: evaluate => planar_evaluate
-      procedure :: dae_residual => planar_dae_residual
-      procedure :: dae_pattern => planar_dae_pattern
-      procedure :: dae_spread => planar_dae_spread
+      procedure :: evaluate => planar_evaluate, dae_residual => planar_dae_residual
+      procedure :: dae_pattern => planar_dae_pattern, dae_spread => planar_dae_spread, weights => planar_weights
       procedure, private :: evaluate_terms, find_accelerations, ledger_rates
-      procedure :: weights => planar_weights
-      procedure :: events => planar_events
-      procedure :: last_events => planar_last_events
-      procedure :: event_noise => planar_event_noise
-      procedure :: set_step => planar_set_step
-      procedure :: hold => planar_hold
-      procedure :: mend => planar_mend
-      procedure :: is_onset => planar_is_onset
-      procedure :: solve_rows => planar_solve_rows
-      procedure :: evaluate_rows => planar_evaluate_rows
-      procedure :: set_motion => planar_set_motion
-      procedure :: find_reactions => planar_find_reactions
-      procedure :: set_acceleration => planar_set_acceleration
-      procedure :: set_state => planar_set_state
-      procedure :: row_name => planar_row_name
-      procedure :: find_contact => planar_find_contact
-      procedure :: stick => planar_stick
-      procedure :: take_bristles => planar_take_bristles
-      procedure :: bristle_rates => planar_bristle_rates
-      procedure :: bristle_weights => planar_bristle_weights
-      procedure :: friction_events => planar_friction_events
-      procedure :: turns => planar_turns
-      procedure :: decide_slip => planar_decide_slip
+      procedure :: begin_pace => planar_begin_pace, follow_pace => planar_follow_pace, time_of_difference
+      procedure :: events => planar_events, last_events => planar_last_events
+      procedure :: event_noise => planar_event_noise, set_step => planar_set_step
+      procedure :: hold => planar_hold, mend => planar_mend
+      procedure :: solve_rows => planar_solve_rows, evaluate_rows => planar_evaluate_rows
+      procedure :: set_motion => planar_set_motion, find_reactions => planar_find_reactions
+      procedure :: set_acceleration => planar_set_acceleration, set_state => planar_set_state
+      procedure :: row_name => planar_row_name, find_contact => planar_find_contact, is_onset => planar_is_onset
+      procedure :: take_bristles => planar_take_bristles, bristle_rates => planar_bristle_rates
+      procedure :: stick => planar_stick, decide_slip => planar_decide_slip, bristle_weights => planar_bristle_weights
+      procedure :: friction_events => planar_friction_events, turns => planar_turns
       procedure :: memory_size => planar_memory_size, save => planar_save, load => planar_load
    end type planar_system_t
 
@@ -176,10 +165,8 @@ module planar_system
       module subroutine planar_friction_events(self, t, y, g, rate)
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(in) :: y(:)                   !! (n) state [any]
-         real(wp), intent(inout) :: g(:)                !! (n_event) event functions, the last n_contact set here [m/s or N]
-         real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2 or N/s]
+         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
+         real(wp), intent(inout) :: g(:), rate(:)       !! (n_event) functions and rates, those of friction set [any]
       end subroutine planar_friction_events
 
       !> Rates of all penetrations and their rates, by a difference along the motion. The system is evaluated at the state.
@@ -187,18 +174,15 @@ module planar_system
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
-         real(wp), intent(out) :: rate(:)               !! (n_contact) rates of the penetrations [m/s]
-         real(wp), intent(out) :: acceleration(:)       !! (n_contact) their rates [m/s^2]
+         real(wp), intent(out) :: rate(:), acceleration(:)  !! (n_contact) rates of the penetrations, and theirs [any]
       end subroutine planar_turns
 
       !> Decide whether a contact slips, which way, or sticks, at a state.
       module subroutine planar_decide_slip(self, t, y, slot, k)
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(in) :: y(:)                   !! (n) state [any]
-         integer, intent(in) :: slot                    !! set of the contact
-         integer, intent(in) :: k                       !! contact of the set
+         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
+         integer, intent(in) :: slot, k                 !! set of the contact, and its number there
       end subroutine planar_decide_slip
 
       !> Numbers that a checkpoint needs: the memory of all sets and the counters.
@@ -228,13 +212,10 @@ module planar_system
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(in), contiguous :: y(:)       !! (n) state [any]
-         real(wp), intent(in), contiguous :: ydot(:)    !! (n) its derivative [any]
-         real(wp), intent(in) :: lambda(:)              !! (rows) multipliers of the velocities [N or N.m]
-         real(wp), intent(in) :: mu(:)                  !! (rows) multipliers of the positions [N.s or N.m.s]
+         real(wp), intent(in), contiguous :: y(:), ydot(:)  !! (n) state and its derivative [any]
+         real(wp), intent(in) :: lambda(:), mu(:)       !! (rows) multipliers of velocities and of positions [any]
          real(wp), intent(out), contiguous :: r_y(:)    !! (n) of the differential equations [any]
-         real(wp), intent(out) :: r_lambda(:)           !! (rows) rates of the violation [m/s or rad/s]
-         real(wp), intent(out) :: r_mu(:)               !! (rows) violations [m or rad]
+         real(wp), intent(out) :: r_lambda(:), r_mu(:)  !! (rows) rates of the violation, and violations [any]
          integer, intent(out) :: status                 !! outcome
       end subroutine planar_dae_residual
 
@@ -275,9 +256,8 @@ module planar_system
          class(planar_system_t), intent(in) :: self  !! the system
          real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
       end subroutine ledger_rates
-      !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
-      !> greatest present rate of the mechanism, at least one per second. Angles are not scaled by
-      !> their value, so that the error does not grow as a crank counts turns.
+
+      !> Error scales.
       module subroutine planar_weights(self, y, scale)
          implicit none (type, external)
          class(planar_system_t), intent(in) :: self  !! the system
@@ -285,24 +265,42 @@ module planar_system
          real(wp), intent(out) :: scale(:)           !! (n) scales [any]
       end subroutine planar_weights
 
+      !> The pace at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
+      module subroutine planar_begin_pace(self, t, y, end)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t, y(:), end           !! time [s], (n) state [any], and end of the run [s]
+      end subroutine planar_begin_pace
+
+      !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
+      pure module subroutine planar_follow_pace(self, y, jump)
+         implicit none (type, external)
+         class(planar_system_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         real(wp), intent(in), optional :: jump(:)      !! (n) jump of its derivative [any]
+      end subroutine planar_follow_pace
+
+      !> Distance in time of differences along the motion that give rates.
+      pure module real(wp) function time_of_difference(self, t)
+         implicit none (type, external)
+         class(planar_system_t), intent(in) :: self     !! the system
+         real(wp), intent(in) :: t                      !! time [s]
+      end function time_of_difference
+
       !> Event functions: penetrations of free contacts, their negatives of touching ones.
       module subroutine planar_events(self, t, y, g, rate)
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(in) :: y(:)                   !! (n) state [any]
-         real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
-         real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
+         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
+         real(wp), intent(out) :: g(:), rate(:)         !! (n_event) event functions and their rates [m, m/s]
       end subroutine planar_events
 
       !> The same at the present motion.
       module subroutine planar_last_events(self, t, y, g, rate)
          implicit none (type, external)
          class(planar_system_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time of the last evaluation [s]
-         real(wp), intent(in) :: y(:)                   !! (n) its state [any]
-         real(wp), intent(out) :: g(:)                  !! (n_event) event functions [m]
-         real(wp), intent(out) :: rate(:)               !! (n_event) their rates [m/s]
+         real(wp), intent(in) :: t, y(:)                !! time of the last evaluation [s] and (n) its state [any]
+         real(wp), intent(out) :: g(:), rate(:)         !! (n_event) event functions and their rates [m, m/s]
       end subroutine planar_last_events
 
       !> Round-off of the event functions of contacts and turns at the present motion.
@@ -317,8 +315,7 @@ module planar_system
          implicit none (type, external)
          class(planar_system_t), intent(in) :: self  !! the system
          integer, intent(in) :: number               !! event function: a block in the order of the sets for each kind
-         integer, intent(out) :: slot                !! its set
-         integer, intent(out) :: contact             !! its number in the set
+         integer, intent(out) :: slot, contact       !! its set, and its number there
       end subroutine planar_find_contact
 
       !> Name of the joint or driver that a constraint row belongs to.

@@ -118,7 +118,7 @@ contains
    end function angle_time_before
 
    !> Time from `start` forwards or backwards until the angle has changed by a number of turns: times
-   !> growing by a hundredth up to about a day, then bisection. A function that oscillates faster than
+   !> growing by a hundredth up to 1e12 s, then bisection. A function that oscillates faster than
    !> that is not followed.
    function time_to_travel(f, start, direction, longest, turns) result(duration)
       type(expression_t), intent(in) :: f    !! angle [rad]
@@ -130,7 +130,7 @@ contains
 
       real(wp), parameter :: first = 1.0e-6_wp   ! first time looked at [s]
       real(wp), parameter :: growth = 1.01_wp    ! ratio of times looked at [1]
-      integer, parameter :: n_search = 2600      ! times looked at
+      integer, parameter :: n_search = 4200      ! times looked at
       real(wp) :: high, low
       integer :: step
 

@@ -1,8 +1,7 @@
 !> Whether the method of a scene can make the steps that its deck asks for.
 module step_check
-   use columns, only: cell_index, column_of
+   use columns, only: column_of
    use diagnostics, only: diagnostics_t
-   use friction_law, only: memory_none
    use integrator, only: integrator_t, steps_fixed, steps_variable
    use integrator_registry, only: find_integrator
    use kinds, only: wp
@@ -21,7 +20,6 @@ contains
 
       class(integrator_t), allocatable :: method
 
-      call check_friction(scene, diagnostics)
       associate (word => scene%dynamic%values(column_of(scene%dynamic_kind, "method")), &
                  step => scene%dynamic%values(column_of(scene%dynamic_kind, "step")))
          call find_integrator(word%text, method)
@@ -49,28 +47,5 @@ contains
          end if
       end associate
    end subroutine check_steps
-
-   !> Friction that remembers comes with accelerations, or has states of its own: the form that `ida` solves has neither.
-   subroutine check_friction(scene, diagnostics)
-      type(scene_t), intent(in) :: scene                  !! the scene
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
-
-      integer :: c, i, k, law
-
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text /= "ida") return
-      do k = 1, size(scene%clearances)
-         do i = 1, size(scene%clearances(k)%items)
-            law = cell_index(scene%clearances(k)%info, scene%clearances(k)%items(i), "friction")
-            if (law == 0) cycle
-            if (scene%frictions(law)%law%memory == memory_none) cycle
-            c = column_of(scene%clearances(k)%info, "friction")
-            associate (value => scene%clearances(k)%items(i)%values(c))
-               call diagnostics%add(value%location, "method 'ida' cannot be used with friction law '"//value%text//"'", &
-                                    "sticks, or has a state of its own", "take verner, rk4, adams or bdf, or a friction law " &
-                                    //"without a memory")
-            end associate
-         end do
-      end do
-   end subroutine check_friction
 
 end module step_check

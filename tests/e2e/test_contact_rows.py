@@ -125,8 +125,6 @@ def test_histories_hold_the_peaks_of_the_events(gudgeon, deck):
 @pytest.mark.parametrize("name", ["slider_crank_two_joints", "shaken_pendulum", "hard/wedged_slider", "friction"])
 def test_by_every_method(gudgeon, name, method):
     deck = ROOT / "inputs" / f"{name}.deck"
-    if name == "friction" and method == "ida":
-        pytest.skip("Coulomb friction needs a method with accelerations")
     run = run_of(gudgeon, shortened(deck, method))
     check_peaks(run)
     check_order(run)

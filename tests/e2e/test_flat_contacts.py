@@ -47,7 +47,8 @@ def test_slider_corners(gudgeon):
 
 
 def test_driver_tears_a_contact_loose(gudgeon):
-    """Coulomb: no force at the contact holds what a driver moves; it slips at once, the full force against the motion."""
+    """Coulomb: no force at the contact holds what a driver moves; it slips all the time, at a reversal the other way at once: that is
+    one row, since a stick that takes no time is none. The full force is against the motion, however slow."""
     text = (ROOT / "inputs/friction.deck").read_text()
     springs, material = text.index("[force.spring]"), text.index("[material]")
     text = (text[:springs] + "[driver.position]\nname i j axis position\ndrag rail seat x {5mm*sin(2*pi*t/1s)}\n\n"
@@ -56,9 +57,12 @@ def test_driver_tears_a_contact_loose(gudgeon):
     directory = scratch()
     deck = written(directory, text)
     run = Run(directory / "out", call(gudgeon, "run", deck, "--out", directory / "out", "--quiet"))
-    kinds = [(row["kind"], round(float(row["time"]), 2)) for row in first_rows(run, 5)]
-    assert kinds == [("contact", 0.0), ("stick", 0.25), ("slip", 0.25), ("stick", 0.75), ("slip", 0.75)]
+    rows = first_rows(run, None)
+    kinds = [(row["kind"], row["state_before"], row["state_after"]) for row in rows]
+    assert kinds == [("contact", "free", "contact"), ("slip", "slip", "slip"), ("slip", "slip", "slip")]
+    assert [float(row["time"]) for row in rows] == pytest.approx([0.0, 0.25, 0.75], abs=1e-12)
     force = run.read("clearances/contacts/friction_force")[:, 0]
     velocity = run.item("bodies/velocity", "shoe")[:, 0]
-    moving = np.abs(velocity) > 2e-4
+    moving = np.abs(velocity) > 1e-9
+    assert moving.sum() >= len(velocity) - 2
     assert force[moving] == pytest.approx(-10.0*np.sign(velocity[moving]), rel=1e-6)

@@ -79,6 +79,17 @@ def test_pulse_on_an_oscillator(gudgeon, name):
 
 
 @pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("slope", [1e3, 1e-3])
+def test_ramp_after_a_rest(gudgeon, name, slope):
+    """A force that bends after a second of rest, where nothing has said yet how fast the oscillator will be: in closed form."""
+    spring = SPRING.replace("s o c 100 2 1", "s o c 100 0 1")
+    t, x, *_ = run(gudgeon, deck(f"{slope!r}N/s*max(t-1.2s,0s)", spring=spring, **method(name)))
+    s = np.maximum(t - 1.2, 0)
+    expected = slope / 100 * (s - np.sin(10 * s) / 10)
+    assert np.abs(x[:, 0] - 1 - expected).max() < 1e-6 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("name", METHODS)
 def test_short_rectangle(gudgeon, name):
     """1 kN for 0.1 ms: the momentum is that of the force, to round-off."""
     *_, v, _, _ = run(gudgeon, deck("1e3N*(step(t-1.2s)-step(t-1.2001s))", **method(name, "7 ms")))

@@ -72,6 +72,27 @@ def test_balls_that_bounce_give_back_what_the_law_says(gudgeon, method):
 
 
 @pytest.mark.parametrize("method", IMPLICIT)
+def test_discs_roll_as_in_closed_form(gudgeon, method):
+    """Sixty discs roll down inclines of their own, kept from sliding by friction that sticks: 2/3 of g sin(angle)."""
+    n, slopes, depth = 60, np.linspace(5.0, 15.0, 60), (9.81/1e9)**(2/3)
+    place = [(0.05 - depth)*np.array([-np.sin(a), np.cos(a)]) for a in np.radians(slopes)]
+    bodies = "".join(f"b{k} 1 1.25e-3 {x:.17g} {y:.17g}\n" for k, (x, y) in enumerate(place))
+    points = "".join(f"c{k} b{k} 0 0\n" for k in range(n))
+    rows = "".join(f"j{k} foot c{k} y {a:.17g} 0.05 steel hard rough\n" for k, a in enumerate(slopes))
+    text = (f"deck = 1\n[scene]\ngravity = 0 -9.81 m/s^2\n[bodies]\nname mass[kg] inertia[kg.m^2] x[m] y[m]\n{bodies}"
+            f"[points]\nname body xi[m] eta[m]\nfoot ground 0 0\n{points}[material]\nname young[GPa] poisson\nsteel 207 0.3\n"
+            "[contact.exact]\nname restitution stiffness[N/m^1.5]\nhard 0.5 1e9\n[friction.coulomb]\nname coefficient\nrough 0.3\n"
+            f"[clearance.plane]\nname plane ball axis axis_angle[deg] radius[m] material law friction\n{rows}"
+            f"[analysis.dynamic]\nstart = given\noverlap = preload\nend = 0.05 s\nmethod = {method}\ntolerance = 1e-8\n"
+            "[output]\nevery = 0.01 s\nchannels = *.angle energy.*\n")
+    found = run(gudgeon, text)
+    angle = found.read("bodies/angle")[-1].reshape(-1)
+    expected = 0.5*(2/3)*9.81*np.sin(np.radians(slopes))*0.05**2/0.05
+    assert np.max(np.abs(angle/expected - 1)) <= 1e-4
+    assert found.summary["energy_residual_max"] <= 1e-6*found.summary["energy_max"]
+
+
+@pytest.mark.parametrize("method", IMPLICIT)
 def test_evaluations_do_not_grow_with_the_bodies(gudgeon, method):
     """A Jacobian takes as many differences as a body has neighbours, not as there are states: four times the bodies, as many."""
     counts = [run(gudgeon, made("pendulum", n, "--end", "0.02", "--every", "0.02", "--method", method)).summary["rhs_evaluations"]

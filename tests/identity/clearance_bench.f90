@@ -177,7 +177,7 @@ contains
       materials%young = 207.0e9_wp
       materials%poisson = 0.3_wp
       call bench%set%prepare(items)
-      call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)])
+      call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)], [(.false., k=1, n_body)])
       call bench%set%law%fit(bench%set%pairs(1), parameters, message, help)
       bench%has_form = message == ""
       if (.not. bench%has_form) return

@@ -3,7 +3,8 @@ module test_clearances
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use check, only: check_close, check_equal, check_true, suite_t
    use clearance_bench, only: bench_t, claim_all, evaluate_loads, get_gaps, move_to, n_all, n_before, n_body, n_item
-   use clearance_set, only: approaches, contact_memory_t, loss_contact, loss_friction, parts
+   use clearance_set, only: loss_contact, loss_friction
+   use contact_memory, only: approaches, contact_memory_t, parts
    use differences, only: five_point, places, six_places, six_point
    use errors, only: error_t
    use flat_contacts, only: flat_contacts_t, flat_t

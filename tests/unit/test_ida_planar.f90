@@ -104,6 +104,7 @@ contains
       do k = 1, 3
          call start_text(pendulum_deck(), system, y, error)
          if (allocated(error)) return
+         call system%begin_pace(0.0_wp, y, t_end)  ! as a run does: released from rest, it has no rate of its own yet
          call find_integrator("ida", method)
          method%controls%tolerance = 0.01_wp**(k + 2)
          call method%start(system, 0.0_wp, y, t_end, status)

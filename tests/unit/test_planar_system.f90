@@ -2,6 +2,7 @@
 module test_planar_system
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
+   use floors, only: idle_part
    use kinds, only: two_pi, wp
    use planar_system, only: planar_system_t
    use scene_fixture, only: nl, slider_crank, start_text, system_of_text
@@ -104,27 +105,39 @@ contains
       y([3, 6, 9]) = y([3, 6, 9]) + 1.0e4_wp*two_pi
       call system%weights(y, scale_turned)
       call check_close(error, scale_turned(1:18), scale(1:18), 0.0_wp, "after many turns")
+      ! at rest: a hundredth of the greatest rate so far, which the crank had
+      system%pace = 0.0_wp
+      call system%follow_pace(y)
+      call check_close(error, system%pace, 5000.0_wp/60.0_wp*two_pi, 1.0e-9_wp, "pace of the crank")
       y(10:18) = 0.0_wp
+      call system%follow_pace(y)
       call system%weights(y, scale)
-      call check_close(error, scale(10:12), [0.06_wp, 0.06_wp, 1.0_wp], 1.0e-15_wp, "at rest: one per second")
+      call check_close(error, scale(10:12), 0.01_wp*5000.0_wp/60.0_wp*two_pi*[0.06_wp, 0.06_wp, 1.0_wp], 1.0e-11_wp, "at rest")
       call check_true(error, minval(scale(1:18)) > 0.0_wp, "no scale is zero")
       ! a body without points: its radius of gyration, wherever it stands
-      call check_size("3 -4", sqrt(0.05_wp/2.0_wp))
-      call check_size("0 0", sqrt(0.05_wp/2.0_wp))
+      call check_size("3 -4", sqrt(0.05_wp/2.0_wp), .true.)
+      call check_size("0 0", sqrt(0.05_wp/2.0_wp), .false.)
 
    contains
 
-      !> Without points: the greatest distance from the origin, else one metre.
-      subroutine check_size(place, expected)
+      !> Without points: size, and the pace of a stone at rest.
+      subroutine check_size(place, expected, falls)
          character(*), intent(in) :: place    !! of the body
          real(wp), intent(in) :: expected     !! size of the bodies [m]
+         logical, intent(in) :: falls         !! whether it has a weight
 
          type(planar_system_t) :: stone
 
          if (allocated(error)) return
-         call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"stone 2 0.05 "//place//nl// &
+         call system_of_text("[scene]"//nl//"gravity = 0 "//trim(merge("-9.81", "0    ", falls))//" m/s^2"//nl// &
+                             "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"stone 2 0.05 "//place//nl// &
                              "[analysis.dynamic]"//nl//"end = 1 s", stone, error)
-         if (.not. allocated(error)) call check_close(error, stone%length_scale, expected, 0.0_wp, "size at "//place)
+         if (allocated(error)) return
+         call check_close(error, stone%length_scale, expected, 0.0_wp, "size at "//place)
+         ! from rest it moves its size in sqrt(size/g), a stone without weight never does
+         call stone%begin_pace(0.0_wp, [(0.0_wp, k=1, stone%n)], 1.0_wp)
+         call check_close(error, stone%pace, merge(sqrt(9.81_wp/expected), idle_part, falls), 1.0e-14_wp, "pace at "//place, &
+                          relative=.true.)
       end subroutine check_size
 
    end subroutine test_error_scales

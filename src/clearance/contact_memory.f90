@@ -1,0 +1,61 @@
+!> What a contact remembers between its onset and its end.
+module contact_memory
+   use kinds, only: wp
+   use memory, only: get, put
+   implicit none (type, external)
+   private
+   public :: approaches, contact_memory_t, n_contact_memory, parts, rests
+
+   integer, parameter :: approaches = 1        !! course: the penetration grows
+   integer, parameter :: parts = -1            !! course: it falls
+   integer, parameter :: rests = 0             !! course: a load between both forces keeps it from either
+   integer, parameter :: n_contact_memory = 9  !! numbers of a contact in a checkpoint
+
+   !> One contact.
+   type :: contact_memory_t
+      logical :: is_touching = .false.          !! between onset and end
+      real(wp) :: onset = 0.0_wp                !! time of the onset [s]
+      real(wp) :: impact_speed = 0.0_wp         !! normal approach speed at the onset [m/s]
+      real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
+      real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
+      real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
+      integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
+      real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
+      real(wp) :: swing = 0.0_wp                !! how fast it swings, pi over the time of an impact [rad/s]
+   contains
+      procedure :: save => contact_save
+      procedure :: load => contact_load
+   end type contact_memory_t
+
+contains
+
+   !> Write it.
+   subroutine contact_save(self, row, place)
+      class(contact_memory_t), intent(in) :: self  !! the contact
+      real(wp), intent(inout) :: row(:)            !! (any) checkpoint [any]
+      integer, intent(inout) :: place              !! last place used
+
+      call put(row, place, self%is_touching)
+      call put(row, place, [self%onset, self%impact_speed, self%peak_force, self%peak_penetration, self%loss_at_onset, &
+                            self%rest_speed, self%swing])
+      call put(row, place, self%course)
+   end subroutine contact_save
+
+   !> Read it.
+   subroutine contact_load(self, row, place)
+      class(contact_memory_t), intent(inout) :: self  !! the contact
+      real(wp), intent(in) :: row(:)                  !! (any) checkpoint [any]
+      integer, intent(inout) :: place                 !! last place used
+
+      call get(row, place, self%is_touching)
+      call get(row, place, self%onset)
+      call get(row, place, self%impact_speed)
+      call get(row, place, self%peak_force)
+      call get(row, place, self%peak_penetration)
+      call get(row, place, self%loss_at_onset)
+      call get(row, place, self%rest_speed)
+      call get(row, place, self%swing)
+      call get(row, place, self%course)
+   end subroutine contact_load
+
+end module contact_memory

@@ -1,0 +1,76 @@
+!> What counts as nothing, and what stands in where a law or a scale would be divided by it.
+!>
+!> Every such number is a part of something that the scene itself has: of the mechanism's own speed (its pace times its size, see
+!> `planar_scales`), of a step, of the time or the depth of a contact. None is a speed, a length, a time or a force of its own, so
+!> that small and slow mechanisms are computed as large and fast ones are. `gudgeon explain` and the manual print this list.
+module floors
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: all_floors, floor_t
+   public :: of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time
+   public :: at_rest, chatter_time, gentle, idle_part, late, least_band, least_hold, least_mobility, look_ahead, no_acceleration, &
+      remembered, settling, shortest_difference, standstill, torn, widest_band
+
+   integer, parameter :: of_speed = 1         !! of the mechanism's own speed, pace times size
+   integer, parameter :: of_pace = 2          !! of its pace
+   integer, parameter :: of_step = 3          !! of the step in hand
+   integer, parameter :: of_contact = 4       !! of what a contact has itself
+   integer, parameter :: of_acceleration = 5  !! of the acceleration that the normal force would give
+   integer, parameter :: of_mobility = 6      !! of what the bodies would yield if they were free
+   integer, parameter :: of_run = 7           !! of size and duration of the run
+   integer, parameter :: of_time = 8          !! of the spacing of numbers at the present time
+
+   ! contacts
+   real(wp), parameter :: gentle = 0.1_wp                 !! impact speed in damping terms at least, of the speed of the depth [1]
+   ! error scales
+   real(wp), parameter :: remembered = 0.01_wp            !! rate that errors are measured by at least, of the pace [1]
+   real(wp), parameter :: late = 1.0e-2_wp                !! rate that errors are measured by at least, of 1/duration of the run [1]
+   real(wp), parameter :: idle_part = 1.0e-6_wp           !! way in a run at least, for the pace, of the size [1]
+   real(wp), parameter :: shortest_difference = 1.0e4_wp  !! time of a difference at least, of the spacing of time [1]
+   ! holding the constraints
+   real(wp), parameter :: least_hold = 0.1_wp             !! gain that follows the violation at least, of the pace [1]
+   ! friction that sticks
+   real(wp), parameter :: at_rest = 1.0e-9_wp             !! sliding velocity that is none, of the speed [1]
+   real(wp), parameter :: standstill = 1.0e-15_wp         !! sliding velocity at which slip ends, of the speed [1]
+   real(wp), parameter :: torn = 1.0e-4_wp                !! sliding velocity that ends sticking, of the speed [1]
+   real(wp), parameter :: least_band = 1.0e-12_wp         !! first velocity the wrong way after a chatter, of the speed [1]
+   real(wp), parameter :: widest_band = 1.0e-5_wp         !! last one, of the speed [1]
+   real(wp), parameter :: settling = 5.0_wp               !! decay of a sliding velocity left over, of the pace [1]
+   real(wp), parameter :: chatter_time = 1.0e-2_wp        !! time between decisions that is chatter, of the contact's own [1]
+   real(wp), parameter :: look_ahead = 1.0e-2_wp          !! how far ahead a driven contact at rest is looked at, of the step [1]
+   real(wp), parameter :: no_acceleration = 1.0e-12_wp    !! sliding acceleration that is none, of what F_N would give [1]
+   real(wp), parameter :: least_mobility = 1.0e-11_wp     !! mobility that is none: of that of free bodies [1]
+
+   !> One of them.
+   type :: floor_t
+      real(wp) :: part = 0.0_wp             !! the number [1]
+      integer :: of = 0                     !! of what, one of the above
+      character(80) :: meaning = ""         !! what it is for
+   end type floor_t
+
+contains
+
+   !> The list.
+   pure function all_floors() result(list)
+      type(floor_t), allocatable :: list(:)  !! (floors) in the order of the rooms
+
+      list = [floor_t(gentle, of_contact, "impact speed in damping terms, of that which its depth would take"), &
+              floor_t(remembered, of_speed, "speed that errors are measured by while all is slow"), &
+              floor_t(late, of_run, "speed that errors are measured by, from rest"), &
+              floor_t(idle_part, of_run, "speed of a mechanism that never moves"), &
+              floor_t(least_hold, of_pace, "gain of baumgarte_adaptive"), &
+              floor_t(at_rest, of_speed, "sliding that is none, at an onset and where drivers prescribe it"), &
+              floor_t(standstill, of_speed, "sliding at which slip ends"), &
+              floor_t(torn, of_speed, "sliding that ends sticking all the same"), &
+              floor_t(least_band, of_speed, "sliding the wrong way that is borne after a chatter, at first"), &
+              floor_t(widest_band, of_speed, "sliding the wrong way that is borne after a chatter, at last"), &
+              floor_t(settling, of_pace, "decay of the sliding left over while sticking"), &
+              floor_t(chatter_time, of_contact, "time between slip and stick that is chatter, of its own sqrt(depth m/F_N)"), &
+              floor_t(look_ahead, of_step, "how far is looked whether drivers move a contact at rest"), &
+              floor_t(no_acceleration, of_acceleration, "sliding acceleration that no force changes, and is none"), &
+              floor_t(least_mobility, of_mobility, "yielding of the bodies that is none"), &
+              floor_t(shortest_difference, of_time, "time over which rates of events are taken")]
+   end function all_floors
+
+end module floors

@@ -1,0 +1,192 @@
+!> When contacts of a planar scene begin to slip and to stick, and which way they go.
+!>
+!> Events: slip s = +-1 ends where s v_T falls to zero (to round-off, so that it also ends where drivers bring it to rest);
+!> sticking ends where |x| = c_s F_N, its rate by a difference along the motion, or where the contact moves all the same. A slip
+!> that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit: so a contact that
+!> can neither slip nor stick costs a bounded number of steps.
+!>
+!> Speeds that are small are parts of the mechanism's own, its pace times its size (`planar_scales`); times, of the contact's own.
+!>
+!> Source: see `planar_friction`. Limits: contacts change one after another, each for the others as they are.
+submodule(planar_system:planar_friction) slip_events
+   use contact_grip, only: is_undecided, tangent_t
+   use floors, only: at_rest, chatter_time, least_band, look_ahead, standstill, torn, widest_band
+   implicit none (type, external)
+
+contains
+
+   !> Event functions of friction.
+   module procedure planar_friction_events
+      real(wp) :: moment
+      integer :: k, number, slot, status
+
+      g(self%n_contact + 1:) = -1.0_wp
+      rate(self%n_contact + 1:) = 0.0_wp
+      moment = self%time_of_difference(t)
+      if (any_sticks(self)) then
+         call self%evaluate(t, y, self%grips%ydot, status)
+         self%grips%y = y + moment*self%grips%ydot
+         call self%evaluate(t + moment, self%grips%y, self%grips%ydot, status)
+         call note_holds(self, rate)
+      end if
+      call self%evaluate(t, y, self%grips%ydot, status)
+      do slot = 1, size(self%clearances)
+         associate (set => self%clearances(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               number = self%n_contact + set%first_contact + k
+               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
+               associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
+                  if (slip == sticks) then
+                     g(number) = short_of(self, tangent, set%friction%stick_limit(tangent%f_n))
+                     rate(number) = (rate(number) - g(number))/moment
+                  else
+                     g(number) = standstill*own_speed(self) - slip*tangent%v - set%grip%band(k)
+                     rate(number) = -slip*(tangential(self, slot, k, .true.) + tangent%drift)
+                  end if
+               end associate
+            end do
+         end associate
+      end do
+   end procedure planar_friction_events
+
+   !> What the contacts that stick are short of giving way, as of the last evaluation.
+   subroutine note_holds(self, g)
+      class(planar_system_t), intent(in) :: self   !! the system
+      real(wp), intent(inout) :: g(:)              !! (n_event) event functions [N]
+
+      integer :: k, slot
+
+      do slot = 1, size(self%clearances)
+         associate (set => self%clearances(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
+               g(self%n_contact + set%first_contact + k) = short_of(self, set%grip%tangent(k), &
+                                                                    set%friction%stick_limit(set%grip%tangent(k)%f_n))
+            end do
+         end associate
+      end do
+   end subroutine note_holds
+
+   !> What a contact that sticks is beyond giving way: by its force, or by a speed that drivers have given it.
+   pure real(wp) function short_of(self, tangent, limit) result(g)
+      class(planar_system_t), intent(in) :: self   !! the system
+      type(tangent_t), intent(in) :: tangent       !! how the contact lies
+      real(wp), intent(in) :: limit                !! greatest force that it holds [N]
+
+      real(wp) :: speed
+
+      speed = own_speed(self)*merge(at_rest, torn, tangent%is_driven)
+      g = max(abs(tangent%f_t) - limit, limit*(abs(tangent%v)/speed - 1.0_wp))
+   end function short_of
+
+   !> Speed of the mechanism, which says what sliding is slow.
+   pure real(wp) function own_speed(self) result(speed)
+      class(planar_system_t), intent(in) :: self   !! the system
+
+      speed = self%pace*self%length_scale
+   end function own_speed
+
+   !> Whether any contact sticks.
+   pure logical function any_sticks(self)
+      class(planar_system_t), intent(in) :: self   !! the system
+
+      integer :: k
+
+      any_sticks = .false.
+      do k = 1, size(self%clearances)
+         associate (set => self%clearances(k)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            any_sticks = any_sticks .or. any(set%contact%is_touching .and. set%grip%slip == sticks)
+         end associate
+      end do
+   end function any_sticks
+
+   !> Decide whether a contact slips, which way, or sticks. One whose slip ended, or that begins without sliding, is tried as
+   !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
+   !> that sticks until now. One that drivers move goes with them.
+   module procedure planar_decide_slip
+      real(wp) :: delta(self%n_contact), rate(self%n_contact), speed
+      integer :: before, status
+
+      speed = own_speed(self)
+      associate (set => self%clearances(slot)%set)
+         before = set%grip%slip(k)
+         call set%gaps(self%motion, delta, rate)
+         if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%first_contact + k))) then
+            set%grip%band(k) = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
+         else
+            set%grip%band(k) = 0.0_wp
+         end if
+         set%grip%since(k) = t
+         if (before == is_undecided) then
+            call set%lie(k, self%motion, set%grip%tangent(k))
+            if (abs(set%grip%tangent(k)%v) > at_rest*speed) then
+               set%grip%slip(k) = nint(sign(1.0_wp, set%grip%tangent(k)%v))
+               return
+            end if
+         end if
+         set%grip%slip(k) = sticks
+         call self%evaluate(t, y, self%grips%ydot, status)
+         associate (tangent => set%grip%tangent(k))
+            if (tangent%is_driven) then
+               set%grip%band(k) = 0.0_wp
+               set%grip%slip(k) = way_of_drivers(self, t, y, slot, k, at_rest*speed)
+               return
+            end if
+            if (abs(tangent%v) > 0.5_wp*torn*speed) then
+               set%grip%slip(k) = nint(sign(1.0_wp, tangent%v))
+               return
+            end if
+            if (before /= sticks .and. abs(tangent%f_t) <= set%friction%stick_limit(tangent%f_n)) return
+            set%grip%slip(k) = nint(-sign(1.0_wp, tangent%f_t))
+         end associate
+      end associate
+   end procedure planar_decide_slip
+
+   !> Which way a contact goes that drivers move, by its speed now and a little later; it sticks if it does not move then either.
+   integer function way_of_drivers(self, t, y, slot, k, still) result(slip)
+      class(planar_system_t), intent(inout) :: self  !! the system, evaluated at the state with the contact sticking
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: y(:)                   !! (n) state [any]
+      integer, intent(in) :: slot                    !! set of the contact
+      integer, intent(in) :: k                       !! contact of the set
+      real(wp), intent(in) :: still                  !! speed that is none [m/s]
+
+      real(wp) :: later, now, v
+      integer :: status
+
+      later = max(look_ahead*self%grips%h, self%time_of_difference(t))
+      associate (set => self%clearances(slot)%set)
+         now = set%grip%tangent(k)%v
+         v = now
+         if (abs(now) < 0.5_wp*still) then
+            self%grips%y = y + later*self%grips%ydot
+            call self%set_motion(t + later, self%grips%y)
+            call set%lie(k, self%motion, set%grip%tangent(k))
+            v = set%grip%tangent(k)%v
+            call self%evaluate(t, y, self%grips%ydot, status)
+         end if
+         slip = sticks
+         if (abs(v) >= 0.5_wp*still) slip = nint(sign(1.0_wp, v))
+      end associate
+   end function way_of_drivers
+
+   !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
+   pure real(wp) function own_time(self, slot, k, delta) result(time)
+      class(planar_system_t), intent(in) :: self   !! the system
+      integer, intent(in) :: slot                  !! set of the contact
+      integer, intent(in) :: k                     !! contact of the set
+      real(wp), intent(in) :: delta                !! its penetration [m]
+
+      real(wp) :: compliance
+
+      associate (set => self%clearances(slot)%set)
+         compliance = sum(self%inverse_mass(1, set%body(:, set%item_of(k))))*set%grip%tangent(k)%f_n
+      end associate
+      time = 0.0_wp
+      if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)
+   end function own_time
+
+end submodule slip_events
