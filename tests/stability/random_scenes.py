@@ -25,6 +25,10 @@ LEAST_SPEED = 1e-2  # slowest impact that is: well above the floor of the law [m
 KINDS = ("block", "bar_2", "bar_3", "corner", "flat_block", "straight_bar")
 
 
+class Rests(Exception):
+    """A fall whose last impact does not end: the body stays where it is, pressed in by its weight."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Scene:
     """A deck, and what is known of its motion."""
@@ -62,7 +66,7 @@ def fall(scene):
 
 @functools.lru_cache(maxsize=None)
 def impacts_of(m, k, gap, n, c, restitution):
-    """The same from numbers."""
+    """The same from numbers; an impact that does not end is none."""
     damping = 0.75*(1.0 - restitution**2)
     x_0 = gap/c
     t, speed = math.sqrt(2.0*x_0/G), math.sqrt(2.0*x_0*G)
@@ -83,6 +87,8 @@ def impacts_of(m, k, gap, n, c, restitution):
         depth.terminal, depth.direction = True, -1
         part = solve_ivp(slopes, (0.0, 100.0), [0.0, speed*duration/size], method="DOP853", rtol=1e-13, atol=1e-15, events=depth,
                          max_step=0.02)
+        if not part.t_events[0].size:
+            raise Rests
         lasting, release = part.t_events[0][0]*duration, -part.y_events[0][0][1]*size/duration
         rows.append((t, impact, t + lasting, c*release))
         t += lasting + 2.0*release/G
@@ -118,8 +124,17 @@ def bodies(mass, inertia, place, frame, velocity, spin):
 
 
 def draw(kind, seed):
-    """Scene number `seed` of a kind: every third one is not symmetric."""
-    rng = np.random.default_rng([seed, KINDS.index(kind)])
+    """Scene number `seed` of a kind: every third one is not symmetric. One that comes to rest too early is drawn again."""
+    attempt = [seed, KINDS.index(kind)]
+    while True:
+        try:
+            return drawn(kind, seed, np.random.default_rng(attempt))
+        except Rests:
+            attempt.append(1)
+
+
+def drawn(kind, seed, rng):
+    """A scene of a kind from random numbers."""
     number = lambda low, high: float(rng.uniform(low, high))  # noqa: E731
     size = 10.0**number(-3.0, 0.0)
     tilt, frame = number(-math.pi, math.pi), number(-7.0, 7.0)
