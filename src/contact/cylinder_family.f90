@@ -16,14 +16,14 @@ module cylinder_family
    use hertz_family, only: add_restitution, damp
    use item, only: item_t
    use kind_info, only: add_flag, add_number, dim_length, kind_info_t
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use law_exact, only: exact_hysteresis
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use surfaces, only: shape_internal, surfaces_t
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: add_cylinder_columns, cylinder_family_t, prepare_cylinder
+   public :: add_cylinder_columns, add_line_columns, check_cylinders, cylinder_family_t, prepare_cylinder, prepare_line
 
    real(wp), parameter :: range = 0.9_wp  !! part of a B up to which the law holds [1]
 
@@ -31,7 +31,7 @@ module cylinder_family
    type, abstract, extends(normal_law_t) :: cylinder_family_t
       real(wp) :: length = 0.0_wp      !! length of contact, 0: that of the joint [m]
       real(wp) :: divisor = 1.0_wp     !! of the compliances: 1, or pi [1]
-      real(wp) :: unit = 1.0_wp        !! unit of length of a member whose numbers depend on it, 1 for the others [m]
+      real(wp) :: factor = 1.0_wp      !! of B, for members of which there are several forms [1]
       real(wp) :: hysteresis = 0.0_wp  !! damping factor h, 0: elastic [1]
    contains
       procedure(force_constant_interface), nopass, deferred :: force_constant
@@ -56,26 +56,40 @@ module cylinder_family
 
 contains
 
-   !> The columns of all members.
-   subroutine add_cylinder_columns(info)
+   !> The columns of all laws of cylinders.
+   subroutine add_line_columns(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
       call add_number(info, "length", dim_length, "length of contact along the axis; 0: that of the joint", &
                       default="0 m", lower=0.0_wp)
       call add_restitution(info, default="1")
+   end subroutine add_line_columns
+
+   !> The columns of members whose source leaves open what the compliances are.
+   subroutine add_cylinder_columns(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+
+      call add_line_columns(info)
       call add_flag(info, "sigma_pi", "compliances of the materials divided by pi, nearer to line contact", default="off")
    end subroutine add_cylinder_columns
 
-   !> Take the parameters.
-   subroutine prepare_cylinder(self, item)
+   !> Take the parameters of `add_line_columns`: compliances over pi, as line contact has them.
+   subroutine prepare_line(self, item)
       class(cylinder_family_t), intent(inout) :: self  !! the law
       type(item_t), intent(in) :: item                 !! the row
-
-      real(wp), parameter :: pi = acos(-1.0_wp)
 
       self%name = item%name
       self%length = item%values(1)%number
       self%hysteresis = exact_hysteresis(item%values(2)%number)
+      self%divisor = pi
+   end subroutine prepare_line
+
+   !> Take the parameters of `add_cylinder_columns`.
+   subroutine prepare_cylinder(self, item)
+      class(cylinder_family_t), intent(inout) :: self  !! the law
+      type(item_t), intent(in) :: item                 !! the row
+
+      call prepare_line(self, item)
       self%divisor = merge(pi, 1.0_wp, item%values(3)%flag)
    end subroutine prepare_cylinder
 
@@ -90,23 +104,35 @@ contains
       real(wp) :: length, sigma
 
       parameters = [1.0_wp, 1.0_wp, range, 0.0_wp]
+      call check_cylinders(self%name, pair, self%length, length, message, help)
+      if (message /= "") return
+      sigma = (pair%sigma_i + pair%sigma_j)/self%divisor
+      parameters(1) = sigma/length
+      parameters(2) = parameters(1)*self%factor*self%force_constant(pair, length, sigma)
+      parameters(3) = range*parameters(2)
+   end subroutine family_fit
+
+   !> What a law of a pin in a hole asks of a pair of surfaces, and the length of contact.
+   subroutine check_cylinders(name, pair, own_length, length, message, help)
+      character(*), intent(in) :: name                       !! of the law
+      type(surfaces_t), intent(in) :: pair                   !! the surfaces
+      real(wp), intent(in) :: own_length                     !! length that the law gives, 0: none [m]
+      real(wp), intent(out) :: length                        !! length of contact [m]
+      character(:), allocatable, intent(out) :: message      !! what is wrong, empty: the law fits
+      character(:), allocatable, intent(out) :: help         !! what would be right
+
       length = pair%length
-      if (self%length > 0.0_wp) length = self%length
+      if (own_length > 0.0_wp) length = own_length
       message = ""
       help = ""
       if (pair%shape /= shape_internal) then
-         message = "law '"//self%name//"' is one of a pin in a hole"
+         message = "law '"//name//"' is one of a pin in a hole"
          help = "take a law of Hertz's family, or one for plane faces"
       else if (.not. length > 0.0_wp) then
-         message = "law '"//self%name//"' needs the length of the bearing"
+         message = "law '"//name//"' needs the length of the bearing"
          help = "give column length in the row of the joint, or in that of the law"
-      else
-         sigma = (pair%sigma_i + pair%sigma_j)/self%divisor
-         parameters(1) = sigma/length
-         parameters(2) = parameters(1)*self%unit**2*self%force_constant(pair, length, sigma)
-         parameters(3) = range*parameters(2)
       end if
-   end subroutine family_fit
+   end subroutine check_cylinders
 
    !> Force of n contacts.
    pure subroutine family_force(self, n, delta, rate, impact_speed, parameters, f, df_ddelta, df_drate, f_elastic)
