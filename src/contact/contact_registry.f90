@@ -19,6 +19,7 @@ module contact_registry
    use law_hertz, only: law_hertz_t
    use law_hu_guo, only: law_hu_guo_t
    use law_hunt_crossley, only: law_hunt_crossley_t
+   use law_johnson, only: law_johnson_t
    use law_kelvin_voigt, only: law_kelvin_voigt_t
    use law_lankarani_nikravesh, only: law_lankarani_nikravesh_t
    use law_lee_wang, only: law_lee_wang_t
@@ -29,7 +30,7 @@ module contact_registry
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 16       !! number of normal laws
+   integer, parameter :: n_law_kinds = 17       !! number of normal laws
    integer, parameter :: n_friction_kinds = 7   !! number of friction laws
 
 contains
@@ -56,6 +57,7 @@ contains
       case (14); allocate (law_esdu_t :: law)
       case (15); allocate (law_plane_face_t :: law)
       case (16); allocate (law_expression_t :: law)
+      case (17); allocate (law_johnson_t :: law)
       end select
    end subroutine new_normal_law
 
