@@ -24,13 +24,14 @@ module contact_registry
    use law_lankarani_nikravesh, only: law_lankarani_nikravesh_t
    use law_lee_wang, only: law_lee_wang_t
    use law_plane_face, only: law_plane_face_t
+   use law_radzimovsky, only: law_radzimovsky_t
    use law_zhiying_qishao, only: law_zhiying_qishao_t
    use normal_law, only: normal_law_t
    implicit none (type, external)
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 17       !! number of normal laws
+   integer, parameter :: n_law_kinds = 18       !! number of normal laws
    integer, parameter :: n_friction_kinds = 7   !! number of friction laws
 
 contains
@@ -58,6 +59,7 @@ contains
       case (15); allocate (law_plane_face_t :: law)
       case (16); allocate (law_expression_t :: law)
       case (17); allocate (law_johnson_t :: law)
+      case (18); allocate (law_radzimovsky_t :: law)
       end select
    end subroutine new_normal_law
 
