@@ -23,6 +23,7 @@ module contact_registry
    use law_kelvin_voigt, only: law_kelvin_voigt_t
    use law_lankarani_nikravesh, only: law_lankarani_nikravesh_t
    use law_lee_wang, only: law_lee_wang_t
+   use law_liu, only: law_liu_t
    use law_plane_face, only: law_plane_face_t
    use law_radzimovsky, only: law_radzimovsky_t
    use law_zhiying_qishao, only: law_zhiying_qishao_t
@@ -31,7 +32,7 @@ module contact_registry
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 18       !! number of normal laws
+   integer, parameter :: n_law_kinds = 19       !! number of normal laws
    integer, parameter :: n_friction_kinds = 7   !! number of friction laws
 
 contains
@@ -60,6 +61,7 @@ contains
       case (16); allocate (law_expression_t :: law)
       case (17); allocate (law_johnson_t :: law)
       case (18); allocate (law_radzimovsky_t :: law)
+      case (19); allocate (law_liu_t :: law)
       end select
    end subroutine new_normal_law
 
