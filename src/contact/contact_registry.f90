@@ -25,6 +25,7 @@ module contact_registry
    use law_lee_wang, only: law_lee_wang_t
    use law_liu, only: law_liu_t
    use law_pereira, only: law_pereira_t
+   use law_persson, only: law_persson_t
    use law_plane_face, only: law_plane_face_t
    use law_radzimovsky, only: law_radzimovsky_t
    use law_zhiying_qishao, only: law_zhiying_qishao_t
@@ -33,7 +34,7 @@ module contact_registry
    private
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
-   integer, parameter :: n_law_kinds = 20       !! number of normal laws
+   integer, parameter :: n_law_kinds = 21       !! number of normal laws
    integer, parameter :: n_friction_kinds = 7   !! number of friction laws
 
 contains
@@ -64,6 +65,7 @@ contains
       case (18); allocate (law_radzimovsky_t :: law)
       case (19); allocate (law_liu_t :: law)
       case (20); allocate (law_pereira_t :: law)
+      case (21); allocate (law_persson_t :: law)
       end select
    end subroutine new_normal_law
 
