@@ -7,6 +7,7 @@ module contact_registry
    use friction_law, only: friction_law_t
    use friction_lugre, only: friction_lugre_t
    use friction_rooney_deravi, only: friction_rooney_deravi_t
+   use friction_stribeck, only: friction_stribeck_t
    use friction_threlfall, only: friction_threlfall_t
    use law_dubowsky_freudenstein, only: law_dubowsky_freudenstein_t
    use law_esdu, only: law_esdu_t
@@ -35,7 +36,7 @@ module contact_registry
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
    integer, parameter :: n_law_kinds = 21       !! number of normal laws
-   integer, parameter :: n_friction_kinds = 7   !! number of friction laws
+   integer, parameter :: n_friction_kinds = 8   !! number of friction laws
 
 contains
 
@@ -82,6 +83,7 @@ contains
       case (5); allocate (friction_brown_mcphee_t :: law)
       case (6); allocate (friction_coulomb_t :: law)
       case (7); allocate (friction_lugre_t :: law)
+      case (8); allocate (friction_stribeck_t :: law)
       end select
    end subroutine new_friction_law
 
