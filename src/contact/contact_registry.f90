@@ -4,6 +4,7 @@ module contact_registry
    use friction_brown_mcphee, only: friction_brown_mcphee_t
    use friction_constant, only: friction_constant_t
    use friction_coulomb, only: friction_coulomb_t
+   use friction_dahl, only: friction_dahl_t
    use friction_law, only: friction_law_t
    use friction_lugre, only: friction_lugre_t
    use friction_rooney_deravi, only: friction_rooney_deravi_t
@@ -36,7 +37,7 @@ module contact_registry
    public :: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
 
    integer, parameter :: n_law_kinds = 21       !! number of normal laws
-   integer, parameter :: n_friction_kinds = 8   !! number of friction laws
+   integer, parameter :: n_friction_kinds = 9   !! number of friction laws
 
 contains
 
@@ -84,6 +85,7 @@ contains
       case (6); allocate (friction_coulomb_t :: law)
       case (7); allocate (friction_lugre_t :: law)
       case (8); allocate (friction_stribeck_t :: law)
+      case (9); allocate (friction_dahl_t :: law)
       end select
    end subroutine new_friction_law
 

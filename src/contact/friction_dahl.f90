@@ -1,0 +1,103 @@
+!> Dahl friction: surfaces hold each other as an elastic solid that yields, by a deflection z that is a state of the contact.
+!>
+!> z' = v_T |1 - x|^i sign(1 - x),   x = sigma z sign(v_T) / mu,   F_T = F_N sigma z
+!>
+!> With steady sliding z = mu/sigma and F_T = mu F_N. A contact begins with z = 0; from there, sliding one way by s with i = 1,
+!> F_T = mu F_N (1 - exp(-sigma s/mu)), at any speed. Below mu F_N it gives by z only, so that a body on a slope rests.
+!>
+!> Signs: against the sliding velocity. Source: P. R. Dahl, A solid friction model, Aerospace Corporation report
+!> TOR-0158(3107-18)-1 (1968), with forces in proportion to the normal one. Limits: no dip after Stribeck and no viscous part;
+!> the energy of the deflection counts as lost by friction, and what of it comes back comes back there.
+module friction_dahl
+   use friction_law, only: friction_law_t, memory_bristle
+   use item, only: item_t
+   use kind_info, only: add_number, dim_none, dim_t, kind_info_t
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: friction_dahl_t
+
+   !> Friction of an elastic solid that yields.
+   type, extends(friction_law_t) :: friction_dahl_t
+      real(wp) :: coefficient = 0.0_wp  !! mu [1]
+      real(wp) :: stiffness = 1.0_wp    !! over the normal force, sigma [1/m]
+      real(wp) :: exponent = 1.0_wp     !! i [1]
+   contains
+      procedure, nopass :: info => dahl_info
+      procedure :: prepare => dahl_prepare
+      procedure :: is_active => dahl_is_active
+      procedure :: force => dahl_force
+      procedure :: bristles => dahl_bristles
+      procedure :: bristle_scale => dahl_bristle_scale
+   end type friction_dahl_t
+
+contains
+
+   !> What the kind says of itself.
+   function dahl_info() result(info)
+      type(kind_info_t) :: info  !! name and columns
+
+      info%name = "friction.dahl"
+      info%help = "Dahl: an elastic deflection with a state of its own that yields at the coefficient of friction"
+      info%source = "Dahl (1968)"
+      call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)
+      call add_number(info, "stiffness", dim_t(m=-1), "stiffness of the deflection over the normal force (sigma)", &
+                      default="1e5 m^-1", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "exponent", dim_none, "exponent of the yielding (i): 1 as ductile, less as brittle materials", &
+                      default="1", lower=0.5_wp, upper=4.0_wp)
+   end function dahl_info
+
+   !> Take the parameters.
+   subroutine dahl_prepare(self, item)
+      class(friction_dahl_t), intent(inout) :: self  !! the law
+      type(item_t), intent(in) :: item               !! the row
+
+      self%name = item%name
+      self%memory = memory_bristle
+      self%coefficient = item%values(1)%number
+      self%stiffness = item%values(2)%number
+      self%exponent = item%values(3)%number
+   end subroutine dahl_prepare
+
+   !> Without a coefficient there is no friction.
+   pure logical function dahl_is_active(self)
+      class(friction_dahl_t), intent(in) :: self  !! the law
+
+      dahl_is_active = self%coefficient > 0.0_wp
+   end function dahl_is_active
+
+   !> Magnitude of the friction force of n contacts that slide steadily.
+   pure subroutine dahl_force(self, n, normal_force, speed, f)
+      class(friction_dahl_t), intent(in) :: self      !! the law
+      integer, intent(in) :: n                        !! number of contacts
+      real(wp), intent(in) :: normal_force(n)         !! (n) normal force [N]
+      real(wp), intent(in) :: speed(n)                !! (n) magnitude of the sliding velocity [m/s]
+      real(wp), intent(out) :: f(n)                   !! (n) magnitude of the friction force [N]
+
+      f = self%coefficient*normal_force
+   end subroutine dahl_force
+
+   !> Force and rate of the deflection of one contact.
+   pure subroutine dahl_bristles(self, normal_force, velocity, z, f, z_rate)
+      class(friction_dahl_t), intent(in) :: self   !! the law
+      real(wp), intent(in) :: normal_force         !! normal force [N]
+      real(wp), intent(in) :: velocity             !! sliding velocity [m/s]
+      real(wp), intent(in) :: z                    !! deflection [m]
+      real(wp), intent(out) :: f                   !! force along the sliding velocity that is to be opposed [N]
+      real(wp), intent(out) :: z_rate              !! rate of the deflection [m/s]
+
+      real(wp) :: left
+
+      left = 1.0_wp - sign(1.0_wp, velocity)*self%stiffness*z/self%coefficient
+      z_rate = velocity*sign(abs(left)**self%exponent, left)
+      f = normal_force*self%stiffness*z
+   end subroutine dahl_bristles
+
+   !> The greatest deflection that lasts.
+   pure real(wp) function dahl_bristle_scale(self) result(z)
+      class(friction_dahl_t), intent(in) :: self  !! the law
+
+      z = self%coefficient/self%stiffness
+   end function dahl_bristle_scale
+
+end module friction_dahl
