@@ -6,6 +6,7 @@ from support import ROOT, Run, assert_close, call, changed, scratch, written
 
 COULOMB = "[friction.coulomb]\nname coefficient static_coefficient\ncoulomb 0.05 0.06\n\n"
 LUGRE = "[friction.lugre]\nname coefficient static_coefficient stribeck_speed[m/s]\nlugre 0.05 0.06 0.01\n\n"
+DAHL = "[friction.dahl]\nname coefficient\ndahl 0.05\n\n"
 
 
 def shoe(law):
@@ -21,7 +22,8 @@ def rolling(law):
 def impacts(law):
     """A slider that meets its guide with two corners at once, again and again, in a mechanism with constraints."""
     text = (ROOT / "inputs/slider_crank_translational.deck").read_text()
-    text = text.replace("{faces}   ambrosio", "{faces}   " + law).replace("[friction.ambrosio]", COULOMB + LUGRE + "[friction.ambrosio]")
+    text = text.replace("{faces}   ambrosio", "{faces}   " + law)
+    text = text.replace("[friction.ambrosio]", COULOMB + LUGRE + DAHL + "[friction.ambrosio]")
     return changed(text, "analysis.dynamic", end="2.4 ms", stabilise=None), []
 
 
@@ -44,7 +46,7 @@ def rows(run):
 
 
 @pytest.mark.parametrize("method", ["bdf", "ida"])
-@pytest.mark.parametrize("law", ["coulomb", "lugre"])
+@pytest.mark.parametrize("law", ["coulomb", "lugre", "dahl"])
 @pytest.mark.parametrize("scene", [shoe, rolling, impacts])
 def test_as_by_verner(gudgeon, scene, law, method):
     """The same events at the same times, the same forces and motions; the ledger closes."""

@@ -27,6 +27,8 @@ contains
       call suite%test("rooney_deravi", test_rooney_deravi)
       call suite%test("threlfall", test_threlfall)
       call suite%test("brown_mcphee", test_brown_mcphee)
+      call suite%test("stribeck", test_stribeck)
+      call suite%test("dahl", test_dahl)
    end subroutine run_test_friction_laws
 
    !> A row of a friction law with any numbers that make sense together.
@@ -206,6 +208,55 @@ contains
       call make_named("brown_mcphee", [0.2_wp, 0.16_wp, 2.0e-3_wp, 0.0_wp], " ", law)
       call check_true(error, index(law%mistake(), "static") > 0, "static below coefficient")
    end subroutine test_brown_mcphee
+
+   !> The sliding coefficient far beyond v_s, the static one between v_0 and v_s, one part in e at v_s; the viscous part.
+   subroutine test_stribeck(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      class(friction_law_t), allocatable :: law
+      real(wp) :: f(4)
+
+      call make_named("stribeck", [0.1_wp, 0.16_wp, 1.0e-2_wp, 1.0e-6_wp, 2.0_wp, 0.0_wp], " ", law)
+      call law%force(4, spread(500.0_wp, 1, 4), [0.0_wp, 1.0e-4_wp, 1.0e-2_wp, 1.0_wp], f)
+      call check_close(error, f, 500.0_wp*[0.0_wp, 0.16_wp - 0.06_wp*0.99995000166e-4_wp, &
+                                           0.1_wp + 0.06_wp*0.367879441171442_wp, 0.1_wp], 1.0e-8_wp, "Stribeck's curve")
+      call make_named("stribeck", [0.1_wp, 0.1_wp, 1.0e-2_wp, 1.0e-3_wp, 1.0_wp, 0.02_wp], " ", law)
+      call law%force(2, spread(500.0_wp, 1, 2), [1.0e-3_wp, 10.0_wp], f(:2))
+      call check_close(error, f(:2), 500.0_wp*[0.1_wp*0.761594155955765_wp + 2.0e-5_wp, 0.1_wp + 0.2_wp], 1.0e-9_wp, "its parts")
+      call make_named("stribeck", [0.2_wp, 0.16_wp, 1.0e-2_wp, 1.0e-3_wp, 2.0_wp, 0.0_wp], " ", law)
+      call check_true(error, index(law%mistake(), "static") > 0, "static below coefficient")
+   end subroutine test_stribeck
+
+   !> The deflections that follow for a way s from z = 0: mu/sigma (1 - exp(-sigma s/mu)) for i = 1 and, of sigma s/mu = x,
+   !> mu/sigma x/(1 + x) for i = 2; back from the steady one it yields twice as fast as it began; steady is steady.
+   subroutine test_dahl(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: mu = 0.3_wp, sigma = 2.0e4_wp, v = 0.07_wp
+      class(friction_law_t), allocatable :: law
+      real(wp) :: f, rate, x
+      integer :: k
+
+      do k = 0, 6
+         x = 0.5_wp*k
+         call make_named("dahl", [mu, sigma, 1.0_wp], " ", law)
+         call law%bristles(100.0_wp, v, mu/sigma*(1.0_wp - exp(-x)), f, rate)
+         call check_close(error, rate, v*exp(-x), 1.0e-14_wp, "ductile: rate")
+         call check_close(error, f, 100.0_wp*mu*(1.0_wp - exp(-x)), 1.0e-12_wp, "ductile: force")
+         call make_named("dahl", [mu, sigma, 2.0_wp], " ", law)
+         call law%bristles(100.0_wp, v, mu/sigma*x/(1.0_wp + x), f, rate)
+         call check_close(error, rate, v/(1.0_wp + x)**2, 1.0e-14_wp, "a greater exponent: rate")
+         call law%bristles(100.0_wp, -v, -mu/sigma*x/(1.0_wp + x), f, rate)
+         call check_close(error, rate, -v/(1.0_wp + x)**2, 1.0e-14_wp, "the other way: rate")
+      end do
+      call make_named("dahl", [mu, sigma, 1.0_wp], " ", law)
+      call law%bristles(100.0_wp, v, mu/sigma, f, rate)
+      call check_close(error, [f, rate], [30.0_wp, 0.0_wp], 1.0e-13_wp, "steady")
+      call law%bristles(100.0_wp, -v, mu/sigma, f, rate)
+      call check_close(error, rate, -2.0_wp*v, 1.0e-14_wp, "back")
+      call law%bristles(100.0_wp, v, 1.1_wp*mu/sigma, f, rate)
+      call check_close(error, rate, -0.1_wp*v, 1.0e-13_wp, "what is too far comes back")
+   end subroutine test_dahl
 
    !> Ambrosio's law with given numbers.
    subroutine make_ambrosio(coefficient, v0, v1, law)

@@ -29,6 +29,7 @@ contains
       call suite%test("stick_slip_oscillator", test_stick_slip)
       call suite%test("lugre_slides_steadily", test_steady)
       call suite%test("lugre_gives_by_its_bristles", test_bristles)
+      call suite%test("dahl_slows_a_block", test_dahl)
    end subroutine run_test_friction_memory
 
    !> A body of 1 kg on a plane, pressed in as far as its weight presses. Gravity is turned by the slope. A block has two feet,
@@ -38,7 +39,7 @@ contains
       real(wp), intent(in) :: slope           !! of the plane [rad]
       logical, intent(in) :: is_block         !! a block, not a disc
       character(*), intent(in) :: motion      !! vx[m/s] and omega[rad/s]
-      character(*), intent(in) :: friction    !! coulomb, lugre or ambrosio
+      character(*), intent(in) :: friction    !! coulomb, lugre, dahl or ambrosio
       character(*), intent(in) :: settings    !! lines of [analysis.dynamic] and tables
       character(:), allocatable :: deck       !! the deck
 
@@ -59,6 +60,7 @@ contains
              "[contact.lankarani_nikravesh]"//nl//"name restitution stiffness[N/m^1.5]"//nl//"normal 0.5 1e9"//nl// &
              "[friction.coulomb]"//nl//"name coefficient static_coefficient"//nl//"coulomb 0.3 0.4"//nl// &
              "[friction.lugre]"//nl//"name coefficient static_coefficient viscosity[s/m]"//nl//"lugre 0.3 0.4 0.01"//nl// &
+             "[friction.dahl]"//nl//"name coefficient stiffness[m^-1]"//nl//"dahl 0.3 1e4"//nl// &
              "[friction.ambrosio]"//nl//"name coefficient v0[m/s] v1[m/s]"//nl//"ambrosio 0.3 1e-4 1e-3"//nl// &
              "[analysis.dynamic]"//nl//"start = given"//nl//"overlap = preload"//nl//settings//nl
    end function on_plane
@@ -348,5 +350,29 @@ contains
          call check_close(error, y(4), 0.0_wp, 1.0e-9_wp, "at rest")
       end associate
    end subroutine test_bristles
+
+   !> A block slides a way s on Dahl's friction from z = 0: v^2 = v_0^2 - 2 mu g [ s - mu/sigma (1 - exp(-sigma s/mu)) ].
+   subroutine test_dahl(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: along = 0.3_wp/1.0e4_wp  ! mu/sigma [m]
+      type(keeper_t) :: keeper
+      type(loaded_t) :: loaded
+      type(summary_t) :: summary
+      real(wp) :: s
+      integer :: k
+
+      do k = 1, 4
+         call run_deck(on_plane(0.0_wp, .true., "0.05 0", "dahl", "end = "//real_text(0.4e-3_wp*k, 5)//" s"//nl// &
+                                "tolerance = 1e-11"), loaded, keeper, summary, error)
+         if (allocated(error)) return
+         associate (y => loaded%method%step%y1)
+            s = y(1)
+            call check_close(error, y(4)**2, 0.05_wp**2 - 0.6_wp*g*(s - along*(1.0_wp - exp(-s/along))), 1.0e-10_wp, "its speed")
+            call check_close(error, y(7), along*(1.0_wp - exp(-s/along)), 1.0e-9_wp*along, "deflection")
+         end associate
+      end do
+      call check_true(error, summary%energy_residual_max < 1.0e-7_wp*summary%energy_max, "the ledger closes")
+   end subroutine test_dahl
 
 end module test_friction_memory
