@@ -2,9 +2,10 @@
 !>
 !> F = 2 pi E L c s (1 + s) / (2 - ln(1 + s) - 2 s^2),   s = tan^2(e/2),   1/E = sigma_i + sigma_j,   c = R_i - R_j
 !>
-!> for bodies of one material. The penetration goes with the angle of contact e by the overlap of the circles, cos e =
-!> c/(c + delta), so that s = delta/(2 c + delta). The force grows without bound at s = 0.8346; from nine tenths of that it goes on along its
-!> tangent, which is beyond the law's range and reported as such. The energy is a Gauss-Legendre sum of 16 points.
+!> for bodies of one material. The penetration goes with the angle of contact e by the overlap of the circles,
+!> cos e = c/(c + delta), so that s = delta/(2 c + delta). The force grows without bound at s = 0.8346; from nine tenths of that
+!> it goes on along its tangent, which is beyond the law's range and reported as such. The energy is a Gauss-Legendre sum of
+!> 16 points.
 !> Source: A. Persson, On the stress distribution of cylindrical elastic bodies in contact, dissertation, Chalmers (1964);
 !> M. Ciavarella and P. Decuzzi, The state of stress induced by the plane frictionless cylindrical contact, International Journal of
 !> Solids and Structures 38 (2001), 4507-4523; the penetration as in C.-S. Liu, K. Zhang and R. Yang (2007).
