@@ -5,23 +5,36 @@
 !> equal runs give equal files. Shapes are given in Fortran's order: reversed in the file.
 module hdf5_calls
    use hdf5, only: h5aclose_f, h5acreate_f, h5aopen_f, h5aexists_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dwrite_f
-   use hdf5, only: h5dont_atexit_f, h5eset_auto_f, h5gclose_f, h5gcreate_f, h5open_f, h5pclose_f, h5pcreate_f
-   use hdf5, only: h5pset_chunk_cache_f, h5pset_chunk_f, h5pset_create_inter_group_f, h5pset_obj_track_times_f
+   use hdf5, only: h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5pclose_f, h5pcreate_f
+   use hdf5, only: h5d_alloc_time_early_f, h5pset_alloc_time_f, h5pset_chunk_cache_f, h5pset_chunk_f
+   use hdf5, only: h5pset_create_inter_group_f, h5pset_local_heap_size_hint_f, h5pset_obj_track_times_f
    use hdf5, only: h5sclose_f, h5screate_f, h5screate_simple_f, h5tclose_f, h5tcopy_f, h5tset_cset_f
    use hdf5, only: hid_t, hsize_t, size_t
-   use hdf5, only: h5p_dataset_access_f, h5p_dataset_create_f, h5p_group_create_f, h5p_link_create_f
+   use hdf5, only: h5f_acc_trunc_f, h5p_dataset_access_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f
+   use hdf5, only: h5p_group_create_f, h5p_link_create_f
    use hdf5, only: h5s_scalar_f, h5s_unlimited_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_std_i32le
    use hdf5, only: h5t_std_i64le, h5t_ieee_f64le, h5t_string, h5kind_to_type, h5_integer_kind
-   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use kinds, only: i8, wp
    use posix, only: set_default_variable
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: describe, integer_attribute, long_attribute, new_dataset, new_group, open_library, real_attribute
+   public :: describe, integer_attribute, long_attribute, new_dataset, new_file, new_group, open_library, real_attribute
    public :: integer_dataset, real_dataset, string_type, text_attribute, text_dataset
 
    logical :: is_open = .false.  !! whether the library has been opened
+
+   integer(size_t), parameter :: bytes_of_names = 1024  !! for the names in the root group, with room for what comes at the end
+
+   interface
+      !> Set the driver that writes metadata in order (ordered_file.c). Negative: failed.
+      integer(c_int) function c_set_driver(access) bind(c, name="gudgeon_set_ordered_driver")
+         import :: c_int, c_int64_t
+         implicit none (type, external)
+         integer(c_int64_t), value :: access  !! access properties of a file
+      end function c_set_driver
+   end interface
 
 contains
 
@@ -37,6 +50,28 @@ contains
       call h5eset_auto_f(0, status)
       is_open = status >= 0
    end subroutine open_library
+
+   !> Make a file that can be read whenever its writer dies.
+   subroutine new_file(path, file, status)
+      character(*), intent(in) :: path      !! where
+      integer(hid_t), intent(out) :: file   !! the open file
+      integer, intent(inout) :: status      !! negative: failed
+
+      integer(hid_t) :: access, creation
+      integer :: closed
+
+      file = -1
+      if (status < 0) return
+      call h5pcreate_f(h5p_file_create_f, creation, status)
+      if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
+      if (status >= 0) call h5pset_local_heap_size_hint_f(creation, bytes_of_names, status)
+      if (status >= 0) call h5pcreate_f(h5p_file_access_f, access, status)
+      if (status < 0) return
+      status = c_set_driver(int(access, c_int64_t))
+      if (status >= 0) call h5fcreate_f(path, h5f_acc_trunc_f, file, status, creation, access)
+      call h5pclose_f(creation, closed)
+      call h5pclose_f(access, closed)
+   end subroutine new_file
 
    !> Make a group, and those above it.
    subroutine new_group(file, path, group, status)
@@ -81,7 +116,10 @@ contains
       if (present(chunk)) most(rank) = h5s_unlimited_f
       call h5pcreate_f(h5p_dataset_create_f, creation, status)
       if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
-      if (status >= 0 .and. present(chunk)) call h5pset_chunk_f(creation, rank, chunk, status)
+      if (status >= 0 .and. present(chunk)) then  ! with its index from the start, so that growing changes one part of the header
+         call h5pset_chunk_f(creation, rank, chunk, status)
+         if (status >= 0) call h5pset_alloc_time_f(creation, h5d_alloc_time_early_f, status)
+      end if
       if (status >= 0) call h5pcreate_f(h5p_link_create_f, link, status)
       if (status < 0) return
       call h5pset_create_inter_group_f(link, 1, status)

@@ -1,18 +1,17 @@
 !> Writes run.h5 (layout: hdf5_layout.f90 and docs/output.md).
 !>
 !> Rows wait in memory until there is a block of them, or until ten seconds have passed; then they
-!> are written and the file is flushed, so that a run that is killed leaves a readable file. Before
-!> a block is written its space on the disk is reserved: a full disk is noticed before the file is
-!> touched, and what it held stays whole.
+!> are written and the file is flushed. Its metadata goes to the disk in an order in which it never
+!> points to rows that are not there (ordered_file.c), the length of /time as the last: a run that is
+!> killed, whenever, leaves a readable file with whole rows. Before a block is written its space on the
+!> disk is reserved: a full disk is noticed before the file is touched, and what it held stays whole.
 module hdf5_writer
    use catalogue, only: catalogue_t
    use channels, only: selection_t
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
-   use hdf5, only: h5dclose_f, h5fclose_f, h5fcreate_f, h5fflush_f, h5gclose_f, h5pclose_f, h5pcreate_f
-   use hdf5, only: h5pset_obj_track_times_f, h5f_acc_trunc_f, h5f_scope_local_f, h5p_default_f, h5p_file_create_f
-   use hdf5, only: hid_t, hsize_t
-   use hdf5_calls, only: new_group, open_library, text_attribute
+   use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
+   use hdf5_calls, only: new_file, new_group, open_library, text_attribute
    use hdf5_events, only: event_table_t
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time
    use hdf5_rows, only: write_rows, write_states
@@ -67,7 +66,7 @@ contains
       type(selection_t), intent(in) :: selection         !! what is
       type(error_t), allocatable, intent(out) :: error   !! it cannot be made
 
-      integer(hid_t) :: creation, group
+      integer(hid_t) :: group
       integer :: block, closed, status
 
       self%path = plan%directory//"/run.h5"
@@ -80,10 +79,7 @@ contains
          return
       end if
       call open_library(status)
-      if (status >= 0) call h5pcreate_f(h5p_file_create_f, creation, status)
-      if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
-      if (status >= 0) call h5fcreate_f(self%path, h5f_acc_trunc_f, self%file, status, creation, h5p_default_f)
-      if (status >= 0) call h5pclose_f(creation, closed)
+      call new_file(self%path, self%file, status)
       allocate (self%datasets(0))
       if (status >= 0) call reserve(self, len(plan%deck_text, i8) + &
                                     metadata_of_dataset*size(catalogue%groups, kind=i8), error)
@@ -178,7 +174,6 @@ contains
       call reserve(self, bytes, error)
       if (allocated(error)) return
       status = 0
-      call write_rows(self%time, [integer(hsize_t) ::], self%times(1:self%waiting), self%written, self%waiting, status)
       call write_states(self%kinds, self%written, self%waiting, status)
       do k = 1, size(self%datasets)
          associate (this => self%datasets(k))
@@ -190,6 +185,9 @@ contains
          end associate
       end do
       call self%events%append(events, status)
+      if (status >= 0) call flush_file(self, status)
+      ! the last to grow: what /time tells of is there
+      call write_rows(self%time, [integer(hsize_t) ::], self%times(1:self%waiting), self%written, self%waiting, status)
       if (status >= 0) call flush_file(self, status)
       if (status < 0) then
          call fail(self, "cannot write to", "the disk may be full", error)

@@ -2,11 +2,8 @@
 
 import fnmatch
 import json
-import os
 import re
-import signal
 import subprocess
-import time
 
 import h5py
 import numpy as np
@@ -195,39 +192,3 @@ def test_a_foreign_directory_is_left_alone(gudgeon, root, tmp_path):
     assert done.returncode == 9
     assert "left alone" in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
-
-
-def test_a_killed_run_can_be_read(gudgeon, root, tmp_path):
-    deck = (root / DECK).read_text(encoding="utf-8")
-    deck, changed = re.subn(r"(?m)^(\s*end\s*=\s*)[^#\n]*", r"\g<1>100 s ", deck, count=1)
-    assert changed == 1, "the deck has no end"
-    deck = re.sub(r"(?m)^\s*figures\s*=.*$", "", deck)  # nothing to wait for but the run itself
-    (tmp_path / "long.deck").write_text(deck, encoding="utf-8")
-    command = [gudgeon, "run", tmp_path / "long.deck", "--out", tmp_path / "run", "--quiet"]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=root)
-    file = tmp_path / "run" / "run.h5"
-    try:
-        for _ in range(600):
-            time.sleep(0.1)
-            assert process.poll() is None, "the run ended too early"
-            if file.exists() and file.stat().st_size > 500_000:
-                break
-        refused = subprocess.run(command, cwd=root, capture_output=True, text=True, timeout=60)
-        assert refused.returncode == 9
-        assert "is writing to" in refused.stderr
-    finally:
-        os.kill(process.pid, signal.SIGKILL)
-        process.wait()
-    with h5py.File(file, "r") as file:
-        assert file.attrs["status"] == "running"
-        n = len(file["time"])
-        # a kill in the midst of a flush may leave the rows of that flush as zeros: they are the last ones, and nothing else is
-        good = int(np.flatnonzero(file["time"][:] > 0)[-1]) + 1
-        assert good >= 128
-        assert np.all(np.diff(file["time"][:good]) >= 0)
-        assert np.all(np.diff(file["time"][:good][file["row_kind"][:good] == 0]) > 0)
-        for path, node in datasets(file).items():
-            if "DIMENSION_LIST" in node.attrs:
-                assert node.shape[0] == n, path
-                assert node[()] is not None
-    assert not (tmp_path / "run" / "summary.json").exists()

@@ -1,0 +1,294 @@
+/* A file of HDF5 that can be read whenever its writer dies: a file driver that writes the library's metadata in order.
+ *
+ * The library writes metadata by address, the length of a dataset before the index of its chunks, and whenever its cache is
+ * full: a reader may find rows that were not yet written. Here raw data goes to the file at once, into places that nothing in
+ * the file points to; metadata waits in memory until the library flushes. Then it is written so that nothing points to what is
+ * not there:
+ *
+ *    1. blocks that are not yet in the file (nothing points to them);
+ *    2. the superblock, which tells the end of the file;
+ *    3. heaps with names, then nodes of B-trees, those nearer to the root first (where a node was parted, its parent knows both
+ *       halves while the node itself still holds all), then lists of names;
+ *    4. object headers, with the lengths of datasets.
+ *
+ * The first flush writes the superblock last, so that there is a file or none. A block is one write, and a node or header is small:
+ * the file system makes it whole. Limits: not for power failures, which order nothing; not where the library, between two flushes,
+ * frees a place that the file points to and takes it again (appending rows frees nothing).
+ */
+#define _GNU_SOURCE
+
+#include <errno.h>
+#include <fcntl.h>
+#include <hdf5.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Metadata that waits. */
+typedef struct {
+   haddr_t address;
+   size_t size;
+   H5FD_mem_t type;
+   unsigned char *bytes;
+} block_t;
+
+typedef struct {
+   H5FD_t public;      /* the library's part; must be the first */
+   int file;           /* descriptor */
+   haddr_t end;        /* end of what the library has given out */
+   haddr_t length;     /* of the file */
+   block_t *blocks;    /* (n) waiting */
+   size_t n, room;
+   haddr_t *flushed;   /* (n_flushed) addresses of the metadata in the file, sorted */
+   size_t n_flushed, room_flushed;
+} ordered_t;
+
+static haddr_t larger(haddr_t a, haddr_t b) { return a > b ? a : b; }
+static haddr_t smaller(haddr_t a, haddr_t b) { return a < b ? a : b; }
+
+static herr_t write_all(ordered_t *self, haddr_t address, size_t size, const unsigned char *bytes)
+{
+   while (size > 0) {
+      ssize_t done = pwrite(self->file, bytes, size, (off_t)address);
+      if (done < 0 && errno == EINTR) continue;
+      if (done <= 0) return -1;
+      address += (haddr_t)done;
+      bytes += done;
+      size -= (size_t)done;
+      self->length = larger(self->length, address);
+   }
+   return 0;
+}
+
+static H5FD_t *ordered_open(const char *name, unsigned flags, hid_t access, haddr_t maxaddr)
+{
+   (void)access, (void)maxaddr;
+   int mode = flags & H5F_ACC_RDWR ? O_RDWR : O_RDONLY;
+   if (flags & H5F_ACC_TRUNC) mode |= O_TRUNC;
+   if (flags & H5F_ACC_CREAT) mode |= O_CREAT;
+   if (flags & H5F_ACC_EXCL) mode |= O_EXCL;
+   int file = open(name, mode | O_CLOEXEC, 0666);
+   if (file < 0) return NULL;
+   struct stat status;
+   ordered_t *self = fstat(file, &status) == 0 ? calloc(1, sizeof *self) : NULL;
+   if (self == NULL) {
+      close(file);
+      return NULL;
+   }
+   self->file = file;
+   self->length = (haddr_t)status.st_size;
+   return &self->public;
+}
+
+static herr_t ordered_close(H5FD_t *file)
+{
+   ordered_t *self = (ordered_t *)file;
+   for (size_t k = 0; k < self->n; k++) free(self->blocks[k].bytes);
+   free(self->blocks);
+   free(self->flushed);
+   int code = close(self->file);
+   free(self);
+   return code == 0 ? 0 : -1;
+}
+
+static herr_t ordered_query(const H5FD_t *file, unsigned long *flags)
+{
+   (void)file;
+   /* not: H5FD_FEAT_ACCUMULATE_METADATA, which would join blocks of several kinds */
+   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DATA_SIEVE;
+   return 0;
+}
+
+static haddr_t ordered_get_eoa(const H5FD_t *file, H5FD_mem_t type)
+{
+   (void)type;
+   return ((const ordered_t *)file)->end;
+}
+
+static herr_t ordered_set_eoa(H5FD_t *file, H5FD_mem_t type, haddr_t address)
+{
+   (void)type;
+   ((ordered_t *)file)->end = address;
+   return 0;
+}
+
+static haddr_t ordered_get_eof(const H5FD_t *file, H5FD_mem_t type)
+{
+   (void)type;
+   return ((const ordered_t *)file)->length;
+}
+
+/* Copies what two ranges share, from one's bytes to the other's. */
+static void copy_shared(haddr_t from, size_t n_from, const unsigned char *source, haddr_t to, size_t n_to, unsigned char *target)
+{
+   haddr_t first = larger(from, to), last = smaller(from + n_from, to + n_to);
+   if (first < last) memcpy(target + (first - to), source + (first - from), (size_t)(last - first));
+}
+
+static herr_t ordered_read(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size, void *buffer)
+{
+   (void)type, (void)transfer;
+   ordered_t *self = (ordered_t *)file;
+   for (size_t done = 0; done < size;) {
+      ssize_t got = pread(self->file, (unsigned char *)buffer + done, size - done, (off_t)(address + done));
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) return -1;
+      if (got == 0) {
+         memset((unsigned char *)buffer + done, 0, size - done);
+         break;
+      }
+      done += (size_t)got;
+   }
+   for (size_t k = 0; k < self->n; k++) {
+      const block_t *block = &self->blocks[k];
+      copy_shared(block->address, block->size, block->bytes, address, size, buffer);
+   }
+   return 0;
+}
+
+/* Keeps a block until the next flush. */
+static herr_t keep_block(ordered_t *self, H5FD_mem_t type, haddr_t address, size_t size, const void *bytes)
+{
+   if (self->n == self->room) {
+      size_t room = 2 * self->room + 64;
+      block_t *grown = realloc(self->blocks, room * sizeof *grown);
+      if (grown == NULL) return -1;
+      self->blocks = grown;
+      self->room = room;
+   }
+   block_t block = {address, size, type, malloc(size)};
+   if (block.bytes == NULL) return -1;
+   memcpy(block.bytes, bytes, size);
+   self->blocks[self->n++] = block;
+   return 0;
+}
+
+static herr_t ordered_write(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size, const void *buffer)
+{
+   (void)transfer;
+   ordered_t *self = (ordered_t *)file;
+   int is_kept = 0;
+   for (size_t k = 0; k < self->n; k++) {
+      block_t *block = &self->blocks[k];
+      copy_shared(address, size, buffer, block->address, block->size, block->bytes);
+      if (block->address != address || block->size != size) continue;
+      block->type = type;
+      is_kept = 1;
+   }
+   if (is_kept) return 0;
+   if (type == H5FD_MEM_DRAW) return write_all(self, address, size, buffer);
+   return keep_block(self, type, address, size, buffer);
+}
+
+/* How many addresses of metadata in the file are less than this one. */
+static size_t flushed_before(const ordered_t *self, haddr_t address)
+{
+   size_t low = 0, high = self->n_flushed;
+   while (low < high) {
+      size_t middle = (low + high) / 2;
+      if (self->flushed[middle] < address) low = middle + 1;
+      else high = middle;
+   }
+   return low;
+}
+
+/* Whether there is metadata in the file at an address; where it has its place in the list. */
+static int is_flushed(const ordered_t *self, haddr_t address, size_t *at)
+{
+   *at = flushed_before(self, address);
+   return *at < self->n_flushed && self->flushed[*at] == address;
+}
+
+/* Notes that metadata is in the file. */
+static herr_t note_flushed(ordered_t *self, haddr_t address)
+{
+   size_t at;
+   if (is_flushed(self, address, &at)) return 0;
+   if (self->n_flushed == self->room_flushed) {
+      size_t room = 2 * self->room_flushed + 256;
+      haddr_t *grown = realloc(self->flushed, room * sizeof *grown);
+      if (grown == NULL) return -1;
+      self->flushed = grown;
+      self->room_flushed = room;
+   }
+   memmove(self->flushed + at + 1, self->flushed + at, (self->n_flushed - at) * sizeof *self->flushed);
+   self->flushed[at] = address;
+   self->n_flushed++;
+   return 0;
+}
+
+/* When a block may be written: the least first. In the thousands the steps above, then the place within a step. */
+static int rank_block(const ordered_t *self, const block_t *block)
+{
+   size_t at;
+   int is_there = is_flushed(self, block->address, &at);
+   if (block->type == H5FD_MEM_SUPER) return is_there ? 2000 : 5000;
+   if (!is_there) return 1000;
+   if (block->type == H5FD_MEM_OHDR) return 4000;
+   if (block->type != H5FD_MEM_BTREE) return 3000;
+   int is_node = block->size > 5 && memcmp(block->bytes, "TREE", 4) == 0;
+   return is_node ? 3500 - block->bytes[5] : 3600;  /* byte 5 of a node: its level above the leaves; below them: lists of names */
+}
+
+static herr_t ordered_flush(H5FD_t *file, hid_t transfer, hbool_t closing)
+{
+   (void)transfer, (void)closing;
+   ordered_t *self = (ordered_t *)file;
+   while (self->n > 0) {
+      size_t first = 0;
+      int least = rank_block(self, &self->blocks[0]);
+      for (size_t k = 1; k < self->n; k++) {
+         int rank = rank_block(self, &self->blocks[k]);
+         if (rank >= least) continue;
+         least = rank;
+         first = k;
+      }
+      block_t *block = &self->blocks[first];
+      if (write_all(self, block->address, block->size, block->bytes) < 0) return -1;
+      if (note_flushed(self, block->address) < 0) return -1;
+      free(block->bytes);
+      *block = self->blocks[--self->n];
+   }
+   return 0;
+}
+
+static herr_t ordered_truncate(H5FD_t *file, hid_t transfer, hbool_t closing)
+{
+   (void)transfer, (void)closing;
+   ordered_t *self = (ordered_t *)file;
+   if (self->end == self->length) return 0;
+   if (ftruncate(self->file, (off_t)self->end) != 0) return -1;
+   self->length = self->end;
+   return 0;
+}
+
+static const H5FD_class_t ordered_class = {
+#ifdef H5FD_CLASS_VERSION
+   .version = H5FD_CLASS_VERSION,
+   .value = (H5FD_class_value_t)600,  /* beyond those that are given out */
+#endif
+   .name = "gudgeon_ordered",
+   .maxaddr = HADDR_MAX / 2,
+   .fc_degree = H5F_CLOSE_WEAK,
+   .open = ordered_open,
+   .close = ordered_close,
+   .query = ordered_query,
+   .get_eoa = ordered_get_eoa,
+   .set_eoa = ordered_set_eoa,
+   .get_eof = ordered_get_eof,
+   .read = ordered_read,
+   .write = ordered_write,
+   .flush = ordered_flush,
+   .truncate = ordered_truncate,
+   .fl_map = H5FD_FLMAP_DICHOTOMY,
+};
+
+/* Sets the driver in a list of access properties. Negative: failed. */
+int gudgeon_set_ordered_driver(hid_t access)
+{
+   static hid_t driver = -1;
+   if (driver < 0) driver = H5FDregister(&ordered_class);
+   if (driver < 0) return -1;
+   return H5Pset_driver(access, driver, NULL) < 0 ? -1 : 0;
+}
