@@ -11,7 +11,7 @@ module hdf5_writer
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
-   use hdf5_calls, only: new_file, new_group, open_library, text_attribute
+   use hdf5_calls, only: new_file, new_group, open_library, text_attribute, text_dataset
    use hdf5_events, only: event_table_t
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time
    use hdf5_rows, only: write_rows, write_states
@@ -23,7 +23,7 @@ module hdf5_writer
    use posix, only: host_name, release_space, remove_file, reserve_space, sync_path, system_message, utc_time
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
-   use text, only: to_text
+   use text, only: text_t, to_text
    implicit none (type, external)
    private
    public :: hdf5_writer_t
@@ -237,22 +237,23 @@ contains
                      ". Make room there, or write elsewhere with --out DIRECTORY.")
    end subroutine fail
 
-   !> Write what waits, the statistics and how the run went, and close the file.
-   subroutine finish_file(self, summary, events, statistics, catalogue, numbers, error)
+   !> Write what waits, the statistics, the warnings and how the run went, and close the file.
+   subroutine finish_file(self, summary, events, statistics, catalogue, numbers, warnings, error)
       class(hdf5_writer_t), intent(inout) :: self        !! the file
       type(summary_t), intent(in) :: summary             !! cost and errors of the run
       type(event_list_t), intent(in) :: events           !! all events
       type(statistics_t), intent(in) :: statistics       !! what was gathered for the statistics
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
       type(number_t), intent(in) :: numbers(:)           !! (any) the statistics
+      type(text_t), intent(in) :: warnings(:)            !! (any) what a careful reader should know
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
 
-      integer :: status
+      integer :: k, status
 
       if (self%file < 0) return
       status = 0
       if (.not. self%is_broken) call write_block(self, events, error)
-      if (.not. self%is_broken) call reserve(self, 0_i8, error)
+      if (.not. self%is_broken) call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]), error)
       if (self%is_broken) then
          ! only what needs no new space
          call text_attribute(self%file, "status", status_failed, status)
@@ -261,6 +262,7 @@ contains
          if (statistics%plan%is_wanted) then
             call write_statistics(self%file, statistics, catalogue, events, summary%time_end, numbers, status)
          end if
+         call text_dataset(self%file, "warnings", warnings, .false., "what a careful reader should know", status)
          call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)
          call text_attribute(self%file, "status", summary%status, status)

@@ -254,7 +254,12 @@ contains
       if (.not. self%has_started) return
       full = complete_summary(summary)
       numbers = self%statistics%numbers(self%items, self%events, full%time_end)
-      if (self%plan%with_hdf5) call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, error)
+      allocate (outcome%pictures(0), outcome%warnings(0))
+      call append_all(outcome%warnings, self%plan%warnings)
+      call append_all(outcome%warnings, full%warnings)
+      if (self%plan%with_hdf5) then
+         call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, outcome%warnings, error)
+      end if
       allocate (outcome%files(0))
       if (self%plan%with_texts) then
          call self%texts%finish(self%last_time, self%events, second)
@@ -262,9 +267,6 @@ contains
          outcome%files = self%texts%names
       end if
       outcome%numbers = numbers
-      allocate (outcome%pictures(0), outcome%warnings(0))
-      call append_all(outcome%warnings, self%plan%warnings)
-      call append_all(outcome%warnings, full%warnings)
       self%is_broken = self%is_broken .or. allocated(error)
       if (self%plan%with_figures .and. .not. self%is_broken) then
          allocate (tables(size(self%figures)))

@@ -1,4 +1,4 @@
-"""What a run warns of: on the standard error, in summary.json, and nowhere if there is nothing to warn of."""
+"""What a run warns of: on the standard error, in summary.json and run.h5, and nowhere if there is nothing to warn of."""
 
 import numpy as np
 import pytest
@@ -57,6 +57,7 @@ def one_warning(run):
     warnings = run.summary["warnings"]
     assert len(warnings) == 1, warnings
     assert f"warning: {warnings[0]}" in run.done.stdout + run.done.stderr
+    assert list(run.read("warnings")) == warnings
     assert run.summary["status"] == "complete"
     return warnings[0]
 
@@ -191,7 +192,8 @@ def test_impacts_too_fast_for_the_law(gudgeon):
     assert_close(told, fastest, relative=6e-3)
     unknown = plain_deck().replace("   density[kg/m^3]", "").replace("0.3       7850", "0.3")
     assert "density" not in unknown and "7850" not in unknown
-    assert run_text(gudgeon, unknown).summary["warnings"] == []
+    silent = run_text(gudgeon, unknown)
+    assert silent.summary["warnings"] == [] and len(silent.read("warnings")) == 0
 
 
 def test_penetration_beyond_the_law(gudgeon):
