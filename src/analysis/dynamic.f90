@@ -187,6 +187,9 @@ contains
             call recorder%progress(method%t/plan%end)
          end if
       end do
+      if (run%stop%met > 0 .and. .not. allocated(error)) then
+         call run%sampler%take_stop(system, method, plan, run%residual, recorder, error)
+      end if
    end subroutine integrate
 
    !> Pace, constraint violation and energy balance at the end of a step.

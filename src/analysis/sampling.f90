@@ -1,4 +1,5 @@
-!> When a motion is reported: output instants, instants once per period of the drive, and those of contacts.
+!> When a motion is reported: output instants, instants once per period of the drive, those of contacts, and that at which a
+!> condition ends the run.
 !>
 !> Of a contact: its onset, the moment after it began; its peaks, the greatest normal force so far; its end, the moment before it
 !> ended. Where a normal force jumps there are two rows of the same time, the limits from before and from after.
@@ -10,7 +11,7 @@ module sampling
    use kinds, only: i8, wp
    use planar_report, only: build_catalogue, report_state
    use planar_system, only: planar_system_t
-   use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak
+   use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
    use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
@@ -22,7 +23,7 @@ module sampling
       type(catalogue_t) :: catalogue             !! what is reported
       integer(i8) :: n_sample = 0                !! output instants done
       integer :: n_strobe = 0                    !! stroboscopic instants done
-      integer :: n_row(n_row_kind) = 0           !! rows at contacts, by kind
+      integer :: n_row(n_row_kind) = 0           !! rows beside those of output instants, by kind
       integer(i8) :: n_reports = 0               !! evaluations made for all these
       real(wp) :: aside = 0.0_wp                 !! CPU time spent [s]
       real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
@@ -34,6 +35,7 @@ module sampling
       real(wp), allocatable, private :: ydot(:)  !! (n) its derivative [any]
    contains
       procedure :: take => take_samples
+      procedure :: take_stop
       procedure :: before_events
       procedure :: after_events
       procedure :: before_instant
@@ -101,6 +103,24 @@ contains
       call cpu_time(cpu_1)
       self%aside = self%aside + (cpu_1 - cpu_0)
    end subroutine take_samples
+
+   !> The row at which a condition ends the run, unless there is a row at that instant.
+   subroutine take_stop(self, system, method, plan, residual, recorder, error)
+      class(sampler_t), intent(inout) :: self             !! what is reported
+      type(planar_system_t), intent(inout) :: system      !! the system
+      class(integrator_t), intent(inout) :: method        !! the integrator, after the step in which the run ends
+      type(time_plan_t), intent(in) :: plan               !! times
+      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
+
+      integer :: status
+
+      if (self%t_row >= self%until) return
+      if (self%until < method%t) call method%prepare_output(system, status)
+      call method%state_at(system, self%until, self%y)
+      call put_row(self, system, method, plan, self%until, self%y, row_stop, residual, recorder, error)
+   end subroutine take_stop
 
    !> The output instant that comes next; after the last one, and until functions of time take the values behind it, one that is
    !> never reached.
@@ -202,7 +222,7 @@ contains
       call watch%note_row()
    end subroutine finish_samples
 
-   !> A row at an instant of a contact, if it is wanted and within what is written.
+   !> A row beside those of output instants, if it is wanted and within what is written.
    subroutine put_row(self, system, method, plan, t, y, kind, residual, recorder, error, shift)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(planar_system_t), intent(inout) :: system      !! the system
@@ -218,12 +238,12 @@ contains
 
       real(wp) :: later
 
-      if (.not. recorder%wants_contact_rows .or. t < plan%first_output) return
+      if (t < plan%first_output .or. .not. (recorder%wants_contact_rows .or. kind == row_stop)) return
       later = 0.0_wp
       if (present(shift)) later = shift
       call report(self, system, method, t + later, y, residual, error)
       if (allocated(error)) return
-      call recorder%contact_row(t, kind, self%catalogue, error)
+      call recorder%further_row(t, kind, self%catalogue, error)
       if (allocated(error)) return
       self%t_row = t
       self%n_row(kind) = self%n_row(kind) + 1

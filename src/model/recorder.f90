@@ -1,6 +1,6 @@
 !> The contract between an analysis and whatever keeps its results.
 !>
-!> The order of calls is `start`, then any number of `sample`, `contact_row`, `strobe`, `event` and `progress`, then
+!> The order of calls is `start`, then any number of `sample`, `further_row`, `strobe`, `event` and `progress`, then
 !> `finish`, which is also called when the analysis failed: nothing already recorded may be lost.
 module recorder
    use catalogue, only: catalogue_t
@@ -10,7 +10,7 @@ module recorder
    implicit none (type, external)
    private
    public :: event_t, recorder_t, summary_t
-   public :: n_row_kind, row_end, row_instant, row_jump, row_kinds, row_onset, row_peak
+   public :: n_row_kind, row_end, row_instant, row_jump, row_kinds, row_onset, row_peak, row_stop
    public :: status_complete, status_failed, status_running, status_stopped
 
    character(*), parameter :: status_running = "running"    !! the run goes on
@@ -23,9 +23,10 @@ module recorder
    integer, parameter :: row_peak = 2     !! the normal force of a contact is the greatest since its onset
    integer, parameter :: row_end = 3      !! a contact is about to end
    integer, parameter :: row_jump = 4     !! just before or after a jump of a normal force
-   integer, parameter :: n_row_kind = 4   !! the greatest of these numbers
+   integer, parameter :: row_stop = 5     !! a condition ends the run
+   integer, parameter :: n_row_kind = 5   !! the greatest of these numbers
    !> What the numbers mean.
-   character(*), parameter :: row_kinds = "0 output instant, 1 onset, 2 peak, 3 end, 4 before or after a jump"
+   character(*), parameter :: row_kinds = "0 output instant, 1 onset, 2 peak, 3 end, 4 before or after a jump, 5 stop"
 
    !> One located event. A contact is one row: its time is the onset.
    type :: event_t
@@ -63,7 +64,7 @@ module recorder
       integer :: events = 0                        !! located events
       integer :: contacts = 0                      !! contacts that began
       integer :: samples = 0                       !! output instants
-      integer :: rows(n_row_kind) = 0              !! (n_row_kind) rows at contacts, by kind
+      integer :: rows(n_row_kind) = 0              !! (n_row_kind) rows beside those of output instants, by kind
       logical :: ledger = .true.                   !! whether the ledger was kept
       real(wp) :: energy_max = 0.0_wp              !! greatest kinetic + elastic energy + |change of potential| [J]
       real(wp) :: energy_residual_max = 0.0_wp     !! greatest |residual| of the ledger; NaN without ledger [J]
@@ -75,11 +76,11 @@ module recorder
 
    !> Whatever keeps the results of an analysis.
    type, abstract :: recorder_t
-      logical :: wants_contact_rows = .false.      !! whether `contact_row` is to be called
+      logical :: wants_contact_rows = .false.      !! whether `further_row` is to be called at contacts
    contains
       procedure(start_interface), deferred :: start
       procedure(sample_interface), deferred :: sample
-      procedure :: contact_row => skip_contact_row
+      procedure :: further_row => skip_further_row
       procedure :: strobe => skip_strobe
       procedure(event_interface), deferred :: event
       procedure(progress_interface), deferred :: progress
@@ -135,15 +136,16 @@ module recorder
 
 contains
 
-   !> Keep the catalogue's current values as those of an instant of a contact: nothing, unless a recorder wants them. Times do not
-   !> fall from call to call of `sample` and `contact_row`; where a force jumps, two calls have the same.
-   subroutine skip_contact_row(self, t, kind, catalogue, error)
+   !> Keep the catalogue's current values as those of an instant of a contact, or of one at which a condition ends the run:
+   !> nothing, unless a recorder wants them. Times do not fall from call to call of `sample` and `further_row`; where a force
+   !> jumps, two calls have the same.
+   subroutine skip_further_row(self, t, kind, catalogue, error)
       class(recorder_t), intent(inout) :: self           !! the recorder
       real(wp), intent(in) :: t                          !! time [s]
       integer, intent(in) :: kind                        !! what it is, one of the above
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
-   end subroutine skip_contact_row
+   end subroutine skip_further_row
 
    !> Keep the catalogue's current values as those of an instant once per period of the drive: unless a recorder asks for
    !> them, nothing.

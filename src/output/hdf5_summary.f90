@@ -3,7 +3,7 @@ module hdf5_summary
    use hdf5, only: h5gclose_f, h5gopen_f, hid_t
    use hdf5_calls, only: long_attribute, real_attribute, text_attribute
    use kinds, only: i8
-   use recorder, only: row_end, row_jump, row_onset, row_peak, summary_t
+   use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, summary_t
    implicit none (type, external)
    private
    public :: write_summary
@@ -42,6 +42,7 @@ contains
       call long_attribute(group, "peak_rows", int(summary%rows(row_peak), i8), status)
       call long_attribute(group, "end_rows", int(summary%rows(row_end), i8), status)
       call long_attribute(group, "jump_rows", int(summary%rows(row_jump), i8), status)
+      call long_attribute(group, "stop_rows", int(summary%rows(row_stop), i8), status)
       call long_attribute(group, "ledger", int(kept, i8), status)
       call real_attribute(group, "energy_max", summary%energy_max, status)
       call real_attribute(group, "energy_residual_max", summary%energy_residual_max, status)

@@ -47,7 +47,7 @@ module run_recorder
    contains
       procedure :: start => start_run
       procedure :: sample => sample_run
-      procedure :: contact_row => contact_row_run
+      procedure :: further_row => further_row_run
       procedure :: strobe => strobe_run
       procedure :: event => event_run
       procedure :: progress => progress_run
@@ -168,8 +168,8 @@ contains
       call self%statistics%sample(t, catalogue)
    end subroutine sample_run
 
-   !> Keep the current values as those of an instant of a contact.
-   subroutine contact_row_run(self, t, kind, catalogue, error)
+   !> Keep the current values as those of an instant of a contact, or of the end of the run.
+   subroutine further_row_run(self, t, kind, catalogue, error)
       class(run_recorder_t), intent(inout) :: self       !! the recorder
       real(wp), intent(in) :: t                          !! time [s]
       integer, intent(in) :: kind                        !! what it is
@@ -178,7 +178,7 @@ contains
 
       call keep_row(self, t, kind, catalogue, error)
       call self%statistics%note_extremes(t, catalogue)
-   end subroutine contact_row_run
+   end subroutine further_row_run
 
    !> A row of the time histories.
    subroutine keep_row(self, t, kind, catalogue, error)

@@ -7,7 +7,7 @@ module summary_writer
    use kinds, only: i8, not_a_number, wp
    use output_plan, only: output_plan_t
    use plot_text, only: valid_utf8
-   use recorder, only: row_end, row_jump, row_onset, row_peak, status_complete, summary_t
+   use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, status_complete, summary_t
    use statistics, only: number_t
    use text, only: append_text, buffer_t, real_text, text_t, to_text
    use text_table, only: one_line
@@ -85,10 +85,10 @@ contains
       call accuracy_lines(lines, summary)
       call lines%line("events     "//to_text(summary%events)//" located, "//to_text(summary%contacts)// &
                       " contacts began; "//to_text(summary%samples)//" output instants")
-      if (sum(summary%rows) > 0) then
-         call lines%line("rows       "//to_text(sum(summary%rows))//" more at contacts: "//to_text(summary%rows(row_onset))// &
-                         " onsets, "//to_text(summary%rows(row_peak))//" peaks, "//to_text(summary%rows(row_end))//" ends, "// &
-                         to_text(summary%rows(row_jump))//" jumps")
+      if (sum(summary%rows(row_onset:row_jump)) > 0) then
+         call lines%line("rows       "//to_text(sum(summary%rows(row_onset:row_jump)))//" more at contacts: "// &
+                         to_text(summary%rows(row_onset))//" onsets, "//to_text(summary%rows(row_peak))//" peaks, "// &
+                         to_text(summary%rows(row_end))//" ends, "//to_text(summary%rows(row_jump))//" jumps")
       else if (len(plan%contact_rows) > 0 .and. .not. plan%with_contact_rows) then
          call lines%line("rows       "//plan%contact_rows)
       end if
@@ -287,6 +287,7 @@ contains
       call json%put_integer("peak_rows", int(summary%rows(row_peak), i8))
       call json%put_integer("end_rows", int(summary%rows(row_end), i8))
       call json%put_integer("jump_rows", int(summary%rows(row_jump), i8))
+      call json%put_integer("stop_rows", int(summary%rows(row_stop), i8))
       call json%put_logical("ledger", summary%ledger)
       call json%put_real("energy_max", summary%energy_max)
       call json%put_real("energy_residual_max", summary%energy_residual_max)

@@ -196,6 +196,27 @@ def test_stop_at_a_place(gudgeon, method):
     assert stopped.summary["status"] == "complete"
     assert "stopped by intent" in stopped.summary["message"] and "ball.position.y < -3 m" in stopped.summary["message"]
     assert stopped.time[-1] <= stopped.summary["time_end"] < stopped.time[-1] + 0.01 + 1e-12
+    assert stop_row(stopped, "bodies/position")[0, 1] == pytest.approx(-3, abs=1e-8)
+    assert stop_row(stopped, "bodies/velocity")[0, 1] == pytest.approx(-math.sqrt(6 * G), abs=1e-7)
+    names, rows = run(gudgeon, text, "--write", "all").table("ball.dat")
+    assert float(rows[-1][0]) == stopped.summary["time_end"] and len(rows) == len(stopped.time) + 1
+    assert float(rows[-1][names.index("ball.position.y")]) == pytest.approx(-3, abs=1e-8)
+
+
+def stop_row(stopped, path):
+    """A quantity in the row at which a condition ended the run: the last row, and the only one of its kind."""
+    kinds, times = stopped.rows("row_kind"), stopped.rows("time")
+    assert kinds[-1] == 5 and (kinds[:-1] != 5).all() and stopped.summary["stop_rows"] == 1
+    assert times[-1] == stopped.summary["time_end"] > times[-2]
+    return stopped.rows(path)[-1]
+
+
+def test_stop_where_there_is_a_row(gudgeon):
+    """A condition that is met at the start, and one beside the span that is written, bring no further row."""
+    met = run(gudgeon, guarded(FALL, "stop = ball.position.y < 1 m"))
+    assert list(met.rows("time")) == [0.0] and met.summary["stop_rows"] == 0
+    early = run(gudgeon, changed(guarded(FALL, "stop = ball.position.y < -3 m"), "output", **{"from": "1 s"}))
+    assert len(early.rows("time")) == 0 and early.summary["stop_rows"] == 0
 
 
 def test_stop_within_a_step(gudgeon):
@@ -203,6 +224,7 @@ def test_stop_within_a_step(gudgeon):
     text = guarded(changed(OSCILLATOR, "analysis.dynamic", tolerance="1e-6"), "stop = bob.position.x < 0.0001 m")
     stopped = run(gudgeon, text)
     assert_close(stopped.summary["time_end"], (1.5 * math.pi - math.acos(0.9999)) / 10, absolute=1e-7)
+    assert_close(stop_row(stopped, "bodies/position")[0, 0], 1e-4, absolute=1e-12)
 
 
 def test_stop_at_the_start_and_never(gudgeon):
@@ -220,6 +242,10 @@ def test_stop_on_a_contact(gudgeon):
     stopped = run(gudgeon, text, "--tolerance", "1e-10")
     depth = stopped.read("clearances/contacts/penetration")
     assert 0.9e-5 < depth.max() <= 1.0e-5
+    assert_close(stop_row(stopped, "clearances/contacts/penetration"), [1e-5], absolute=1e-15)
+    bare = run(gudgeon, changed(text, "output", contact_rows="off"), "--tolerance", "1e-10")
+    assert_close(stop_row(bare, "clearances/contacts/penetration"), [1e-5], absolute=1e-15)
+    assert set(bare.rows("row_kind")) == {0, 5}
     ideal = run(gudgeon, text, "--ideal")
     assert any("left out: the joint is ideal" in words for words in ideal.summary["warnings"])
     assert "ends by intent when gudgeon.penetration > 1e-5 m" in call(gudgeon, "explain", written(scratch(), text)).stdout

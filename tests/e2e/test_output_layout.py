@@ -117,9 +117,9 @@ def test_events_are_as_documented(made, root):
 def test_time_is_a_dimension_scale(made):
     with h5py.File(made / "run.h5", "r") as file:
         n = len(file["time"])
-        told = {sort: file["summary"].attrs[f"{sort}_rows"] for sort in ("onset", "peak", "end", "jump")}
+        told = {sort: file["summary"].attrs[f"{sort}_rows"] for sort in ("onset", "peak", "end", "jump", "stop")}
         assert n == file["summary"].attrs["samples"] + sum(told.values())
-        assert list(np.bincount(file["row_kind"], minlength=5)[1:]) == list(told.values())
+        assert list(np.bincount(file["row_kind"], minlength=6)[1:]) == list(told.values())
         for path, node in datasets(file).items():
             if "DIMENSION_LIST" in node.attrs:
                 assert node.shape[0] == n, path
