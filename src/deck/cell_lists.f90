@@ -16,12 +16,13 @@ module cell_lists
 contains
 
    !> One word: bare, in quotes, or a parameter in braces.
-   subroutine read_word(deck, place, token, word, mistakes)
+   subroutine read_word(deck, place, token, word, mistakes, not_empty)
       type(deck_t), intent(in) :: deck                      !! the deck
       character(*), intent(in) :: place                     !! as `in column i of joint.revolute`
       type(token_t), intent(in) :: token                    !! the cell
       character(:), allocatable, intent(out) :: word        !! the word; empty if a mistake was reported
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is wrong
+      logical, intent(in), optional :: not_empty            !! whether nothing in quotes is a mistake
 
       type(expression_t) :: compiled
       type(quantity_t) :: quantity
@@ -32,10 +33,14 @@ contains
          return
       else if (token%kind /= token_brace) then
          word = text_of(deck, token)
+      else
+         call word_in_brace(deck, token, word)
+      end if
+      if (allocated(word)) then
+         if (len_trim(word) > 0 .or. .not. present(not_empty)) return
+         if (not_empty) call mistakes%add(token%location, "nothing stands in the quotes "//place, "a word is wanted here")
          return
       end if
-      call word_in_brace(deck, token, word)
-      if (allocated(word)) return
       word = ""
       call read_brace(deck, token, place, .false., compiled, quantity, mistakes)
       if (quantity%is_good) call mistakes%add(token%location, "a number where a word is wanted "//place, &

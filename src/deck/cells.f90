@@ -45,6 +45,7 @@ contains
       type(unit_t), intent(in), optional :: header    !! unit in the header of the table
 
       character(:), allocatable :: choices
+      logical :: has_choices
 
       value%given = .true.
       value%location = span(list(1), list(size(list)))
@@ -69,7 +70,9 @@ contains
       case (cell_words)
          call read_words(deck, place, list, value, mistakes)
       case (cell_word)
-         call read_word(deck, place, list(1), value%text, mistakes)
+         has_choices = .false.
+         if (allocated(column%choices)) has_choices = len_trim(column%choices) > 0
+         call read_word(deck, place, list(1), value%text, mistakes, not_empty=has_choices)
          call check_choice(column%choices, place, value%text, list(1)%location, mistakes)
          if (allocated(column%options)) then
             call read_options(deck, column%options, place, list(2:), value, mistakes)
@@ -77,10 +80,10 @@ contains
             call check_count(list, 1, place, mistakes)
          end if
       case (cell_reference)
-         call read_word(deck, place, list(1), value%text, mistakes)
+         call read_word(deck, place, list(1), value%text, mistakes, not_empty=.true.)
          call check_count(list, 1, place, mistakes)
       case default
-         call read_word(deck, place, list(1), value%text, mistakes)
+         call read_word(deck, place, list(1), value%text, mistakes, not_empty=.true.)
          choices = "on off"
          call check_choice(choices, place, value%text, list(1)%location, mistakes)
          call check_count(list, 1, place, mistakes)

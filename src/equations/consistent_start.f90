@@ -10,6 +10,7 @@
 !> that the deck gives.
 module consistent_start
    use errors, only: error_t, exit_assembly, set_error
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use lapack, only: dgelsd, dgeqp3, dtrtrs
    use motion, only: set_planar_motion
@@ -70,6 +71,8 @@ contains
       before = huge(1.0_wp)
       do k = 1, n_newton
          call evaluate_rows(system, 0.0_wp, q, v)
+         call check_finite(system, system%rows%phi, error)
+         if (allocated(error)) return
          now = worst_violation(system)
          if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
          before = now
@@ -84,6 +87,8 @@ contains
          call position_error(system, error)
          return
       end if
+      call check_finite(system, system%rows%phi_t, error)
+      if (allocated(error)) return
       ease = merge(1.0_wp, give_way, reshape(system%bodies%is_rate_given, [n]))
       v_given = v
       do k = 1, merge(1, 2, with_sparse)  ! the second takes away the round-off of the first, as refinement does
@@ -326,6 +331,21 @@ contains
                      "  = the bodies were moved as little as possible from where the deck puts them, without success"// &
                      new_line("a")//"  = check the points of this joint, the lengths of the loop, and the start positions")
    end subroutine position_error
+
+   !> A driver that has no value or no rate at the start.
+   subroutine check_finite(system, values, error)
+      class(planar_system_t), intent(in) :: system       !! the system
+      real(wp), intent(in) :: values(:)                  !! (rows) of the rows [m or rad, or rates]
+      type(error_t), allocatable, intent(out) :: error   !! one of them is not finite
+
+      integer :: row
+
+      row = findloc(ieee_is_finite(values), .false., dim=1)
+      if (row == 0) return
+      call set_error(error, exit_assembly, "the start cannot be found: '"//system%row_name(row)// &
+                     "' or its rate is not a finite number at t = 0"//new_line("a")// &
+                     "  = look for a driver that begins with an infinite speed")
+   end subroutine check_finite
 
    !> The velocities contradict each other.
    subroutine velocity_error(system, right, error)

@@ -24,7 +24,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from mutants import METHODS, Mutator, companions, shortened  # noqa: E402
 
 DOCUMENTED = {"check": (0, 2, 3, 4, 5, 9), "explain": (0, 2, 3, 4, 5, 9), "run": (0, 2, 3, 4, 5, 6, 9)}
-CRASH = re.compile(r"Backtrace|Fortran runtime error|Program received signal|SIG[A-Z]{3}|Operating system error|STOP|internal", re.I)
+CRASH = re.compile(r"Backtrace|Fortran runtime error|Program received signal|\bSIG[A-Z]{3,4}\b|Operating system error|^(ERROR )?STOP|internal error", re.M)
 BATCH = 40  # mutants of one scratch directory
 FRAME = re.compile(r"^#\d+\s+0x[0-9a-f]+ in (\S+)\s*(?:\n\s+at (\S+))?", re.M)
 

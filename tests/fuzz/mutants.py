@@ -170,7 +170,7 @@ class Mutator:
 
     def swap_names(self, dice, text):
         """Two words of the deck change places, once or everywhere; or one takes the other's name."""
-        words = sorted(set(re.findall(r"[A-Za-z_]\w+", text)))
+        words = sorted(set(re.findall(r"\b[A-Za-z_]\w+", text)))
         if len(words) < 2:
             return text
         one, other = dice.sample(words, 2)
