@@ -7,6 +7,7 @@ module start_state
    use errors, only: error_t, exit_assembly, set_error
    use guided_motion, only: guided_coordinates
    use kinds, only: wp
+   use memory_purpose, only: memory_is_for
    use motion, only: set_planar_motion
    use perturbation, only: shift_t
    use planar_system, only: planar_system_t
@@ -54,6 +55,7 @@ contains
       real(wp), allocatable :: q(:), v(:)
       integer :: k, levels
 
+      call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call deck_positions(scene, q, v)
       associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
          levels = levels_as_written

@@ -12,6 +12,7 @@ module load
    use item, only: item_t, location_t, value_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use memory_purpose, only: memory_is_for
    use options, only: options_t
    use planar_report, only: build_catalogue
    use planar_system, only: planar_system_t
@@ -56,6 +57,7 @@ contains
          return
       end if
       loaded%path = options%operands(1)%s
+      call memory_is_for("the deck "//loaded%path)
       call read_deck(loaded%path, options%overrides, loaded%deck, mistakes)
       loaded%is_stream = loaded%deck%sources(1)%is_stream
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
@@ -63,6 +65,7 @@ contains
       call mistakes%to_error(loaded%deck%sources, error)
       if (allocated(error)) return
       ! channels and figures are words of the loose joints and of the deck's first analysis, whatever this run has of them
+      call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and what they report")
       call new_system(loaded%scene, levels_loose, loose)
       call build_catalogue(loose, catalogue)
       call choose_analysis(options, loaded%scene, error)

@@ -56,11 +56,13 @@ module event_list
 contains
 
    !> Append an event.
-   subroutine add_event(self, event)
+   subroutine add_event(self, event, is_added)
       class(event_list_t), intent(inout) :: self  !! the list
       type(event_t), intent(in) :: event          !! the event
+      logical, intent(out) :: is_added            !! false: there is no memory for it
 
-      call make_room(self)
+      call make_room(self, is_added)
+      if (.not. is_added) return
       self%n = self%n + 1
       self%numbers(:, self%n) = [event%time, event%impact_speed, event%peak_force, event%peak_penetration, &
                                  event%duration, event%release_speed, event%energy_lost]
@@ -72,19 +74,24 @@ contains
    end subroutine add_event
 
    !> Make room for one more event.
-   subroutine make_room(self)
+   subroutine make_room(self, has_room)
       class(event_list_t), intent(inout) :: self  !! the list
+      logical, intent(out) :: has_room            !! false: there is no memory
 
       real(wp), allocatable :: numbers(:, :)
       integer, allocatable :: codes(:, :)
-      integer :: capacity
+      integer :: capacity, status
 
       if (.not. allocated(self%numbers)) then
          allocate (self%numbers(n_event_numbers, 64), self%codes(n_event_words, 64))
       end if
+      has_room = .true.
       capacity = size(self%numbers, 2)
       if (self%n < capacity) return
-      allocate (numbers(n_event_numbers, 2*capacity), codes(n_event_words, 2*capacity))
+      allocate (numbers(n_event_numbers, 2*capacity), stat=status)
+      if (status == 0) allocate (codes(n_event_words, 2*capacity), stat=status)
+      has_room = status == 0
+      if (.not. has_room) return
       numbers(:, 1:self%n) = self%numbers(:, 1:self%n)
       codes(:, 1:self%n) = self%codes(:, 1:self%n)
       call move_alloc(numbers, self%numbers)

@@ -20,7 +20,8 @@ module hdf5_calls
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: describe, integer_attribute, long_attribute, new_dataset, new_file, new_group, open_library, real_attribute
+   public :: describe, integer_attribute, is_memory_short, long_attribute, new_dataset, new_file, new_group, open_library
+   public :: real_attribute
    public :: integer_dataset, real_dataset, string_type, text_attribute, text_dataset
 
    logical :: is_open = .false.  !! whether the library has been opened
@@ -28,6 +29,13 @@ module hdf5_calls
    integer(size_t), parameter :: bytes_of_names = 1024  !! for the names in the root group, with room for what comes at the end
 
    interface
+      !> Whether so many bytes could be had at once: 1 or 0.
+      integer(c_int) function c_has_room(bytes) bind(c, name="gudgeon_has_room")
+         import :: c_int, c_int64_t
+         implicit none (type, external)
+         integer(c_int64_t), value :: bytes  !! that are wanted
+      end function c_has_room
+
       !> Set the driver that writes metadata in order (ordered_file.c). Negative: failed.
       integer(c_int) function c_set_driver(access) bind(c, name="gudgeon_set_ordered_driver")
          import :: c_int, c_int64_t
@@ -37,6 +45,13 @@ module hdf5_calls
    end interface
 
 contains
+
+   !> Whether there is so little memory left that a failure of the library may be due to that, not to the disk.
+   logical function is_memory_short()
+      integer(c_int64_t), parameter :: little = 16777216_c_int64_t  ! [byte]
+
+      is_memory_short = c_has_room(little) == 0
+   end function is_memory_short
 
    !> Open the library: it keeps quiet, leaves files to us at the end, and lets others read a running file.
    subroutine open_library(status)

@@ -11,7 +11,7 @@ module hdf5_writer
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
-   use hdf5_calls, only: new_file, new_group, open_library, text_attribute, text_dataset
+   use hdf5_calls, only: is_memory_short, new_file, new_group, open_library, text_attribute, text_dataset
    use hdf5_events, only: event_table_t
    use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time
    use hdf5_rows, only: write_rows, write_states
@@ -227,14 +227,16 @@ contains
       character(*), intent(in) :: why                    !! why, as far as known
       type(error_t), allocatable, intent(out) :: error   !! the error
 
-      character(:), allocatable :: saved
+      character(:), allocatable :: reason, saved
 
       self%is_broken = .true.
       saved = "nothing was saved"
+      reason = why
+      if (is_memory_short()) reason = "there is no more memory (ulimit -v)"
       if (self%written > 0) saved = "saved and readable: "//to_text(self%written)// &
                                     " rows up to t = "//to_text(self%last_time)//" s"
-      call set_error(error, exit_file, action//" "//self%path//": "//why//"; "//saved// &
-                     ". Make room there, or write elsewhere with --out DIRECTORY.")
+      call set_error(error, exit_file, action//" "//self%path//": "//reason//"; "//saved// &
+                     ". Make room, or write elsewhere with --out DIRECTORY.")
    end subroutine fail
 
    !> Write what waits, the statistics, the warnings and how the run went, and close the file.

@@ -27,11 +27,21 @@ static volatile sig_atomic_t groups[max_groups]; /* process groups that end with
 
 int gudgeon_has_room(int64_t bytes); /* of address_space.c */
 
+extern const char gudgeon_memory_purpose[128]; /* of memory_purpose.f90: what memory is needed for, or blank */
+
+static void say(const char *words)
+{
+   if (write(2, words, strlen(words)) < 0) _exit(exit_memory);
+}
+
 static void end_without_memory(void)
 {
-   static const char words[] = "error: the memory that this program may use is used up (ulimit -v); what was written before is "
-                               "kept. Give it more, or let the deck keep less.\n";
-   if (write(2, words, sizeof words - 1) < 0) _exit(exit_memory);
+   say("error: the memory that this program may use is used up (ulimit -v)");
+   if (gudgeon_memory_purpose[0] != '\0') {
+      say(", it was needed for ");
+      say(gudgeon_memory_purpose);
+   }
+   say("; what was written before is kept. Give it more, or let the deck keep less.\n");
    _exit(exit_memory);
 }
 

@@ -6,13 +6,14 @@
 module run_recorder
    use catalogue, only: catalogue_t
    use channels, only: select_channels, selection_t
-   use errors, only: error_t, exit_deck, set_error
+   use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
    use figure_words, only: add_figure_channels, extra_tables, figure_t, is_of_run, new_figure, spectral_scalars, &
       stroboscopic_scalars
    use figures, only: make_figures
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: wp
+   use memory_purpose, only: memory_is_for
    use output_plan, only: output_plan_t, show_json, show_summary
    use plot_table, only: plot_table_t
    use posix, only: is_pipe_gone, write_error, write_output
@@ -21,7 +22,7 @@ module run_recorder
    use statistics, only: number_t, statistics_t
    use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
-   use text, only: append_text, printable, text_t
+   use text, only: append_text, printable, text_t, to_text
    use text_file, only: fail_file, replace_file, write_file
    use text_table, only: file_heading
    use text_writer, only: text_writer_t
@@ -62,6 +63,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be made
 
+      call memory_is_for("the rows of the time histories that wait to be written")
       call self%plan%complete()
       self%items = catalogue
       call choose(self, catalogue, error)
@@ -85,6 +87,7 @@ contains
       self%wants_contact_rows = self%plan%with_contact_rows .and. (self%plan%with_histories .or. self%statistics%plan%is_wanted)
       self%has_started = .true.
       call self%display%start(self%plan%with_progress)
+      call memory_is_for("the motion")
    end subroutine start_run
 
    !> Understand the words for channels and figures. The twin skips what it does not have.
@@ -223,9 +226,15 @@ contains
    subroutine event_run(self, event, error)
       class(run_recorder_t), intent(inout) :: self       !! the recorder
       type(event_t), intent(in) :: event                 !! what happened
-      type(error_t), allocatable, intent(out) :: error   !! never set
+      type(error_t), allocatable, intent(out) :: error   !! there is no memory for it
 
-      call self%events%add(event)
+      logical :: is_added
+
+      call self%events%add(event, is_added)
+      if (is_added) return
+      self%is_broken = .true.
+      call set_error(error, exit_file, "there is no memory for more than "//to_text(self%events%n)//" events (ulimit -v); what "// &
+                     "was written before is kept. Give it more, or end the run earlier.")
    end subroutine event_run
 
    !> Show how far the run is.
@@ -252,6 +261,7 @@ contains
 
       call self%display%finish()
       if (.not. self%has_started) return
+      call memory_is_for("the statistics and the sorted list of "//to_text(self%events%n)//" events")
       full = complete_summary(summary)
       numbers = self%statistics%numbers(self%items, self%events, full%time_end)
       allocate (outcome%pictures(0), outcome%warnings(0))
@@ -269,6 +279,7 @@ contains
       outcome%numbers = numbers
       self%is_broken = self%is_broken .or. allocated(error)
       if (self%plan%with_figures .and. .not. self%is_broken) then
+         call memory_is_for("the figures")
          allocate (tables(size(self%figures)))
          do k = 1, size(tables)
             call statistics_table(self%figures(k), self%statistics, self%items, self%events, full%time_end, &

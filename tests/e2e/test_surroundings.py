@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -229,15 +230,24 @@ def test_little_address_space(gudgeon, place, verb):
 def test_memory_that_runs_out_in_the_run(gudgeon, place):
     """Exit code 9 wherever it happens, not the run-time library's 1, which means `compared and found different`."""
     deck = written(place, made("pendulum", 3000, "--end", 0.001, "--every", 0.001))
-    codes = []
+    codes, said = [], []
     for megabytes in range(236, 320, 7):
         done = execute(gudgeon, "run", deck, "--out", place / "out", "--quiet", limit=120,
                        preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
         codes.append(done.returncode)
         assert done.returncode in (0, 9), (megabytes, done)
         if done.returncode == 9:
-            assert b"memory" in done.stderr or b"cannot make" in done.stderr, (megabytes, done)
+            said.append(done.stderr.decode(errors="replace").splitlines()[-1])
     assert codes.count(9) >= 3, codes
+    named = [re.search(r"was needed for the (deck|equations of 3000 bodies|start of 3000 bodies|motion|rows)", words) for words in said]
+    assert all("memory" in words for words in said) and sum(map(bool, named)) >= 3, said
+
+
+def test_memory_that_ends_with_the_events(gudgeon, place):
+    """A list of events that outgrows the memory ends the run with the number of events, and keeps what was written."""
+    deck = written(place, plain_deck((("analysis.dynamic", "end", "600 s"), ("output", "every", "0.1 s"), ("output", "contact_rows", "off"))))
+    done = execute(gudgeon, "run", deck, "--out", place / "out", "--quiet", limit=120, preexec_fn=limited(resource.RLIMIT_AS, 240 << 20))
+    assert done.returncode == 9 and b"memory" in done.stderr and (b"events" in done.stderr or b"motion" in done.stderr), done
 
 
 # ---- descriptors

@@ -116,12 +116,13 @@ contains
       type(event_t) :: event
       integer, allocatable :: order(:)
       integer :: k
+      logical :: is_added
 
       call check_equal(error, size(events%order_by_onset()), 0, "no events")
       do k = 1, 500
          event%time = real(mod(37*k, 50), wp)
          event%item = "pin"
-         call events%add(event)
+         call events%add(event, is_added)
       end do
       order = events%order_by_onset()
       do k = 2, 500

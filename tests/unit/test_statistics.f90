@@ -31,6 +31,7 @@ contains
       real(wp), intent(in) :: speed                !! impact speed [m/s]
 
       type(event_t) :: event
+      logical :: is_added
 
       event%time = onset
       event%duration = duration
@@ -41,7 +42,7 @@ contains
       event%contact = label
       event%state_before = "free"
       event%state_after = "free"
-      call events%add(event)
+      call events%add(event, is_added)
    end subroutine tell
 
    !> Two corners of a slider: times with both closed count once; the other joint and other events do not count.
@@ -49,6 +50,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(event_list_t) :: events
+      logical :: is_added
       type(event_t) :: slip
       type(joint_statistics_t) :: joint
 
@@ -62,7 +64,7 @@ contains
       slip%item = "guide"
       slip%time = 7.0_wp
       slip%duration = 1.0_wp
-      call events%add(slip)
+      call events%add(slip, is_added)
       call joint_statistics("guide", events, 0.0_wp, 10.0_wp, joint)
       call check_close(error, joint%contact_fraction, 0.55_wp, 1.0e-15_wp, "from 1 to 5.5 and from 9 to 10")
       call check_true(error, size(joint%speeds) == 4, "four impacts")
