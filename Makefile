@@ -164,7 +164,7 @@ endif
 
 # The rooms, in the order of docs/architecture.md.
 ROOMS := core math deck functions model contact lubrication joints forces clearance integrators scene equations \
-         analysis output cli
+         analysis files channels statistics numbers pictures output cli
 SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90) $(ROOMS:%=src/%/*.F90)))
 C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))
 MAIN := $(wildcard src/main.f90)

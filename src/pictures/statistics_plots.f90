@@ -6,12 +6,12 @@ module statistics_plots
    use figure_words, only: figure_histogram, figure_section, figure_spectrum, figure_t
    use kinds, only: wp
    use plot_table, only: draw_boxes, draw_lines, draw_points, plot_table_t
-   use contact_statistics, only: joint_statistics, joint_statistics_t
+   use contact_statistics, only: histogram, joint_statistics, joint_statistics_t
    use statistics, only: statistics_t
    use text, only: append_text, text_t
    implicit none (type, external)
    private
-   public :: histogram, statistics_table
+   public :: statistics_table
 
 contains
 
@@ -138,28 +138,6 @@ contains
          table%values(:, k) = [edges(k), edges(k + 1), real(counts(k), wp)]
       end do
    end subroutine histogram_table
-
-   !> How many values lie between equally spaced edges from 0 to the greatest value; an edge belongs to the upper bin.
-   pure subroutine histogram(values, edges, counts)
-      real(wp), intent(in) :: values(:)       !! (any) not negative [any]
-      real(wp), intent(out) :: edges(:)       !! (bins + 1) [any]
-      integer, intent(out) :: counts(:)       !! (bins)
-
-      integer :: bin, k, n
-      real(wp) :: top
-
-      n = size(counts)
-      counts = 0
-      top = 0.0_wp
-      if (size(values) > 0) top = maxval(values)
-      edges = [(top*real(k, wp)/real(n, wp), k=0, n)]
-      do k = 1, size(values)
-         do bin = 1, n - 1
-            if (values(k) < edges(bin + 1)) exit
-         end do
-         counts(bin) = counts(bin) + 1
-      end do
-   end subroutine histogram
 
    !> Whether two numbers of the catalogue are the same.
    pure logical function same(a, b)

@@ -6,9 +6,8 @@ module hdf5_statistics
    use hdf5, only: hid_t
    use hdf5_calls, only: integer_dataset, real_dataset, text_dataset
    use kinds, only: wp
-   use contact_statistics, only: joint_statistics_t, joints_of, statistics_of_joints
+   use contact_statistics, only: histogram, joint_statistics_t, joints_of, statistics_of_joints
    use statistics, only: number_t, statistics_t
-   use statistics_plots, only: histogram
    use text, only: join, text_list_t, text_t
    implicit none (type, external)
    private

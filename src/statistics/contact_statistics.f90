@@ -8,7 +8,7 @@ module contact_statistics
    use text, only: text_list_t, text_t
    implicit none (type, external)
    private
-   public :: joint_statistics, joint_statistics_t, joints_of, statistics_of_joints
+   public :: histogram, joint_statistics, joint_statistics_t, joints_of, statistics_of_joints
 
    !> What the contacts of a joint did in the window.
    type :: joint_statistics_t
@@ -104,5 +104,27 @@ contains
       call statistics_of_joints([text_t(name)], events, from, until, joints)
       joint = joints(1)
    end subroutine joint_statistics
+
+   !> How many values lie between equally spaced edges from 0 to the greatest value; an edge belongs to the upper bin.
+   pure subroutine histogram(values, edges, counts)
+      real(wp), intent(in) :: values(:)       !! (any) not negative [any]
+      real(wp), intent(out) :: edges(:)       !! (bins + 1) [any]
+      integer, intent(out) :: counts(:)       !! (bins)
+
+      integer :: bin, k, n
+      real(wp) :: top
+
+      n = size(counts)
+      counts = 0
+      top = 0.0_wp
+      if (size(values) > 0) top = maxval(values)
+      edges = [(top*real(k, wp)/real(n, wp), k=0, n)]
+      do k = 1, size(values)
+         do bin = 1, n - 1
+            if (values(k) < edges(bin + 1)) exit
+         end do
+         counts(bin) = counts(bin) + 1
+      end do
+   end subroutine histogram
 
 end module contact_statistics
