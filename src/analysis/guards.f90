@@ -113,17 +113,18 @@ contains
       class(clearance_set_t), intent(in) :: set   !! the set
       type(guards_t), intent(inout) :: guards     !! limits are set
 
-      integer :: c, m
+      integer :: c, item, m
       real(wp) :: radius
 
       do c = 1, set%n_contact
          m = set%first_contact + c
-         associate (pair => set%pairs(set%item_of(c)), limit => guards%limit(:, m))
+         item = set%item_of(c)
+         associate (pair => set%pairs(item), limit => guards%limit(:, m))
             radius = pair%radius_j
             if (pair%radius_i > 0.0_wp) radius = min(radius, pair%radius_i)
             if (pair%shape == shape_plane) radius = max(radius, pair%length)
             if (guards%penetration*radius > 0.0_wp) limit(guard_penetration) = guards%penetration*radius
-            if (set%is_round) limit(guard_clearance) = set%clearance(set%item_of(c))
+            if (set%is_round) limit(guard_clearance) = set%clearance(item)
             limit(guard_law_range) = set%parameters(parameter_deepest, c)
             limit(guard_impact_speed) = pair%speed_limit
             limit(guard_strength) = force_at_pressure(pair, pair%strength)

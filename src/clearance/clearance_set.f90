@@ -374,8 +374,10 @@ contains
       real(wp), intent(in) :: delta                  !! its penetration [m]
 
       real(wp) :: speed, time
+      integer :: item
 
-      associate (inverse_mass => self%pairs(self%item_of(k))%inverse_mass)
+      item = self%item_of(k)
+      associate (inverse_mass => self%pairs(item)%inverse_mass)
          speed = sqrt(2.0_wp*inverse_mass*self%law%potential(max(delta, 0.0_wp), self%parameters(:, k)))
          time = self%law%contact_time(self%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
       end associate
