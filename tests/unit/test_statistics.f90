@@ -5,8 +5,7 @@ module test_statistics
    use event_list, only: event_list_t
    use kinds, only: not_a_number, wp
    use recorder, only: event_t
-   use contact_statistics, only: joint_statistics, joint_statistics_t
-   use statistics_plots, only: histogram
+   use contact_statistics, only: histogram, joint_statistics, joint_statistics_t
    implicit none (type, external)
    private
    public :: run_test_statistics
