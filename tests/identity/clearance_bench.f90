@@ -12,7 +12,7 @@ module clearance_bench
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use errors, only: error_t
    use fixed_random, only: random_t, seed_of
-   use friction_law, only: friction_law_t, memory_slip
+   use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -211,14 +211,19 @@ contains
       bench%is_in_contact = bench%is_in_contact .and. bench%set%n_touching == 2*n_item - 1
    end subroutine make_bench
 
-   !> A contact that could stick slips the way that it moves.
+   !> A contact that could stick slips the way that it moves; bristles are half bent that way.
    subroutine let_slip(bench, contact)
       type(bench_t), intent(inout) :: bench   !! the set
       integer, intent(in) :: contact          !! its contact
 
-      if (bench%set%grip%memory /= memory_slip) return
+      if (bench%set%grip%memory == memory_none) return
       call bench%set%lie(contact, bench%motion, bench%set%grip%tangent(contact))
-      bench%set%grip%slip(contact) = nint(sign(1.0_wp, bench%set%grip%tangent(contact)%v))
+      associate (grip => bench%set%grip)
+         if (grip%memory == memory_slip) grip%slip(contact) = nint(sign(1.0_wp, grip%tangent(contact)%v))
+         if (grip%memory == memory_bristle) then
+            grip%z(contact) = sign(0.5_wp*bench%set%friction%bristle_scale(), grip%tangent(contact)%v)
+         end if
+      end associate
    end subroutine let_slip
 
    !> A law for the faces of a slider.
