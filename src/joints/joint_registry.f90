@@ -6,6 +6,7 @@ module joint_registry
    use driver_speed, only: driver_speed_t
    use initial_speed, only: initial_speed_t
    use joint_distance, only: joint_distance_t
+   use joint_parallel, only: joint_parallel_t
    use joint_pin_in_slot, only: joint_pin_in_slot_t
    use joint_revolute, only: joint_revolute_t
    use joint_rigid, only: joint_rigid_t
@@ -15,7 +16,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 10  !! number of kinds
+   integer, parameter :: n_joint_kinds = 11  !! number of kinds
 
 contains
 
@@ -36,6 +37,7 @@ contains
       case (8); allocate (driver_distance_t :: set)
       case (9); allocate (driver_position_t :: set)
       case (10); allocate (initial_speed_t :: set)
+      case (11); allocate (joint_parallel_t :: set)
       end select
    end subroutine new_joint_set
 
