@@ -54,11 +54,13 @@ contains
       real(wp), intent(in) :: delta                 !! penetration [m]
 
       real(wp), dimension(2) :: by_delta, by_rate, elastic, f
+      integer :: item
 
       associate (set => system%clearances(slot)%set)
+         item = set%item_of(k)
          call set%law%force(2, [delta, delta], [1.0_wp, -1.0_wp], spread(set%contact(k)%impact_speed, 1, 2), &
                             spread(set%parameters(:, k), 2, 2), f, by_delta, by_rate, elastic)
-         speed = 0.5_wp*(f(1) - f(2))*sqrt(set%pairs(set%item_of(k))%inverse_mass/max(by_delta(1), tiny(1.0_wp)))
+         speed = 0.5_wp*(f(1) - f(2))*sqrt(set%pairs(item)%inverse_mass/max(by_delta(1), tiny(1.0_wp)))
       end associate
       speed = max(speed, tiny(1.0_wp))
    end function speed_of_rest

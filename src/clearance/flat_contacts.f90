@@ -144,7 +144,9 @@ contains
       integer, intent(in) :: contact              !! contact of the set
       real(wp) :: span(2)                         !! (2) in bodies i and j [m]
 
-      span = [sum(abs(self%s_i(:, self%item_of(contact)))) + abs(self%height(contact)), sum(abs(self%point_j(:, contact)))]
+      associate (item => self%item_of(contact))
+         span = [sum(abs(self%s_i(:, item))) + abs(self%height(contact)), sum(abs(self%point_j(:, contact)))]
+      end associate
    end function flat_span_of
 
    !> Second derivative of a penetration by time.
@@ -234,10 +236,7 @@ contains
       real(wp) :: f(2)
       integer :: i, item, j, m
 
-      do m = 1, self%n_contact
-         losses(loss_contact, self%first_contact + m) = 0.0_wp
-         losses(loss_friction, self%first_contact + m) = 0.0_wp
-      end do
+      losses(:, self%first_contact + 1:self%first_contact + self%n_contact) = 0.0_wp
       if (self%n_touching == 0) return
       call move_alloc(self%work, work)
       call self%find_forces(motion, work)
@@ -402,25 +401,25 @@ contains
 
       type(flat_work_t) :: work
       real(wp) :: arm(2), f(2)
-      integer :: column, j, m
+      integer :: column, item, m
 
       call new_work(self%n_contact, work)
       if (self%n_touching > 0) call self%find_forces(motion, work)
       do m = 1, self%n_contact
          column = self%first_contact + m
+         item = self%item_of(m)
          call self%measure(m, motion, work%kinematics(m))
          associate (contact => work%kinematics(m))
             select case (channel)
             case ("force")
-               column = self%first + self%item_of(m)
+               column = self%first + item
                if (modulo(m - 1, self%n_contact_item) == 0) values(:, column) = 0.0_wp
                values(:, column) = values(:, column) + force_of(work, m)
             case ("moment")
-               column = self%first + self%item_of(m)
+               column = self%first + item
                if (modulo(m - 1, self%n_contact_item) == 0) values(1, column) = 0.0_wp
                f = force_of(work, m)
-               j = self%body(2, self%item_of(m))
-               arm = contact%arm_j - matmul(motion%rot(1:2, 1:2, j), self%s_j(1:2, self%item_of(m)))
+               arm = contact%arm_j - matmul(motion%rot(1:2, 1:2, self%body(2, item)), self%s_j(1:2, item))
                values(1, column) = values(1, column) + arm(1)*f(2) - arm(2)*f(1)
             case ("penetration")
                values(1, column) = max(contact%delta, 0.0_wp)

@@ -181,9 +181,11 @@ contains
       real(wp), intent(in) :: delta                !! its penetration [m]
 
       real(wp) :: compliance
+      integer :: item
 
       associate (set => self%clearances(slot)%set)
-         compliance = sum(self%inverse_mass(1, set%body(:, set%item_of(k))))*set%grip%tangent(k)%f_n
+         item = set%item_of(k)
+         compliance = sum(self%inverse_mass(1, set%body(:, item)))*set%grip%tangent(k)%f_n
       end associate
       time = 0.0_wp
       if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)

@@ -371,19 +371,24 @@ contains
 
       real(c_double), pointer :: entries(:)
       integer(sunindextype), pointer :: places(:), rows(:)
+      real(c_double), pointer :: first_entry(:)                    ! the library's own pointers have one element
+      integer(sunindextype), pointer :: first_place(:), first_row(:)
       integer :: m, n
 
       n = problem%system%n
       m = (size(u) - n)/2
       call problem%fill_newton(t, c, u(:n), rate(:n), u(n + 1:n + m), u(n + m + 1:), status)
       if (status /= 0) return
-      places => fsunsparsematrix_indexpointers(matrix)
-      rows => fsunsparsematrix_indexvalues(matrix)
-      entries => fsunsparsematrix_data(matrix)
+      first_place => fsunsparsematrix_indexpointers(matrix)
+      first_row => fsunsparsematrix_indexvalues(matrix)
+      first_entry => fsunsparsematrix_data(matrix)
       associate (newton => problem%newton)
-         places(:size(newton%column)) = newton%column
-         rows(:size(newton%row)) = newton%row
-         entries(:size(newton%a)) = newton%a
+         call c_f_pointer(c_loc(first_place(1)), places, [size(newton%column)])
+         call c_f_pointer(c_loc(first_row(1)), rows, [size(newton%row)])
+         call c_f_pointer(c_loc(first_entry(1)), entries, [size(newton%a)])
+         places = newton%column
+         rows = newton%row
+         entries = newton%a
       end associate
    end subroutine fill_sparse
 

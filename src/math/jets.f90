@@ -25,7 +25,7 @@ contains
 
       v(1) = f
       v(2) = df*u(2)
-      v(3) = ddf*u(2)**2 + df*u(3)
+      v(3) = ddf*u(2)*u(2) + df*u(3)  ! in this order: the square alone may overflow where ddf is 0
    end function jet_chain
 
    !> A jet whose derivatives do not exist unless the argument rests.

@@ -41,6 +41,16 @@ def test_free_bodies_move_as_in_closed_form(gudgeon, method):
 
 
 @pytest.mark.parametrize("method", IMPLICIT)
+def test_free_bodies_with_run_time_checks(gudgeon_debug, method):
+    """The same in the build that checks bounds, for a short while."""
+    n = 60
+    found = run(gudgeon_debug, oscillators(n, method, end=0.02))
+    omega = np.sqrt(100*(1 + np.arange(1, n + 1)/n))
+    expected = 1 + 0.1*np.cos(np.outer(found.time, omega))
+    assert np.max(np.abs(found.read("bodies/position")[:, :, 0] - expected)) <= 1e-6
+
+
+@pytest.mark.parametrize("method", IMPLICIT)
 def test_a_chain_moves_as_with_another_method(gudgeon, method):
     """Sixty pendulums in a row, against Runge-Kutta-Verner at a thousandth of the tolerance; the ledger closes."""
     options = ("--end", "0.2", "--every", "0.02", "--channels", "*.position *.angle energy.*")

@@ -324,7 +324,7 @@ def test_samples_from_a_file_are_scipys_spline(gudgeon):
     at -= at[0]
     force = rng.normal(size=30)
     force[-1] = force[0]
-    content = "# a comment\nt[ms]  pull[N]\n" + "".join(f"{a!r} {f!r}  # row\n" for a, f in zip(at, force))
+    content = "# a comment\nt[ms]  pull[N]\n" + "".join(f"{a!r} {f!r}  # row\n" for a, f in zip(at.tolist(), force.tolist()))
     for word, how in (("hold", "not-a-knot"), ("periodic", "periodic")):
         text = f"""
 [bodies]
