@@ -39,7 +39,11 @@ static void begin_with_one_thread(int argc, char **argv, char **environment)
    int n = 0;
    (void)argc;
    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-   if (!gudgeon_has_room(buffer_of_blas)) _exit(write(STDERR_FILENO, words, sizeof words - 1) < 0 ? 9 : 9);
+   if (!gudgeon_has_room(buffer_of_blas)) {
+      ssize_t said = write(STDERR_FILENO, words, sizeof words - 1);
+      (void)said;  /* there is no one to tell if that fails */
+      _exit(9);
+   }
    for (; environment[n] != NULL; n++) {
       int k = 0;
       while (setting[k] != '=' && environment[n][k] == setting[k]) k++;
