@@ -47,7 +47,7 @@ contains
       type(trend_t), intent(out) :: force             !! normal force
       type(trend_t), intent(out) :: penetration       !! penetration
 
-      call system%clearances(slot)%set%watch(item, system%motion, penetration%value, penetration%rate, &
+      call system%clearances(slot)%set%watch(item, system%linkage%motion, penetration%value, penetration%rate, &
                                              force%value, force%rate)
    end subroutine look
 
@@ -73,7 +73,7 @@ contains
       do k = 1, n_search
          place = place_in(bracket, k)
          call method%within(system, place, y)
-         call system%set_motion(method%step%t0 + place*method%step%h, y)
+         call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
          call look(system, slot, item, force, here)
          greatest = max(greatest, here%value + missing(here, bracket))
          if (missing(here, bracket) <= near_depth*abs(here%value)) exit
@@ -108,7 +108,7 @@ contains
          if (status /= 0) return
          call system%evaluate(t, y, ydot, status)
          if (status /= 0) return
-         call system%set_state(t, y, ydot)
+         call system%linkage%set_state(t, y, ydot)
          call look(system, slot, item, here, penetration)
          if (here%value > peak%force) then
             peak%t = t

@@ -74,7 +74,7 @@ contains
       self%n_peak = 0
       do k = 1, size(system%clearances)
          if (system%clearances(k)%set%n_touching == 0) cycle
-         call system%set_acceleration(method%step%f1)
+         call system%linkage%set_acceleration(method%step%f1)
          do i = 1, system%clearances(k)%set%n_contact
             if (.not. system%clearances(k)%set%contact(i)%is_touching) cycle
             number = system%clearances(k)%set%first_contact + i
@@ -89,7 +89,7 @@ contains
             if (has_force_peak) then
                call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
             end if
-            if (has_peak .or. has_force_peak) call system%set_state(method%t, method%step%y1, method%step%f1)
+            if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
             call keep_depth(system, k, i, max(deepest, penetration%value))
             call keep_force(self, system, method, k, i, peak, force%value)
             self%force(number) = force
@@ -177,7 +177,7 @@ contains
             cycle
          end if
          call system%find_contact(number, k, i)
-         call system%set_motion(method%t, method%step%y1)
+         call system%linkage%set_motion(method%t, method%step%y1)
          call look(system, k, i, force, penetration)
          associate (set => system%clearances(k)%set)
             if (set%contact(i)%is_touching) then
@@ -206,11 +206,11 @@ contains
       if (self%shift > 0.0_wp) then
          self%y = method%step%y1 + self%shift*method%step%f1
          call system%evaluate(method%t + self%shift, self%y, self%ydot, status)
-         if (status == 0) call system%set_state(method%t + self%shift, self%y, self%ydot)
+         if (status == 0) call system%linkage%set_state(method%t + self%shift, self%y, self%ydot)
       end if
       if (status /= 0) then
          self%shift = 0.0_wp
-         call system%set_state(method%t, method%step%y1, method%step%f1)
+         call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
       end if
       do k = 1, size(system%clearances)
          if (system%clearances(k)%set%n_touching == 0) cycle
@@ -226,7 +226,7 @@ contains
             end associate
          end do
       end do
-      if (self%shift > 0.0_wp) call system%set_state(method%t, method%step%y1, method%step%f1)
+      if (self%shift > 0.0_wp) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
    end subroutine after_restart
 
    !> A located event: a contact begins or ends, turns, slips or sticks. Where the energy that the contacts store jumps with it,
@@ -260,7 +260,7 @@ contains
       rate = penetration%rate  ! the normal one: at an end of a guide that of the event is axial
       associate (set => system%clearances(k)%set)
          stored = 0.0_wp
-         if (set%energy_jumps) stored = set%elastic_energy(system%motion)
+         if (set%energy_jumps) stored = set%elastic_energy(system%linkage%motion)
          is_over = set%contact(i)%is_touching
          self%owes_row(number) = .false.
          self%told(number) = 0.0_wp
@@ -274,7 +274,7 @@ contains
             step_hint = step_in_contact()
          end if
          if (.not. (set%energy_jumps .and. system%with_ledger)) return
-         lost = stored - set%elastic_energy(system%motion)
+         lost = stored - set%elastic_energy(system%linkage%motion)
          z = loss_place(system, number)
          method%step%y1(z) = method%step%y1(z) + lost
          if (is_over) row%energy_lost = row%energy_lost + lost
@@ -288,7 +288,8 @@ contains
             if (set%contact(i)%swing > 0.0_wp) then
                step = first_step*pi/set%contact(i)%swing
             else
-               step = first_step*set%contact_time(i, at_rest*system%pace*system%length_scale, system%inverse_mass(1, :))
+               step = first_step*set%contact_time(i, at_rest*system%linkage%scales%pace*system%linkage%scales%length, &
+                                                  system%linkage%inverse_mass(1, :))
             end if
          end associate
       end function step_in_contact

@@ -91,7 +91,7 @@ contains
       call new_system(other, levels, system, is_for_start=.true.)
       p = q
       w = v
-      call assemble(system, p, w, report, error)
+      call assemble(system%linkage, p, w, report, error)
       can = .not. allocated(error)
    end function can_do_without
 

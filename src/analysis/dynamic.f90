@@ -75,7 +75,7 @@ contains
       call new_sampler(system, plan, run%sampler)
       call new_contact_watch(system, run%watch)
       run%summary%method = method_name(method)
-      run%summary%solver = system%solver%name()
+      run%summary%solver = system%linkage%solution%solver%name()
       run%summary%stabilisation = system%way%words()
       run%summary%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
       run%summary%ledger = system%with_ledger
@@ -101,7 +101,7 @@ contains
       run%summary%rejected_steps = method%n_rejected
       run%summary%rhs_evaluations = system%n_evaluations
       run%summary%output_evaluations = method%n_output_evaluations + run%sampler%n_reports
-      run%summary%factorisations = system%solver%n_factorisations
+      run%summary%factorisations = system%linkage%solution%solver%n_factorisations
       run%summary%samples = int(run%sampler%n_sample)
       run%summary%rows = run%sampler%n_row
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
@@ -135,9 +135,9 @@ contains
       integer :: n_since_progress, status
 
       run%instants = plan%instants
-      call run%instants%begin(plan%end, system%piece)
+      call run%instants%begin(plan%end, system%linkage%piece)
       call system%begin_pace(0.0_wp, y, plan%end)
-      call system%set_motion(0.0_wp, y)
+      call system%linkage%set_motion(0.0_wp, y)
       call decide_slips(system, 0.0_wp, y, recorder, run, error)
       if (allocated(error)) return
       call method%start(system, 0.0_wp, y, plan%end, status)
@@ -203,15 +203,15 @@ contains
       integer :: k
 
       call system%follow_pace(method%step%y1)
-      do k = 1, system%rows%n_solve
-         scaled = system%row_weight(k)*abs(system%rows%phi(k))
-         run%is_lost = run%is_lost .or. scaled > merge(lost_angle, lost_length, system%rows%is_angle(k))
+      do k = 1, system%linkage%rows%n_solve
+         scaled = system%linkage%solution%row_weight(k)*abs(system%linkage%rows%phi(k))
+         run%is_lost = run%is_lost .or. scaled > merge(lost_angle, lost_length, system%linkage%rows%is_angle(k))
          if (scaled > run%worst) then
             run%worst = scaled
             run%worst_row = k
          end if
-         run%summary%violation_max = max(run%summary%violation_max, abs(system%rows%phi(k)))
-         run%summary%violation_rate_max = max(run%summary%violation_rate_max, abs(system%phi_dot(k)))
+         run%summary%violation_max = max(run%summary%violation_max, abs(system%linkage%rows%phi(k)))
+         run%summary%violation_rate_max = max(run%summary%violation_rate_max, abs(system%linkage%solution%phi_dot(k)))
       end do
       if (.not. system%with_ledger) return
       energy = energy_of(system, method%step%y1)
@@ -306,7 +306,7 @@ contains
       if (allocated(error)) return
       method%g = method%g1
       before = method%step%f1
-      call run%instants%pass(system%piece)
+      call run%instants%pass(system%linkage%piece)
       call decide_slips(system, method%t, method%step%y1, recorder, run, error)
       if (allocated(error)) return
       call method%restart(system, 0.0_wp, status)

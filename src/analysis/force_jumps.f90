@@ -38,7 +38,7 @@ contains
 
       time = 0.0_wp
       if (rate < slowest) return
-      time = (abs(delta) + spacings*eps*max(system%length_scale, &
+      time = (abs(delta) + spacings*eps*max(system%linkage%scales%length, &
                                             maxval(abs(method%step%y1(:system%n_position)), dim=1)))/rate
    end function time_to_see
 

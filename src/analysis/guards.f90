@@ -166,8 +166,8 @@ contains
       type(planar_system_t), intent(in) :: system    !! the system, its motion that of the start
 
       if (.not. self%is_set) return
-      allocate (self%breach(n_contact_guard, system%n_contact), self%travel(system%n_body))
-      self%start = system%motion%r(1:2, 1:system%n_body)
+      allocate (self%breach(n_contact_guard, system%n_contact), self%travel(system%linkage%bodies%n))
+      self%start = system%linkage%motion%r(1:2, 1:system%linkage%bodies%n)
    end subroutine guards_begin
 
    !> After a step: contacts and bodies.
@@ -194,10 +194,10 @@ contains
             end do
          end associate
       end do
-      associate (motion => system%motion)
-         do k = 1, system%n_body
+      associate (motion => system%linkage%motion)
+         do k = 1, system%linkage%bodies%n
             if (motion%v(1, k)**2 + motion%v(2, k)**2 > self%speed**2) then
-               call end_run(self, "body '"//system%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
+               call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
                             motion%v(2, k)), 3)//" m/s, faster than the guard 'speed' allows: "//real_text(self%speed, 3)//" m/s")
             end if
             way = hypot(motion%r(1, k) - self%start(1, k), motion%r(2, k) - self%start(2, k))
@@ -347,7 +347,7 @@ contains
       end do
       k = greatest_of(self%travel)
       if (k == 0) return
-      call append_text(warnings, "body '"//system%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
+      call append_text(warnings, "body '"//system%linkage%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
                        " m from its start at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
                        real_text(self%travel(k)%value/self%size, 3)// &
                        " times the size of the scene: does a driver or load go on too long, or did it miss a surface?")

@@ -250,12 +250,12 @@ contains
          call ieee_set_status(status)
       end if
       if (system%n_loose == 0) return
-      call system%set_motion(method%t, method%step%y1)
+      call system%linkage%set_motion(method%t, method%step%y1)
       omega = 0.0_wp
       do k = 1, size(system%clearances)
          associate (body => system%clearances(k)%set%body)
             do i = 1, size(body, 2)
-               omega = max(omega, abs(system%motion%omega(3, body(1, i))), abs(system%motion%omega(3, body(2, i))))
+               omega = max(omega, abs(system%linkage%motion%omega(3, body(1, i))), abs(system%linkage%motion%omega(3, body(2, i))))
             end do
          end associate
       end do

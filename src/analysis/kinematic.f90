@@ -9,10 +9,10 @@
 !> Source: Flores et al. (2008), section 2.4, figure 2.5. Limits: all joints ideal; no integrated works.
 module kinematic
    use catalogue, only: catalogue_t
-   use consistent_start, only: evaluate_rows, row_scale
+   use consistent_start, only: evaluate_rows
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
-   use inverse_dynamics, only: find_loads, find_reactions
+   use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, wp
    use mobility, only: find_mobility, mobility_t, stiffest_driver
    use planar_energy, only: energy_of, energy_t
@@ -66,7 +66,7 @@ contains
       summary%ledger = .false.
       summary%energy_residual_max = not_a_number()
       allocate (summary%warnings(0))
-      if (size(system%ideal) > 0) then
+      if (size(system%linkage%ideal) > 0) then
          call append_text(summary%warnings, "joints with clearance are taken as ideal in a kinematic analysis")
       end if
       call recorder%start(catalogue, error)
@@ -196,8 +196,8 @@ contains
       type(state_t), intent(inout) :: state           !! guess, then solved
       integer, intent(out) :: outcome                 !! as of `prescribed_motion`
 
-      call solve_positions(system, state%t, newton, state%q, outcome)
-      if (outcome == solved) call solve_rates(system, state%t, newton, state%q, state%v, state%a, outcome)
+      call solve_positions(system%linkage, state%t, newton, state%q, outcome)
+      if (outcome == solved) call solve_rates(system%linkage, state%t, newton, state%q, state%v, state%a, outcome)
    end subroutine solve_instant
 
    !> Forces at a solved instant, and all values of the catalogue.
@@ -210,15 +210,15 @@ contains
       type(energy_t) :: energy
       real(wp) :: unbalanced, y(2*size(state%q))
 
-      call evaluate_rows(system, state%t, state%q, state%v)
-      call find_loads(system, state%t)
-      call find_reactions(system, state%a, unbalanced)
+      call evaluate_rows(system%linkage, state%t, state%q, state%v)
+      call system%evaluate_loads(state%t)
+      call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
       y = [state%q, state%v]
       call fill_catalogue(system, state%t, y, 0.0_wp, catalogue)
       energy = energy_of(system, y)
       summary%energy_max = max(summary%energy_max, energy%kinetic + energy%elastic)
-      summary%violation_max = max(summary%violation_max, maxval(abs(system%rows%phi)))
-      summary%violation_rate_max = max(summary%violation_rate_max, maxval(abs(system%phi_dot)))
+      summary%violation_max = max(summary%violation_max, maxval(abs(system%linkage%rows%phi)))
+      summary%violation_rate_max = max(summary%violation_rate_max, maxval(abs(system%linkage%solution%phi_dot)))
    end subroutine report
 
    !> Say when, where and why the motion cannot go on, and what to try.
@@ -234,22 +234,23 @@ contains
       character(:), allocatable :: driver, message
       integer :: row
 
-      row = maxloc(abs(system%rows%phi)*row_scale(system), dim=1)
+      row = maxloc(abs(system%linkage%rows%phi)*system%linkage%solution%row_weight, dim=1)
       select case (outcome)
       case (not_finite_rows)
          message = new_line("a")//"  = a driver or a derivative of it is not a finite number there"
       case (open_rows)
-         message = new_line("a")//"  = '"//system%row_name(row)//"' would stay open by "// &
-                   real_text(abs(system%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%rows%is_angle(row)))// &
+         message = new_line("a")//"  = '"//system%linkage%row_name(row)//"' would stay open by "// &
+                   real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", &
+                          system%linkage%rows%is_angle(row)))// &
                    " at t = "//real_text(t, 9)//" s: a dead point, or a jump of a driver"
       case (singular)
          message = new_line("a")//"  = rows depend on each other there: a dead point, or branches of the motion meet"
       case default
          message = new_line("a")//"  = no finite velocities and accelerations fulfil all rows there"
       end select
-      call evaluate_rows(system, state%t, state%q, state%v)
-      call find_mobility(system, mobility)
-      driver = system%row_name(stiffest_driver(mobility))
+      call evaluate_rows(system%linkage, state%t, state%q, state%v)
+      call find_mobility(system%linkage, mobility)
+      driver = system%linkage%row_name(stiffest_driver(mobility))
       call set_error(error, exit_integration, "the mechanism cannot follow driver '"//driver//"' beyond t = "// &
                      real_text(state%t, 9)//" s"//message//new_line("a")// &
                      "  = everything up to the last output instant was saved; end the motion before, let the driver turn back "// &

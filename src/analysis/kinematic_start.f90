@@ -30,11 +30,11 @@ contains
       real(wp), allocatable :: v(:)
 
       call deck_positions(scene, q, v)
-      call assemble(system, q, v, report, assembly_error)
-      call evaluate_rows(system, 0.0_wp, q, v)
-      call find_mobility(system, mobility)
-      call find_dependent(system, q, v, report)
-      system%is_redundant = size(report%dependent) > 0
+      call assemble(system%linkage, q, v, report, assembly_error)
+      call evaluate_rows(system%linkage, 0.0_wp, q, v)
+      call find_mobility(system%linkage, mobility)
+      call find_dependent(system%linkage, q, v, report)
+      system%linkage%solution%is_redundant = size(report%dependent) > 0
       if (any(mobility%is_excess)) then
          call refuse_excess(system, mobility, error)
       else if (allocated(assembly_error)) then
@@ -54,11 +54,11 @@ contains
 
       left = ""
       if (mobility%n_left > 0) left = new_line("a")//"  = and "//freedoms(mobility%n_left)//" left without a driver: "// &
-                                      moving_bodies(system, mobility%freedom)//" can still move"
+                                      moving_bodies(system%linkage, mobility%freedom)//" can still move"
       call set_error(error, exit_assembly, "the mechanism is over-driven: "//drivers(mobility%n_driver)//" for "// &
-                     freedoms(mobility%n_freedom)//", and "//joint_names(system, mobility%is_excess)// &
+                     freedoms(mobility%n_freedom)//", and "//joint_names(system%linkage, mobility%is_excess)// &
                      " prescribes what joints and other drivers determine already"//left//new_line("a")// &
-                     "  = drivers: "//joint_names(system, mobility%is_driver)//new_line("a")// &
+                     "  = drivers: "//joint_names(system%linkage, mobility%is_driver)//new_line("a")// &
                      "  = a kinematic analysis needs one driver for each degree of freedom; remove the one in excess")
    end subroutine refuse_excess
 
@@ -70,16 +70,17 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! the message
 
       character(:), allocatable :: dead_point
-      logical :: is_shared(system%rows%n)
+      logical :: is_shared(system%linkage%rows%n)
 
       is_shared = .false.
       is_shared(report%shared) = .true.
       dead_point = ""
-      if (any(is_shared)) dead_point = new_line("a")//"  = rows of "//joint_names(system, is_shared)// &
+      if (any(is_shared)) dead_point = new_line("a")//"  = rows of "//joint_names(system%linkage, is_shared)// &
                                    " depend on each other here: if this is a dead point, start beside it"
       call set_error(error, exit_assembly, "the motion is not determined: "//freedoms(mobility%n_left)//" left; "// &
                      drivers(mobility%n_driver)//" for "//freedoms(mobility%n_freedom)//new_line("a")// &
-                     "  = bodies that can still move: "//moving_bodies(system, mobility%freedom)//dead_point//new_line("a")// &
+                     "  = bodies that can still move: "//moving_bodies(system%linkage, &
+                          mobility%freedom)//dead_point//new_line("a")// &
                      "  = add a driver for each freedom, or let forces move it: [analysis.dynamic]")
    end subroutine refuse_missing
 

@@ -45,10 +45,10 @@ contains
          end if
       end if
       if (worst > careful_violation) then
-         call append_text(summary%warnings, "'"//system%row_name(worst_row)//"' was violated by "// &
+         call append_text(summary%warnings, "'"//system%linkage%row_name(worst_row)//"' was violated by "// &
                           real_text(worst, 3)// &
                           trim(merge(" rad                      ", " of the size of the bodies", &
-                                     system%rows%is_angle(worst_row)))// &
+                                     system%linkage%rows%is_angle(worst_row)))// &
                           "; a jump in a driver, or too large a tolerance?")
       end if
    end subroutine warn_of_errors

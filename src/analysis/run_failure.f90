@@ -32,9 +32,11 @@ contains
       integer :: code, row
 
       where_singular = ""
-      if (system%bad_row > 0) where_singular = ": they are singular at joint or driver '"//system%row_name(system%bad_row)//"'"
-      if (system%rows%n > system%rows%n_solve) call system%find_reactions(system%known%t)
-      if (system%bad_row == 0) where_singular = not_finite(system)
+      associate (linkage => system%linkage, bad_row => system%linkage%solution%bad_row)
+         if (bad_row > 0) where_singular = ": they are singular at joint or driver '"//linkage%row_name(bad_row)//"'"
+         if (linkage%rows%n > linkage%rows%n_solve) call linkage%find_reactions(linkage%reduced%known%t, system%loading%g)
+         if (bad_row == 0) where_singular = not_finite(system)
+      end associate
       select case (status)
       case (advance_too_many_steps)
          message = "the number of steps allowed (maximum_steps, MXSTEP) is used up"
@@ -60,10 +62,10 @@ contains
                 " steps, the last of "//real_text(method%step%h, 3)//" s"
       allocate (ydot(system%n), source=0.0_wp)
       call system%evaluate(method%t, method%step%y1, ydot, code)
-      if (system%rows%n_solve > 0) then
-         row = maxloc(abs(system%rows%phi(:system%rows%n_solve)), dim=1)
-         message = message//new_line("a")//"  = worst constraint there: '"//system%row_name(row)//"', violated by "// &
-                   real_text(abs(system%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%rows%is_angle(row)))
+      if (system%linkage%rows%n_solve > 0) then
+         row = maxloc(abs(system%linkage%rows%phi(:system%linkage%rows%n_solve)), dim=1)
+         message = message//new_line("a")//"  = worst constraint there: '"//system%linkage%row_name(row)//"', violated by "// &
+                   real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%linkage%rows%is_angle(row)))
       end if
       message = message//deepest_contact(system, method)//new_line("a")// &
                 "  = everything up to the last output instant was saved; "//advice(status)
@@ -79,16 +81,18 @@ contains
 
       words = ""
       do pass = 1, 2  ! first the rows that are functions of time themselves
-         do k = 1, system%rows%n
-            if (ieee_is_finite(system%rows%phi_t(k)) .and. (pass == 1 .or. (ieee_is_finite(system%rows%phi(k)) &
-                                                                            .and. ieee_is_finite(system%rows%gam(k))))) cycle
-            words = ": '"//system%row_name(k)//"' or a derivative of it is not a finite number"
-            return
-         end do
+         associate (rows => system%linkage%rows)
+            do k = 1, rows%n
+               if (ieee_is_finite(rows%phi_t(k)) &
+                   .and. (pass == 1 .or. (ieee_is_finite(rows%phi(k)) .and. ieee_is_finite(rows%gam(k))))) cycle
+               words = ": '"//system%linkage%row_name(k)//"' or a derivative of it is not a finite number"
+               return
+            end do
+         end associate
       end do
-      do k = 1, system%n_body
-         if (all(ieee_is_finite(system%g(:, k)))) cycle
-         words = ": a load on body '"//system%bodies%names(k)%s//"' is not a finite number"
+      do k = 1, system%linkage%bodies%n
+         if (all(ieee_is_finite(system%loading%g(:, k)))) cycle
+         words = ": a load on body '"//system%linkage%bodies%names(k)%s//"' is not a finite number"
          return
       end do
    end function not_finite

@@ -131,7 +131,7 @@ contains
 
       t = huge(1.0_wp)
       if (self%n_sample <= self%n_last_sample) t = instant(plan, self%n_sample)
-      if (t >= system%piece%end) t = huge(1.0_wp)
+      if (t >= system%linkage%piece%end) t = huge(1.0_wp)
    end function next_instant
 
    !> The row before the events at the end of the last step, where a contact ends or a force may jump.
@@ -267,7 +267,7 @@ contains
       if (plan%strobes(self%n_strobe + 1) < method%t) call method%prepare_output(system, status)
       do while (self%n_strobe < size(plan%strobes))
          t = plan%strobes(self%n_strobe + 1)
-         if (t > reached .or. t >= system%piece%end) exit
+         if (t > reached .or. t >= system%linkage%piece%end) exit
          call method%state_at(system, t, self%y)
          call report(self, system, method, t, self%y, residual, error)
          if (allocated(error)) return

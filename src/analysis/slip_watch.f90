@@ -107,7 +107,7 @@ contains
             is_slow = .false.
             if (set%grip%memory == memory_slip .and. set%contact(contact)%is_touching) then
                is_slow = abs(set%grip%slip(contact)) == 1 .and. &
-                         abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%pace*system%length_scale
+                         abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%linkage%scales%pace*system%linkage%scales%length
             end if
          end associate
          if (.not. is_slow .and. (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp)) cycle

@@ -64,7 +64,7 @@ contains
       end associate
       if (allocated(error)) return
       call new_system(scene, levels, twin, is_for_start=.true.)
-      call assemble(twin, q, v, report, error)
+      call assemble(twin%linkage, q, v, report, error)
       if (allocated(error)) then
          call deck_positions(scene, q, v)
          call name_conflict(scene, levels, q, v, error)
@@ -74,23 +74,23 @@ contains
          q = q + shift%q
          v = v + shift%v
          call new_system(scene, levels_as_written, twin, is_for_start=.true.)
-         call assemble(twin, q, v, report, error)
+         call assemble(twin%linkage, q, v, report, error)
          if (allocated(error)) return
       end if
-      call find_dependent(system, q, v, report)
-      system%is_redundant = size(report%dependent) > 0
+      call find_dependent(system%linkage, q, v, report)
+      system%linkage%solution%is_redundant = size(report%dependent) > 0
       allocate (y(system%n), source=0.0_wp)
-      do k = 1, system%rows%n_unknown
-         associate (body => system%rows%unknown(k))
+      do k = 1, system%linkage%rows%n_unknown
+         associate (body => system%linkage%rows%unknown(k))
             y(3*k - 2:3*k) = q(3*body - 2:3*body)
             y(system%n_position + 3*k - 2:system%n_position + 3*k) = v(3*body - 2:3*body)
          end associate
       end do
-      if (system%guided%n > 0) then
-         call set_planar_motion(system%n_body, q, v, system%motion)
-         system%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
-         associate (n => 3*system%rows%n_unknown, nq => system%n_position)
-            call guided_coordinates(system%guided, system%motion, y(n + 1:nq), y(nq + n + 1:2*nq))
+      if (system%linkage%reduced%guided%n > 0) then
+         call set_planar_motion(system%linkage%bodies%n, q, v, system%linkage%motion)
+         system%linkage%reduced%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
+         associate (n => 3*system%linkage%rows%n_unknown, nq => system%n_position)
+            call guided_coordinates(system%linkage%reduced%guided, system%linkage%motion, y(n + 1:nq), y(nq + n + 1:2*nq))
          end associate
       end if
       call look_at_overlap(system, y, &
@@ -135,10 +135,10 @@ contains
       if (size(report%dependent) == 0) return
       names = ""
       do k = 1, size(report%shared)
-         if (index(names//" ", "'"//system%row_name(report%shared(k))//"'") > 0) cycle
-         names = names//" '"//system%row_name(report%shared(k))//"'"
+         if (index(names//" ", "'"//system%linkage%row_name(report%shared(k))//"'") > 0) cycle
+         names = names//" '"//system%linkage%row_name(report%shared(k))//"'"
       end do
-      words = "redundant constraints: "//to_text(size(report%dependent))//" of "//to_text(system%rows%n)// &
+      words = "redundant constraints: "//to_text(size(report%dependent))//" of "//to_text(system%linkage%rows%n)// &
               " rows depend on others at the start; accelerations are exact, but the reactions of"//names// &
               " are not unique: those of least norm are given"
    end function redundancy_text

@@ -106,16 +106,16 @@ contains
       v = 0.0_wp
       if (scene%static%values(column_of(scene%static_kind, "start"))%text == "ideal") then
          call new_system(scene, levels_ideal, twin)
-         call assemble(twin, q, v, report, error)
+         call assemble(twin%linkage, q, v, report, error)
       else
-         call assemble(system, q, v, report, error)
+         call assemble(system%linkage, q, v, report, error)
       end if
       if (allocated(error)) then
          call name_conflict(scene, levels_ideal, q, 0.0_wp*v, error)
          return
       end if
-      call find_dependent(system, q, v, report)
-      system%is_redundant = size(report%dependent) > 0
+      call find_dependent(system%linkage, q, v, report)
+      system%linkage%solution%is_redundant = size(report%dependent) > 0
    end subroutine assemble_at_rest
 
    !> Let KINSOL polish; keep what it found if that is an equilibrium nearby.
@@ -134,11 +134,11 @@ contains
       if (load <= 0.0_wp) return
       q_new = q
       rest = 0.0_wp
-      call find_dependent(system, q, rest, rows)
+      call find_dependent(system%linkage, q, rest, rows)
       call polish(system, rows%dependent, load, to_round_off, n_polish, q_new, equilibrium%is_polished)
       if (equilibrium%is_polished) equilibrium%is_polished = maxval(abs(q_new - q)/position_scale(system)) < nearby
       if (.not. equilibrium%is_polished) q_new = q
-      call solve_positions(system, 0.0_wp, newton, q_new, outcome)
+      call solve_positions(system%linkage, 0.0_wp, newton, q_new, outcome)
       call evaluate_balance(system, q_new, balance)
       call free_stiffness(system, q_new, balance)
       equilibrium%is_polished = equilibrium%is_polished .and. &
@@ -169,12 +169,13 @@ contains
             equilibrium%words = "unstable in "//to_text(n_steep)//" of "//to_text(size(stiffness))// &
                                 " freedoms; a push grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)//" s"
             equilibrium%warning = "the equilibrium is unstable: the least push moves "// &
-                                  moving_bodies(system, bodies_in(balance%modes(:, 1:1)))// &
+                                  moving_bodies(system%linkage, bodies_in(balance%modes(:, 1:1)))// &
                                   "; begin the search beside it to find a stable one"
          else if (n_flat > 0) then
             equilibrium%words = "indifferent in "//to_text(n_flat)//" of "//to_text(size(stiffness))//" freedoms"
             equilibrium%warning = "the equilibrium is indifferent: nothing holds "// &
-                                  moving_bodies(system, bodies_in(balance%modes(:, pack_range(abs(stiffness) <= limit))))// &
+                                  moving_bodies(system%linkage, bodies_in(balance%modes(:, &
+                                                pack_range(abs(stiffness) <= limit))))// &
                                   " where the search left them"
          else
             equilibrium%words = "stable; lowest natural frequency "//real_text(sqrt(square(1))/two_pi, 6)//" Hz"
@@ -211,18 +212,18 @@ contains
       type(equilibrium_t), intent(in) :: equilibrium       !! how far it came
       type(error_t), allocatable, intent(out) :: error     !! the message
 
-      real(wp) :: part(system%n_body), free_load(size(balance%load))
+      real(wp) :: part(system%linkage%bodies%n), free_load(size(balance%load))
       integer :: k
 
       free_load = matmul(balance%free, matmul(balance%load, balance%free))
-      do k = 1, system%n_body
+      do k = 1, system%linkage%bodies%n
          part(k) = norm2(free_load(3*k - 2:3*k))
       end do
       part = part/max(maxval(part), tiny(1.0_wp))
       where (part < 0.1_wp) part = 0.0_wp
       call set_error(error, exit_assembly, "no static equilibrium was found: "//real_text(equilibrium%unbalanced, 3)// &
                      " of the largest load is out of balance after "//to_text(equilibrium%steps)//" steps"//new_line("a")// &
-                     "  = loads still move "//moving_bodies(system, part)//new_line("a")// &
+                     "  = loads still move "//moving_bodies(system%linkage, part)//new_line("a")// &
                      "  = hold what can fall or turn freely by a joint, spring or driver; begin nearer to the equilibrium; or "// &
                      "allow more maximum_iterations or a larger tolerance in [analysis.static]")
    end subroutine refuse
@@ -245,8 +246,8 @@ contains
       rest = 0.0_wp
       y = [equilibrium%q, rest]
       call evaluate_balance(system, equilibrium%q, balance)
-      call find_reactions(system, rest, unbalanced)
-      system%phi_dot = 0.0_wp
+      call find_reactions(system%linkage, system%loading%g, rest, unbalanced)
+      system%linkage%solution%phi_dot = 0.0_wp
       allocate (summary%warnings(0))
       if (equilibrium%warning /= "") call append_text(summary%warnings, equilibrium%warning)
       summary%method = "relaxation"
@@ -259,7 +260,7 @@ contains
       summary%energy_residual_max = not_a_number()
       energy = energy_of(system, y)
       summary%energy_max = energy%elastic
-      if (system%rows%n > 0) summary%violation_max = maxval(abs(system%rows%phi))
+      if (system%linkage%rows%n > 0) summary%violation_max = maxval(abs(system%linkage%rows%phi))
       summary%cpu_seconds = equilibrium%cpu_seconds
       summary%wall_seconds = equilibrium%cpu_seconds
       call recorder%start(catalogue, error)

@@ -8,7 +8,6 @@
 !> Jacobian must be regular: no indifferent equilibrium.
 module static_kinsol
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_ptr
-   use consistent_start, only: row_scale
    use fkinsol_mod, only: fkinfree, fkininit, fkinsetfuncnormtol, fkinsetlinearsolver, fkinsetnummaxiters, &
       fkinsetscaledsteptol, fkinsetuserdata, fkinsol, kin_linesearch, kin_linesearch_nonconv
    use fnvector_serial_mod, only: fn_vmake_serial
@@ -47,11 +46,11 @@ contains
       call c_f_pointer(user_data, problem)
       x => fn_vgetarraypointer(unknowns)
       f => fn_vgetarraypointer(values)
-      n = 3*problem%system%n_body
+      n = 3*problem%system%linkage%bodies%n
       call look_at(problem%system, x(1:n)*position_scale(problem%system))
       call set_multipliers(problem, x(n + 1:))
       f(1:n) = unbalanced_load(problem%system)/problem%load
-      f(n + 1:) = pack(problem%system%rows%phi*row_scale(problem%system), problem%is_independent)
+      f(n + 1:) = pack(problem%system%linkage%rows%phi*problem%system%linkage%solution%row_weight, problem%is_independent)
       status = 0_c_int
    end function equations
 
@@ -60,7 +59,8 @@ contains
       type(problem_t), intent(inout) :: problem   !! the problem; the system's lambda is set
       real(wp), intent(in) :: mu(:)               !! (independent rows) multipliers over the largest load [1]
 
-      problem%system%lambda = unpack(mu*problem%load, problem%is_independent, 0.0_wp)*row_scale(problem%system)
+      problem%system%linkage%solution%lambda = unpack(mu*problem%load, problem%is_independent, &
+                                                      0.0_wp)*problem%system%linkage%solution%row_weight
    end subroutine set_multipliers
 
    !> Polish an equilibrium.
@@ -85,9 +85,10 @@ contains
 
       problem%system => system
       problem%load = load
-      allocate (problem%is_independent(system%rows%n), source=.true.)
+      allocate (problem%is_independent(system%linkage%rows%n), source=.true.)
       problem%is_independent(dependent) = .false.
-      x = [q/position_scale(system), pack(system%lambda/row_scale(system)/load, problem%is_independent)]
+      x = [q/position_scale(system), &
+           pack(system%linkage%solution%lambda/system%linkage%solution%row_weight/load, problem%is_independent)]
       allocate (ones(size(x)), source=1.0_wp)
       n = size(x, kind=sunindextype)
       status = new_context(context)

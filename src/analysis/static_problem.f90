@@ -12,7 +12,7 @@
 !> force at rest.
 module static_problem
    use consistent_start, only: evaluate_rows, scaled_jacobian
-   use inverse_dynamics, only: find_loads, find_reactions
+   use inverse_dynamics, only: find_reactions
    use kinds, only: i8, wp
    use lapack, only: dsyev, dsygv
    use mobility, only: split_space
@@ -38,9 +38,9 @@ contains
    !> Scales of the coordinates: the size of the bodies for lengths, one for angles.
    pure function position_scale(system) result(scale)
       class(planar_system_t), intent(in) :: system   !! the system
-      real(wp) :: scale(3*system%n_body)             !! (3 bodies) scales [m, m, rad]
+      real(wp) :: scale(3*system%linkage%bodies%n)             !! (3 bodies) scales [m, m, rad]
 
-      scale = system%length_scale
+      scale = system%linkage%scales%length
       scale(3::3) = 1.0_wp
    end function position_scale
 
@@ -53,32 +53,33 @@ contains
       integer :: i, k
 
       rest = 0.0_wp
-      call evaluate_rows(system, 0.0_wp, q, rest)
+      call evaluate_rows(system%linkage, 0.0_wp, q, rest)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            call set%gaps(system%motion, delta, rate)
+            call set%gaps(system%linkage%motion, delta, rate)
             do i = 1, set%n_contact
                set%contact(i)%is_touching = delta(set%first_contact + i) > 0.0_wp
             end do
             set%n_touching = count(set%contact%is_touching)
          end associate
       end do
-      call find_loads(system, 0.0_wp)
+      call system%evaluate_loads(0.0_wp)
    end subroutine look_at
 
    !> Loads less reactions for given multipliers, after `look_at`.
    function unbalanced_load(system) result(load)
       class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
-      real(wp) :: load(3*system%n_body)              !! (3 bodies) what is out of balance, scaled [N.m]
+      real(wp) :: load(3*system%linkage%bodies%n)              !! (3 bodies) what is out of balance, scaled [N.m]
 
       integer :: body, row, side
 
-      load = reshape(system%g(:, 1:), [size(load)])
-      do row = 1, system%rows%n
+      load = reshape(system%loading%g(:, 1:), [size(load)])
+      do row = 1, system%linkage%rows%n
          do side = 1, 2
-            body = system%rows%body(side, row)
+            body = system%linkage%rows%body(side, row)
             if (body == 0) cycle
-            load(3*body - 2:3*body) = load(3*body - 2:3*body) - system%rows%jac(3*side - 2:3*side, row)*system%lambda(row)
+            load(3*body - 2:3*body) = load(3*body - 2:3*body) - system%linkage%rows%jac(3*side - 2:3*side, &
+                                      row)*system%linkage%solution%lambda(row)
          end do
       end do
       load = load*position_scale(system)
@@ -88,11 +89,11 @@ contains
    real(wp) function load_scale(system)
       class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 
-      real(wp) :: rest(3*system%n_body), weights(3*system%n_body), loads(3*system%n_body)
+      real(wp) :: rest(3*system%linkage%bodies%n), weights(3*system%linkage%bodies%n), loads(3*system%linkage%bodies%n)
 
       rest = unbalanced_load(system)
-      weights = reshape(system%weight(:, 1:), [size(weights)])*position_scale(system)
-      loads = reshape(system%g(:, 1:), [size(loads)])*position_scale(system)
+      weights = reshape(system%loading%weight(:, 1:), [size(weights)])*position_scale(system)
+      loads = reshape(system%loading%g(:, 1:), [size(loads)])*position_scale(system)
       load_scale = max(norm2(weights), norm2(loads), norm2(loads - rest))
    end function load_scale
 
@@ -107,7 +108,7 @@ contains
       rest = 0.0_wp
       call look_at(system, q)
       balance%n_evaluations = balance%n_evaluations + 1_i8
-      call find_reactions(system, rest, unbalanced)
+      call find_reactions(system%linkage, system%loading%g, rest, unbalanced)
       balance%load = unbalanced_load(system)
    end subroutine evaluate_balance
 
@@ -121,7 +122,7 @@ contains
       real(wp) :: above(size(q)), q_near(size(q)), scale(size(q))
       integer :: info, k, n, rank
 
-      call scaled_jacobian(system, jac)
+      call scaled_jacobian(system%linkage, jac)
       call split_space(jac, rank, left, balance%free)
       n = size(balance%free, 2)
       scale = position_scale(system)
@@ -158,7 +159,7 @@ contains
       n = size(square)
       square = 0.0_wp
       if (n == 0) return
-      mass = position_scale(system)**2*reshape(system%mass, [3*system%n_body])
+      mass = position_scale(system)**2*reshape(system%linkage%mass, [3*system%linkage%bodies%n])
       allocate (k_free(n, n), work(64*n), source=0.0_wp)
       do k = 1, n
          k_free(k, k) = balance%stiffness(k)

@@ -62,7 +62,7 @@ contains
       class(planar_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: q(:)                  !! (3 bodies) positions [m, m, rad]
 
-      extent = sizes + max(maxval(q(1::3)) - minval(q(1::3)), maxval(q(2::3)) - minval(q(2::3)))/system%length_scale
+      extent = sizes + max(maxval(q(1::3)) - minval(q(1::3)), maxval(q(2::3)) - minval(q(2::3)))/system%linkage%scales%length
    end function extent_of
 
    !> The step, along each mode and in all not longer than allowed.
@@ -115,7 +115,7 @@ contains
       part = 1.0_wp
       do k = 1, n_search
          q_new = q + part*direction*position_scale(system)
-         call solve_positions(system, 0.0_wp, newton, q_new, outcome)
+         call solve_positions(system%linkage, 0.0_wp, newton, q_new, outcome)
          if (outcome == open_rows .or. outcome == not_finite_rows) then
             high = part
             push_high = -push_0

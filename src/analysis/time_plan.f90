@@ -160,7 +160,7 @@ contains
       real(wp) :: t                                 !! the time [s]
 
       t = period%number*real(k, wp)
-      if (slot > 0 .and. k > 0) t = system%joints(slot)%set%time_of_turns(item, t)
+      if (slot > 0 .and. k > 0) t = system%linkage%joints(slot)%set%time_of_turns(item, t)
    end function period_start
 
    !> Output instant number k, from 0; the last of a grid that fits the motion is its end.
@@ -194,7 +194,7 @@ contains
       call find_driver(value, key, system, slot, item, diagnostics)
       t = merge(value%number, 0.0_wp, diagnostics%count() == before)
       if (slot == 0) return
-      associate (set => system%joints(slot)%set)
+      associate (set => system%linkage%joints(slot)%set)
          if (t_end >= 0.0_wp) then
             t = t_end - set%time_before(item, value%number, t_end)
             if (t > t_end) t = -1.0_wp
@@ -230,8 +230,8 @@ contains
       item = 0
       if (.not. allocated(value%text)) return
       if (value%text == "") return
-      do k = 1, size(system%joints)
-         associate (set => system%joints(k)%set)
+      do k = 1, size(system%linkage%joints)
+         associate (set => system%linkage%joints(k)%set)
             if (.not. set%is_driver) cycle
             do i = 1, set%n
                call drivers%add(set%names(i)%s)

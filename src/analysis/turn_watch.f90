@@ -40,7 +40,7 @@ contains
          contact%course = merge(parts, approaches, contact%course == approaches)
          call system%turns(t, y, rate, acceleration)
          if (contact%course*acceleration(number) >= 0.0_wp) return
-         call system%clearances(slot)%set%gaps(system%motion, delta, rate)
+         call system%clearances(slot)%set%gaps(system%linkage%motion, delta, rate)
          contact%course = rests
          contact%rest_speed = speed_of_rest(system, slot, k, delta(number))
       end associate

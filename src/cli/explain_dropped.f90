@@ -23,7 +23,7 @@ contains
 
       call say("")
       call say("dropped")
-      if (.not. norm2(system%gravity) > 0.0_wp) call say("gravity: zero", 2)
+      if (.not. norm2(system%loading%gravity) > 0.0_wp) call say("gravity: zero", 2)
       call find_used(scene, "friction.", is_used)
       do k = 1, size(scene%frictions)
          if (.not. scene%frictions(k)%law%is_active()) then
@@ -41,7 +41,7 @@ contains
          if (.not. is_used(k)) call say("material '"//scene%materials(k)%name%s//"': used by no joint", 2)
       end do
       if (.not. system%with_ledger) call say("energy ledger: off", 2)
-      if (scene%analysis == analysis_kinematic .and. size(system%ideal) > 0) then
+      if (scene%analysis == analysis_kinematic .and. size(system%linkage%ideal) > 0) then
          call say("clearances: joints are ideal in a kinematic analysis", 2)
       end if
    end subroutine say_dropped

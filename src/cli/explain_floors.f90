@@ -18,24 +18,26 @@ contains
       real(wp), intent(in) :: end                     !! end of the run [s]
 
       type(floor_t), allocatable :: list(:)
+      real(wp) :: own_speed
       integer :: k
 
       call system%begin_pace(0.0_wp, y, end)
       call say("")
       call say("what counts as nothing")
-      call say("the pace of the mechanism at the start is "//real_text(system%pace, 3)//"/s, its size "// &
-               real_text(1.0e3_wp*system%length_scale, 3)//" mm; the pace follows its greatest rate", 2)
+      call say("the pace of the mechanism at the start is "//real_text(system%linkage%scales%pace, 3)//"/s, its size "// &
+               real_text(1.0e3_wp*system%linkage%scales%length, 3)//" mm; the pace follows its greatest rate", 2)
       list = all_floors()
+      own_speed = system%linkage%scales%pace*system%linkage%scales%length
       do k = 1, size(list)
          select case (list(k)%of)
          case (of_speed)
-            call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*system%pace*system%length_scale, 3)//" m/s ("// &
+            call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*own_speed, 3)//" m/s ("// &
                      real_text(list(k)%part, 3)//" "//measure(list(k)%of)//")", 2)
          case (of_pace)
-            call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*system%pace, 3)//"/s ("// &
+            call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*system%linkage%scales%pace, 3)//"/s ("// &
                      real_text(list(k)%part, 3)//" "//measure(list(k)%of)//")", 2)
          case (of_run)
-            call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*system%length_scale/end, 3)//" m/s ("// &
+            call say(trim(list(k)%meaning)//": "//real_text(list(k)%part*system%linkage%scales%length/end, 3)//" m/s ("// &
                      real_text(list(k)%part, 3)//" "//measure(list(k)%of)//")", 2)
          case default
             call say(trim(list(k)%meaning)//": "//real_text(list(k)%part, 3)//" "//measure(list(k)%of), 2)

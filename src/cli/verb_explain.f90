@@ -45,8 +45,8 @@ contains
       if (.not. allocated(error)) call check_swept_words(options, loaded, error)
       if (.not. allocated(error)) call find_begin(loaded, y, assembly, error)
       if (allocated(error)) return
-      call say(loaded%path//": no mistakes; "//counted(loaded%system%n_body, "body", "bodies")//", "// &
-               counted(loaded%system%rows%n, "constraint row", "constraint rows")//", "// &
+      call say(loaded%path//": no mistakes; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
+               counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
                counted(loaded%system%n_loose, "loose joint", "loose joints")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded))
    end subroutine check_deck
@@ -169,17 +169,19 @@ contains
 
       call say("")
       call say("model")
-      call say(counted(system%n_body, "planar body", "planar bodies")//", "//to_text(3*system%n_body)//" coordinates", 2)
-      do k = 1, system%known%n
-         call say("'"//system%bodies%names(system%known%item(k)%body)%s//"' moves as a known function of time", 2)
-      end do
-      do k = 1, system%guided%n
-         call say("'"//system%bodies%names(system%guided%item(k)%body)%s//"' keeps one coordinate, that of '"// &
-                  system%row_name(system%guided%item(k)%row(1))//"'", 2)
-      end do
-      if (system%rows%n > system%rows%n_solve) then
+      associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
+         call say(counted(n, "planar body", "planar bodies")//", "//to_text(3*n)//" coordinates", 2)
+         do k = 1, linkage%reduced%known%n
+            call say("'"//names(linkage%reduced%known%item(k)%body)%s//"' moves as a known function of time", 2)
+         end do
+         do k = 1, linkage%reduced%guided%n
+            call say("'"//names(linkage%reduced%guided%item(k)%body)%s//"' keeps one coordinate, that of '"// &
+                     linkage%row_name(linkage%reduced%guided%item(k)%row(1))//"'", 2)
+         end do
+      end associate
+      if (system%linkage%rows%n > system%linkage%rows%n_solve) then
          call say(counted(system%n_position, "coordinate", "coordinates")//" unknown, "// &
-                  counted(system%rows%n_solve, "row", "rows")//" solved", 2)
+                  counted(system%linkage%rows%n_solve, "row", "rows")//" solved", 2)
       end if
       do k = 1, size(scene%joints)
          call count_kind(scene%joints(k)%info, scene%joints(k)%items)
@@ -190,15 +192,15 @@ contains
       do k = 1, size(scene%functions)
          call count_kind(scene%functions(k)%info, scene%functions(k)%items)
       end do
-      if (size(system%ideal) > 0) then
-         call say(counted(system%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
-                  to_text(system%ideal(1)%set%n_row_item*system%ideal(1)%set%n)//" rows", 2)
+      if (size(system%linkage%ideal) > 0) then
+         call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
+                  to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
-      call say(counted(system%rows%n, "constraint row", "constraint rows")//": coordinates less rows "// &
-               to_text(3*system%n_body - system%rows%n)//"; with all joints ideal "// &
-               to_text(3*twin%n_body - twin%rows%n), 2)
-      if (norm2(system%gravity) > 0.0_wp) then
-         call say("gravity "//to_text(system%gravity(1))//" "//to_text(system%gravity(2))//" m/s^2", 2)
+      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": coordinates less rows "// &
+               to_text(3*system%linkage%bodies%n - system%linkage%rows%n)//"; with all joints ideal "// &
+               to_text(3*twin%linkage%bodies%n - twin%linkage%rows%n), 2)
+      if (norm2(system%loading%gravity) > 0.0_wp) then
+         call say("gravity "//to_text(system%loading%gravity(1))//" "//to_text(system%loading%gravity(2))//" m/s^2", 2)
       end if
    end subroutine explain_size
 
@@ -215,14 +217,14 @@ contains
                   ": the error below says why", 2)
          return
       end if
-      call say(counted(3*loaded%system%n_body - loaded%system%rows%n + size(assembly%dependent), &
+      call say(counted(3*loaded%system%linkage%bodies%n - loaded%system%linkage%rows%n + size(assembly%dependent), &
                        "degree of freedom", "degrees of freedom"), 2)
       if (loaded%scene%analysis == analysis_kinematic) then
-         call find_mobility(loaded%system, mobility)
+         call find_mobility(loaded%system%linkage, mobility)
          call say(counted(mobility%n_freedom, "degree of freedom", "degrees of freedom")//" without drivers, "// &
                   counted(mobility%n_driver, "driver", "drivers"), 2)
       end if
-      if (loaded%system%is_redundant) then
+      if (loaded%system%linkage%solution%is_redundant) then
          call say(redundancy_text(loaded%system, assembly), 2)
       else
          call say("no redundant rows", 2)
@@ -313,7 +315,7 @@ contains
       integer, intent(in) :: contact                !! contact of the set
       real(wp), intent(in) :: speed                 !! impact speed [m/s]
 
-      contact_time = set%contact_time(contact, speed, system%inverse_mass(1, :))
+      contact_time = set%contact_time(contact, speed, system%linkage%inverse_mass(1, :))
    end function contact_time
 
    !> Impact speed up to which contact is quasi-static.
@@ -345,7 +347,9 @@ contains
       end select
       associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
          solver = values(column_of(kind, "solver"))%text
-         if (solver == "auto") solver = loaded%system%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
+         if (solver == "auto") then
+            solver = loaded%system%linkage%solution%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
+         end if
          fixed = "variable steps"
          if (values(column_of(kind, "step"))%number > 0.0_wp) then
             fixed = "fixed steps of "//to_text(values(column_of(kind, "step"))%number)//" s: the tolerance is not used"
@@ -379,7 +383,7 @@ contains
       type(planar_system_t), intent(in) :: system   !! the system
       character(:), allocatable :: words            !! the reason
 
-      select case (system%solver%name())
+      select case (system%linkage%solution%solver%name())
       case ("schur")
          words = "equal to pivoting to round-off, and the fastest for these rows"
       case ("sparse")

@@ -205,7 +205,7 @@ contains
       real(wp), allocatable :: y(:)
 
       call new_system(loaded%scene, levels_ideal, system)
-      if (size(system%ideal) == 0) return  ! no joint is another without clearance
+      if (size(system%linkage%ideal) == 0) return  ! no joint is another without clearance
       call find_start(loaded%scene, system, y, assembly, error)
       if (allocated(error)) return
       call new_method(loaded%scene, method)
@@ -246,7 +246,7 @@ contains
                           loaded%scene%bodies%names(assembly%changed_body)%s// &
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
-      if (loaded%system%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
+      if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
       plan%with_contact_rows = has_contact_rows(loaded%scene, loaded%system)
       plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
       plan%with_histories = options%write /= "numbers"

@@ -35,6 +35,7 @@ module augmented
       procedure(prepare_interface), deferred :: prepare
       procedure(solve_interface), deferred :: solve
       procedure(solve_damped_interface), deferred :: solve_damped
+      procedure :: set_penalty => augmented_set_penalty
    end type augmented_t
 
    !> A way that has factors: a damped solution is refined with them.
@@ -66,41 +67,41 @@ module augmented
       subroutine solve_interface(self, inverse_mass, rows, g, b, a, lambda, bad_row)
          import :: augmented_t, rows_t, wp
          implicit none (type, external)
-         class(augmented_t), intent(inout) :: self   !! the solver
+         class(augmented_t), intent(inout) :: self                !! the solver
          real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-         type(rows_t), intent(in) :: rows            !! rows, of which the Jacobian is read
+         type(rows_t), intent(in) :: rows                         !! rows, of which the Jacobian is read
          real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
          real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
          real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
          real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
-         integer, intent(out) :: bad_row             !! row that depends on others, or nearly so, 0: none
+         integer, intent(out) :: bad_row                          !! row that depends on others, or nearly so, 0: none
       end subroutine solve_interface
 
       !> Accelerations and multipliers where rows may depend on one another. No allocation.
       subroutine solve_damped_interface(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)
          import :: augmented_t, rows_t, wp
          implicit none (type, external)
-         class(augmented_t), intent(inout) :: self   !! the solver
+         class(augmented_t), intent(inout) :: self                !! the solver
          real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-         type(rows_t), intent(in) :: rows            !! rows
+         type(rows_t), intent(in) :: rows                         !! rows
          real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
          real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
-         real(wp), intent(in) :: damping             !! of S, relative to its diagonal [1]
-         integer, intent(in) :: n_refinement         !! refinements after the first solution, at most
+         real(wp), intent(in) :: damping                          !! of S, relative to its diagonal [1]
+         integer, intent(in) :: n_refinement                      !! refinements after the first solution, at most
          real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
          real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
-         integer, intent(out) :: bad_row             !! row at which there is no solution, 0: none
+         integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
       end subroutine solve_damped_interface
 
       !> Factors of S + damping D, in whatever form. No allocation.
       subroutine factorise_interface(self, inverse_mass, rows, damping, bad_row)
          import :: direct_t, rows_t, wp
          implicit none (type, external)
-         class(direct_t), intent(inout) :: self   !! the solver
+         class(direct_t), intent(inout) :: self                   !! the solver
          real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-         type(rows_t), intent(in) :: rows            !! rows, of which the Jacobian is read
-         real(wp), intent(in) :: damping             !! added to the diagonal, of its entries [1]
-         integer, intent(out) :: bad_row             !! row at which there are no factors all the same, 0: none
+         type(rows_t), intent(in) :: rows                         !! rows, of which the Jacobian is read
+         real(wp), intent(in) :: damping                          !! added to the diagonal, of its entries [1]
+         integer, intent(out) :: bad_row                          !! row at which there are no factors all the same, 0: none
       end subroutine factorise_interface
 
       !> Solution of (S + damping D) x = r with these factors. No allocation.
@@ -114,18 +115,24 @@ module augmented
 
 contains
 
+   !> Take the penalty of a way that works with penalties: nothing to take, unless the way says otherwise.
+   subroutine augmented_set_penalty(self, penalty)
+      class(augmented_t), intent(inout) :: self   !! the solver
+      real(wp), intent(in) :: penalty             !! of a violated row, of its inverse effective mass [1]
+   end subroutine augmented_set_penalty
+
    !> Accelerations and multipliers where rows may depend on one another.
    subroutine direct_solve_damped(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)
-      class(direct_t), intent(inout) :: self      !! the solver
+      class(direct_t), intent(inout) :: self                   !! the solver
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-      type(rows_t), intent(in) :: rows            !! rows
+      type(rows_t), intent(in) :: rows                         !! rows
       real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
-      real(wp), intent(in) :: damping             !! of S, relative to its diagonal [1]
-      integer, intent(in) :: n_refinement         !! refinements after the first solution, at most
+      real(wp), intent(in) :: damping                          !! of S, relative to its diagonal [1]
+      integer, intent(in) :: n_refinement                      !! refinements after the first solution, at most
       real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
-      integer, intent(out) :: bad_row             !! row at which there is no solution, 0: none
+      integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
       real(wp) :: before, greatest, now
       integer :: k, n

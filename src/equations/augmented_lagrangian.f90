@@ -42,11 +42,20 @@ module augmented_lagrangian
    contains
       procedure, nopass :: name => lagrangian_name
       procedure :: prepare => lagrangian_prepare
+      procedure :: set_penalty => lagrangian_set_penalty
       procedure :: solve => lagrangian_solve
       procedure :: solve_damped => lagrangian_solve_damped
    end type augmented_lagrangian_t
 
 contains
+
+   !> Take a penalty.
+   subroutine lagrangian_set_penalty(self, penalty)
+      class(augmented_lagrangian_t), intent(inout) :: self   !! the solver
+      real(wp), intent(in) :: penalty                        !! of a violated row, of its inverse effective mass [1]
+
+      self%penalty = penalty
+   end subroutine lagrangian_set_penalty
 
    !> The word for it in a deck.
    function lagrangian_name() result(name)

@@ -57,16 +57,16 @@ contains
             if (any(is_twin)) then
                chosen = pack([(i, i=1, size(items))], is_twin)
                n_ideal = n_ideal + 1
-               call add_ideal_set(scene, k, scene%clearances(k)%items(chosen), angle, twins(n_ideal), system%rows%n)
+               call add_ideal_set(scene, k, scene%clearances(k)%items(chosen), angle, twins(n_ideal), system%linkage%rows%n)
             end if
          end associate
       end do
-      allocate (system%clearances(n), system%ideal(n_ideal))
+      allocate (system%clearances(n), system%linkage%ideal(n_ideal))
       do k = 1, n
          call move_alloc(slots(k)%set, system%clearances(k)%set)
       end do
       do k = 1, n_ideal
-         call move_alloc(twins(k)%set, system%ideal(k)%set)
+         call move_alloc(twins(k)%set, system%linkage%ideal(k)%set)
       end do
    end subroutine add_clearances
 

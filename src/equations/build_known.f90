@@ -10,7 +10,7 @@ module build_known
    use joint_set, only: joint_set_t
    use joint_translational, only: joint_translational_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
    implicit none (type, external)
@@ -86,21 +86,21 @@ contains
    end subroutine choose_bodies
 
    !> How the known bodies are moved, and which rows fix them.
-   subroutine set_known(scene, links, choices, system)
+   subroutine set_known(scene, links, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(link_t), intent(in) :: links(:)                    !! (known bodies) how they are fixed
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      type(planar_system_t), intent(inout) :: system          !! known bodies are set; joints are there
+      type(linkage_t), intent(inout) :: linkage               !! known bodies are set; joints are there
 
       real(wp) :: angle(0:scene%bodies%n)
       integer :: body(2), item, k, n, point(2), side, slot
 
       n = size(links)
       angle = start_angles(scene)
-      system%known%n = n
-      allocate (system%known%item(n))
+      linkage%reduced%known%n = n
+      allocate (linkage%reduced%known%item(n))
       do k = 1, n
-         associate (link => links(k), known => system%known%item(k))
+         associate (link => links(k), known => linkage%reduced%known%item(k))
             call joint_points(scene, link%kind, link%item, point(1), point(2))
             body = scene%points%body(point)
             side = merge(1, 2, body(1) == link%body)
@@ -109,41 +109,41 @@ contains
             known%s_body = scene%points%s(1:2, point(side))
             known%s_base = scene%points%s(1:2, point(3 - side))
             known%side = side
-            call find_fixing(scene, choices, system, link%kind, link%item, slot, item)
-            call take_rows(system%joints(slot)%set, item, known%row)
+            call find_fixing(scene, choices, linkage, link%kind, link%item, slot, item)
+            call take_rows(linkage%joints(slot)%set, item, known%row)
             if (link%driver == 0) then
                known%offset = angle(known%body) - angle(known%base)
             else
-               call find_fixing(scene, choices, system, link%driver, link%driving, known%slot, known%item)
-               call take_rows(system%joints(known%slot)%set, known%item, known%row(3:3))
+               call find_fixing(scene, choices, linkage, link%driver, link%driving, known%slot, known%item)
+               call take_rows(linkage%joints(known%slot)%set, known%item, known%row(3:3))
                known%sign = merge(1.0_wp, -1.0_wp, side == 2)
             end if
          end associate
       end do
-      allocate (system%is_known(system%n_body), source=.false.)
-      system%is_known(system%known%item%body) = .true.
-      do k = 1, system%n_body
-         if (.not. system%is_known(k)) system%inverse_mass(:, k) = 1.0_wp/system%mass(:, k)
+      allocate (linkage%reduced%is_known(linkage%bodies%n), source=.false.)
+      linkage%reduced%is_known(linkage%reduced%known%item%body) = .true.
+      do k = 1, linkage%bodies%n
+         if (.not. linkage%reduced%is_known(k)) linkage%inverse_mass(:, k) = 1.0_wp/linkage%mass(:, k)
       end do
    end subroutine set_known
 
    !> How the guided bodies move, and which rows hold them.
-   subroutine set_guided(scene, guides, choices, system)
+   subroutine set_guided(scene, guides, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(guide_t), intent(in) :: guides(:)                  !! (guided bodies) how they are held
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      type(planar_system_t), intent(inout) :: system          !! guided bodies are set; joints and known bodies are there
+      type(linkage_t), intent(inout) :: linkage               !! guided bodies are set; joints and known bodies are there
 
       real(wp) :: angle(0:scene%bodies%n)
       integer :: body(2), item, k, n, point(2), slot
 
       n = size(guides)
       angle = start_angles(scene)
-      system%guided%n = n
-      system%guided%n_turning = count([(scene%joints(guides(k)%kind)%info%name /= kind_sliding, k=1, n)])
-      allocate (system%guided%item(n))
+      linkage%reduced%guided%n = n
+      linkage%reduced%guided%n_turning = count([(scene%joints(guides(k)%kind)%info%name /= kind_sliding, k=1, n)])
+      allocate (linkage%reduced%guided%item(n))
       do k = 1, n
-         associate (guide => guides(k), guided => system%guided%item(k))
+         associate (guide => guides(k), guided => linkage%reduced%guided%item(k))
             call joint_points(scene, guide%kind, guide%item, point(1), point(2))
             body = scene%points%body(point)
             guided%side = merge(1, 2, body(1) == guide%body)
@@ -152,8 +152,8 @@ contains
             guided%base = scene%points%body(point(1))
             guided%mass = scene%bodies%mass(guided%body)
             guided%s_base = scene%points%s(1:2, point(1))
-            call find_fixing(scene, choices, system, guide%kind, guide%item, slot, item)
-            associate (set => system%joints(slot)%set, s_body => scene%points%s(1:2, point(2)))
+            call find_fixing(scene, choices, linkage, guide%kind, guide%item, slot, item)
+            associate (set => linkage%joints(slot)%set, s_body => scene%points%s(1:2, point(2)))
                call take_rows(set, item, guided%row)
                select type (set)
                class is (joint_translational_t)
@@ -173,15 +173,15 @@ contains
    end subroutine set_guided
 
    !> What acts on known bodies besides the rows that fix them, and the bodies that move with them.
-   subroutine list_carried(system)
-      type(planar_system_t), intent(inout) :: system   !! the system, sides of rows listed
+   subroutine list_carried(linkage)
+      type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows, sides listed
 
       integer :: i, k, n, place, row
 
-      associate (guided => system%guided%item, rows => system%rows)
-         system%driven = [system%known%item%body, pack(guided%body, guided%base > 0)]
-         allocate (system%carried(3, rows%n_known + 2*count(guided%base > 0)), source=0)
-         system%carried(:, :rows%n_known) = rows%known
+      associate (guided => linkage%reduced%guided%item, rows => linkage%rows)
+         linkage%reduced%driven = [linkage%reduced%known%item%body, pack(guided%body, guided%base > 0)]
+         allocate (linkage%reduced%carried(3, rows%n_known + 2*count(guided%base > 0)), source=0)
+         linkage%reduced%carried(:, :rows%n_known) = rows%known
          n = rows%n_known
          do k = 1, size(guided)
             if (guided(k)%base == 0) cycle
@@ -189,7 +189,7 @@ contains
                row = guided(k)%row(i)
                place = 6*(row - 1) + 3*(2 - guided(k)%side)
                n = n + 1
-               system%carried(:, n) = [row, place, guided(k)%base]
+               linkage%reduced%carried(:, n) = [row, place, guided(k)%base]
             end do
          end do
       end associate
@@ -216,18 +216,18 @@ contains
    end subroutine take_rows
 
    !> Set and item of a row of a joint table that leaves the equations.
-   subroutine find_fixing(scene, choices, system, kind, row, slot, item)
+   subroutine find_fixing(scene, choices, linkage, kind, row, slot, item)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
-      type(planar_system_t), intent(in) :: system             !! its joints
+      type(linkage_t), intent(in) :: linkage                  !! its joints
       integer, intent(in) :: kind                             !! number of the kind
       integer, intent(in) :: row                              !! row of its table
       integer, intent(out) :: slot                            !! the set
       integer, intent(out) :: item                            !! its item
 
       item = count(choices(kind)%is_fixing(:row))
-      do slot = 1, size(system%joints)
-         associate (set => system%joints(slot)%set)
+      do slot = 1, size(linkage%joints)
+         associate (set => linkage%joints(slot)%set)
             if (set%is_solved) cycle
             if (set%names(min(item, set%n))%s == scene%joints(kind)%items(row)%name) return
          end associate

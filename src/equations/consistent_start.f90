@@ -14,13 +14,13 @@ module consistent_start
    use kinds, only: wp
    use lapack, only: dgelsd, dgeqp3, dtrtrs
    use motion, only: set_planar_motion
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    use sparse_start, only: new_sparse_start, sparse_start_t
    use text, only: real_text, to_text
    implicit none (type, external)
    private
    public :: assemble, assembly_t, find_dependent
-   public :: evaluate_rows, least_correction, limit_step, rank_tolerance, rates, row_scale, scaled_jacobian, worst_violation
+   public :: evaluate_rows, least_correction, limit_step, rank_tolerance, rates, scaled_jacobian, worst_violation
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
    real(wp), parameter :: share = 1.0e-6_wp             !! least part of a scaled row in a combination that vanishes [1]
@@ -46,8 +46,8 @@ module consistent_start
 contains
 
    !> Make positions and velocities consistent with the constraints at t = 0.
-   subroutine assemble(system, q, v, report, error, is_sparse)
-      class(planar_system_t), intent(inout) :: system    !! all joints ideal
+   subroutine assemble(linkage, q, v, report, error, is_sparse)
+      type(linkage_t), intent(inout) :: linkage          !! all joints ideal
       real(wp), intent(inout) :: q(:)                    !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(inout) :: v(:)                    !! (3 bodies) their rates [m/s, m/s, rad/s]
       type(assembly_t), intent(out) :: report            !! how it went
@@ -62,47 +62,47 @@ contains
 
       n = size(q)
       allocate (report%dependent(0), report%shared(0))
-      if (system%rows%n == 0) return
-      allocate (correction(n), right(system%rows%n))
+      if (linkage%rows%n == 0) return
+      allocate (correction(n), right(linkage%rows%n))
       allocate (ease(n), source=1.0_wp)
-      with_sparse = wants_sparse(system, is_sparse)
-      if (with_sparse) call new_sparse_start(system%n_body, system%rows, sparse)
+      with_sparse = wants_sparse(linkage, is_sparse)
+      if (with_sparse) call new_sparse_start(linkage%bodies%n, linkage%rows, sparse)
       q_given = q
       before = huge(1.0_wp)
       do k = 1, n_newton
-         call evaluate_rows(system, 0.0_wp, q, v)
-         call check_finite(system, system%rows%phi, error)
+         call evaluate_rows(linkage, 0.0_wp, q, v)
+         call check_finite(linkage, linkage%rows%phi, error)
          if (allocated(error)) return
-         now = worst_violation(system)
+         now = worst_violation(linkage)
          if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
          before = now
-         call correct(-system%rows%phi)
+         call correct(-linkage%rows%phi)
          q = q + limit_step(correction)
          report%corrections = k
       end do
-      call evaluate_rows(system, 0.0_wp, q, v)
-      report%residual = maxval(abs(system%rows%phi))
-      report%moved = maxval(abs(q - q_given)*coordinate_scale(system, n))
-      if (.not. worst_violation(system) <= closed) then
-         call position_error(system, error)
+      call evaluate_rows(linkage, 0.0_wp, q, v)
+      report%residual = maxval(abs(linkage%rows%phi))
+      report%moved = maxval(abs(q - q_given)*coordinate_scale(linkage, n))
+      if (.not. worst_violation(linkage) <= closed) then
+         call position_error(linkage, error)
          return
       end if
-      call check_finite(system, system%rows%phi_t, error)
+      call check_finite(linkage, linkage%rows%phi_t, error)
       if (allocated(error)) return
-      ease = merge(1.0_wp, give_way, reshape(system%bodies%is_rate_given, [n]))
+      ease = merge(1.0_wp, give_way, reshape(linkage%bodies%is_rate_given, [n]))
       v_given = v
       do k = 1, merge(1, 2, with_sparse)  ! the second takes away the round-off of the first, as refinement does
-         call rates(system, v, right)
+         call rates(linkage, v, right)
          call correct(-right)
          v = v + correction
       end do
-      correction = merge(abs(v - v_given)*coordinate_scale(system, n), 0.0_wp, ease <= 1.0_wp)
+      correction = merge(abs(v - v_given)*coordinate_scale(linkage, n), 0.0_wp, ease <= 1.0_wp)
       report%rate_changed = maxval(correction)
       report%changed_body = (maxloc(correction, dim=1) + 2)/3
-      call rates(system, v, right)
-      if (maxval(abs(right)*row_scale(system)) > agreed*(maxval(abs(v)*coordinate_scale(system, n)) &
-                                                          + maxval(abs(system%rows%phi_t)*row_scale(system)))) then
-         call velocity_error(system, right, error)
+      call rates(linkage, v, right)
+      if (maxval(abs(right)*linkage%solution%row_weight) > agreed*(maxval(abs(v)*coordinate_scale(linkage, n)) &
+                                                          + maxval(abs(linkage%rows%phi_t)*linkage%solution%row_weight))) then
+         call velocity_error(linkage, right, error)
       end if
 
    contains
@@ -112,121 +112,113 @@ contains
          real(wp), intent(in) :: change(:)  !! (rows) what the rows should change by [m or rad, or rates]
 
          if (with_sparse) then
-            call sparse%correct(system%rows%jac, weights(system, ease), change, correction, report%rank)
+            call sparse%correct(linkage%rows%jac, weights(linkage, ease), change, correction, report%rank)
          else
-            call least_correction(system, change, ease, correction, report%rank)
+            call least_correction(linkage, change, ease, correction, report%rank)
          end if
       end subroutine correct
 
    end subroutine assemble
 
    !> Whether matrices are sparse.
-   pure logical function wants_sparse(system, is_sparse)
-      class(planar_system_t), intent(in) :: system  !! the system
+   pure logical function wants_sparse(linkage, is_sparse)
+      type(linkage_t), intent(in) :: linkage  !! the bodies and their rows
       logical, intent(in), optional :: is_sparse    !! what the caller wants; absent: sparse where there are many rows
 
-      wants_sparse = system%rows%n > few_rows
+      wants_sparse = linkage%rows%n > few_rows
       if (present(is_sparse)) wants_sparse = is_sparse
    end function wants_sparse
 
    !> Squares of how much each coordinate may change, for lengths in sizes of the bodies; nothing for the ground.
-   pure function weights(system, ease) result(weight)
-      class(planar_system_t), intent(in) :: system  !! the system
+   pure function weights(linkage, ease) result(weight)
+      type(linkage_t), intent(in) :: linkage  !! the bodies and their rows
       real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each coordinate changes [1]
-      real(wp) :: weight(3, 0:system%n_body)        !! (3, 0:bodies) weights [m^2, m^2, 1]
+      real(wp) :: weight(3, 0:linkage%bodies%n)        !! (3, 0:bodies) weights [m^2, m^2, 1]
 
       weight(:, 0) = 0.0_wp
-      weight(:, 1:) = reshape(ease**2, [3, system%n_body])
-      weight(1:2, :) = weight(1:2, :)*system%length_scale**2
+      weight(:, 1:) = reshape(ease**2, [3, linkage%bodies%n])
+      weight(1:2, :) = weight(1:2, :)*linkage%scales%length**2
    end function weights
 
    !> Rows at a state, without accelerations.
-   subroutine evaluate_rows(system, t, q, v)
-      class(planar_system_t), intent(inout) :: system  !! the system
+   subroutine evaluate_rows(linkage, t, q, v)
+      type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
 
       integer :: k
 
-      call set_planar_motion(system%n_body, q, v, system%motion)
-      system%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
-      do k = 1, size(system%joints)
-         call system%joints(k)%set%evaluate(system%piece%inside(t), system%motion, system%rows)
+      call set_planar_motion(linkage%bodies%n, q, v, linkage%motion)
+      linkage%reduced%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
+      do k = 1, size(linkage%joints)
+         call linkage%joints(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
       end do
-      do k = 1, size(system%ideal)
-         call system%ideal(k)%set%evaluate(system%piece%inside(t), system%motion, system%rows)
+      do k = 1, size(linkage%ideal)
+         call linkage%ideal(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
       end do
    end subroutine evaluate_rows
 
    !> Rates of the violations, Phi_q v + Phi_t.
-   subroutine rates(system, v, right)
-      class(planar_system_t), intent(in) :: system  !! the system, rows evaluated
+   subroutine rates(linkage, v, right)
+      type(linkage_t), intent(in) :: linkage        !! the bodies and their rows, rows evaluated
       real(wp), intent(in) :: v(:)                  !! (3 bodies) rates of the coordinates [m/s, m/s, rad/s]
       real(wp), intent(out) :: right(:)             !! (rows) rates of the violations [m/s or rad/s]
 
       integer :: body, row, side
 
-      do row = 1, system%rows%n
-         right(row) = system%rows%phi_t(row)
+      do row = 1, linkage%rows%n
+         right(row) = linkage%rows%phi_t(row)
          do side = 1, 2
-            body = system%rows%body(side, row)
+            body = linkage%rows%body(side, row)
             if (body == 0) cycle
-            right(row) = right(row) + dot_product(system%rows%jac(3*side - 2:3*side, row), v(3*body - 2:3*body))
+            right(row) = right(row) + dot_product(linkage%rows%jac(3*side - 2:3*side, row), v(3*body - 2:3*body))
          end do
       end do
    end subroutine rates
 
-   !> One over the size of the bodies for rows that are lengths, one for angles.
-   function row_scale(system) result(scale)
-      class(planar_system_t), intent(in) :: system  !! the system
-      real(wp) :: scale(system%rows%n)              !! (rows) scales [1/m or 1/rad]
-
-      scale = merge(1.0_wp, 1.0_wp/system%length_scale, system%rows%is_angle)
-   end function row_scale
-
    !> One for lengths, the size of the bodies for angles.
-   function coordinate_scale(system, n) result(scale)
-      class(planar_system_t), intent(in) :: system  !! the system
+   function coordinate_scale(linkage, n) result(scale)
+      type(linkage_t), intent(in) :: linkage        !! the bodies and their rows
       integer, intent(in) :: n                      !! number of coordinates
       real(wp) :: scale(n)                          !! (n) scales [1 or m]
 
       scale = 1.0_wp
-      scale(3:n:3) = system%length_scale
+      scale(3:n:3) = linkage%scales%length
    end function coordinate_scale
 
    !> Greatest scaled violation.
-   real(wp) function worst_violation(system) result(worst)
-      class(planar_system_t), intent(in) :: system  !! the system, rows evaluated
+   real(wp) function worst_violation(linkage) result(worst)
+      type(linkage_t), intent(in) :: linkage  !! the bodies and their rows, rows evaluated
 
-      worst = maxval(abs(system%rows%phi)*row_scale(system))
+      worst = maxval(abs(linkage%rows%phi)*linkage%solution%row_weight)
    end function worst_violation
 
    !> The scaled Jacobian: rows in sizes or radians, columns per size or radian.
-   subroutine scaled_jacobian(system, jac)
-      class(planar_system_t), intent(in) :: system             !! the system, rows evaluated
-      real(wp), allocatable, intent(out) :: jac(:, :)          !! (rows, 3 bodies) scaled Jacobian [1]
+   subroutine scaled_jacobian(linkage, jac)
+      type(linkage_t), intent(in) :: linkage           !! the system, rows evaluated
+      real(wp), allocatable, intent(out) :: jac(:, :)  !! (rows, 3 bodies) scaled Jacobian [1]
 
       real(wp) :: column_scale(3)
-      real(wp) :: scale(system%rows%n)
+      real(wp) :: scale(linkage%rows%n)
       integer :: body, row, side
 
-      allocate (jac(system%rows%n, 3*system%n_body), source=0.0_wp)
-      scale = row_scale(system)
-      column_scale = [system%length_scale, system%length_scale, 1.0_wp]
-      do row = 1, system%rows%n
+      allocate (jac(linkage%rows%n, 3*linkage%bodies%n), source=0.0_wp)
+      scale = linkage%solution%row_weight
+      column_scale = [linkage%scales%length, linkage%scales%length, 1.0_wp]
+      do row = 1, linkage%rows%n
          do side = 1, 2
-            body = system%rows%body(side, row)
+            body = linkage%rows%body(side, row)
             if (body == 0) cycle
             jac(row, 3*body - 2:3*body) = jac(row, 3*body - 2:3*body) &
-                                          + system%rows%jac(3*side - 2:3*side, row)*scale(row)*column_scale
+                                          + linkage%rows%jac(3*side - 2:3*side, row)*scale(row)*column_scale
          end do
       end do
    end subroutine scaled_jacobian
 
    !> Least change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
-   subroutine least_correction(system, right, ease, x, rank, tolerance)
-      class(planar_system_t), intent(in) :: system  !! the system, rows evaluated
+   subroutine least_correction(linkage, right, ease, x, rank, tolerance)
+      type(linkage_t), intent(in) :: linkage        !! the bodies and their rows, rows evaluated
       real(wp), intent(in) :: right(:)              !! (rows) what the rows should change by [m or rad, or rates]
       real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each of them changes [1]
       real(wp), intent(out) :: x(:)                 !! (3 bodies) change [m, m, rad, or rates]
@@ -240,23 +232,23 @@ contains
 
       least = rank_tolerance
       if (present(tolerance)) least = tolerance
-      m = system%rows%n
+      m = linkage%rows%n
       n = size(x)
-      call scaled_jacobian(system, jac)
+      call scaled_jacobian(linkage, jac)
       do k = 1, n
          jac(:, k) = jac(:, k)*ease(k)
       end do
       allocate (b(max(m, n), 1), s(min(m, n)), work(1), source=0.0_wp)
       allocate (iwork(max(1, 40*min(m, n))), source=0)
-      b(1:m, 1) = right*row_scale(system)
+      b(1:m, 1) = right*linkage%solution%row_weight
       call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, -1, iwork, info)
       length = int(work(1))
       deallocate (work)
       allocate (work(length), source=0.0_wp)
       call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, size(work), iwork, info)
       x = b(1:n, 1)*ease
-      x(1:n:3) = x(1:n:3)*system%length_scale
-      x(2:n:3) = x(2:n:3)*system%length_scale
+      x(1:n:3) = x(1:n:3)*linkage%scales%length
+      x(2:n:3) = x(2:n:3)*linkage%scales%length
    end subroutine least_correction
 
    !> A correction cut so that no body turns by more than a third of a radian.
@@ -274,8 +266,8 @@ contains
    !> Rows that depend on others at an assembled position, and all rows whose multipliers are therefore not unique: those that
    !> occur in a combination of rows that vanishes, Phi_q^T x = 0. From the factors R = [ R_1, R_2; 0, 0 ] of the rows in the
    !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
-   subroutine find_dependent(system, q, v, report, is_sparse)
-      class(planar_system_t), intent(inout) :: system  !! the system
+   subroutine find_dependent(linkage, q, v, report, is_sparse)
+      type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
       real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
       real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
       type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
@@ -289,16 +281,17 @@ contains
 
       report%dependent = [integer ::]
       report%shared = [integer ::]
-      if (system%rows%n == 0) return
-      call evaluate_rows(system, 0.0_wp, q, v)
-      if (wants_sparse(system, is_sparse)) then
-         call new_sparse_start(system%n_body, system%rows, sparse)
-         call sparse%find_dependent(system%rows%jac, weights(system, spread(1.0_wp, 1, size(q))), row_scale(system), share, &
+      if (linkage%rows%n == 0) return
+      call evaluate_rows(linkage, 0.0_wp, q, v)
+      if (wants_sparse(linkage, is_sparse)) then
+         call new_sparse_start(linkage%bodies%n, linkage%rows, sparse)
+         call sparse%find_dependent(linkage%rows%jac, weights(linkage, spread(1.0_wp, 1, size(q))), &
+                                    linkage%solution%row_weight, share, &
                                     report%dependent, report%shared)
-         report%rank = system%rows%n - size(report%dependent)
+         report%rank = linkage%rows%n - size(report%dependent)
          return
       end if
-      call scaled_jacobian(system, jac)
+      call scaled_jacobian(linkage, jac)
       transposed = transpose(jac)
       n = size(transposed, 1)
       m = size(transposed, 2)
@@ -318,23 +311,23 @@ contains
    end subroutine find_dependent
 
    !> The mechanism does not close: say where and by how much.
-   subroutine position_error(system, error)
-      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+   subroutine position_error(linkage, error)
+      type(linkage_t), intent(in) :: linkage     !! the system, rows evaluated
       type(error_t), allocatable, intent(out) :: error   !! the message
 
       integer :: row
 
-      row = maxloc(abs(system%rows%phi)*row_scale(system), dim=1)
-      call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//system%row_name(row)// &
-                     "' stays open by "//real_text(abs(system%rows%phi(row)), 4)// &
-                     trim(merge(" rad", " m  ", system%rows%is_angle(row)))//new_line("a")// &
+      row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
+      call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
+                     "' stays open by "//real_text(abs(linkage%rows%phi(row)), 4)// &
+                     trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")// &
                      "  = the bodies were moved as little as possible from where the deck puts them, without success"// &
                      new_line("a")//"  = check the points of this joint, the lengths of the loop, and the start positions")
    end subroutine position_error
 
    !> A driver that has no value or no rate at the start.
-   subroutine check_finite(system, values, error)
-      class(planar_system_t), intent(in) :: system       !! the system
+   subroutine check_finite(linkage, values, error)
+      type(linkage_t), intent(in) :: linkage             !! the system
       real(wp), intent(in) :: values(:)                  !! (rows) of the rows [m or rad, or rates]
       type(error_t), allocatable, intent(out) :: error   !! one of them is not finite
 
@@ -342,33 +335,33 @@ contains
 
       row = findloc(ieee_is_finite(values), .false., dim=1)
       if (row == 0) return
-      call set_error(error, exit_assembly, "the start cannot be found: '"//system%row_name(row)// &
+      call set_error(error, exit_assembly, "the start cannot be found: '"//linkage%row_name(row)// &
                      "' or its rate is not a finite number at t = 0"//new_line("a")// &
                      "  = look for a driver that begins with an infinite speed")
    end subroutine check_finite
 
    !> The velocities contradict each other.
-   subroutine velocity_error(system, right, error)
-      class(planar_system_t), intent(in) :: system       !! the system
+   subroutine velocity_error(linkage, right, error)
+      type(linkage_t), intent(in) :: linkage             !! the system
       real(wp), intent(in) :: right(:)                   !! (rows) rates of the violations left [m/s or rad/s]
       type(error_t), allocatable, intent(out) :: error   !! the message
 
       real(wp), parameter :: guilty = 0.1_wp  ! least share of the greatest residual of a row that is named too [1]
       character(:), allocatable :: others
-      real(wp) :: scaled(system%rows%n)
+      real(wp) :: scaled(linkage%rows%n)
       integer :: k, row
 
-      scaled = abs(right)*row_scale(system)
+      scaled = abs(right)*linkage%solution%row_weight
       row = maxloc(scaled, dim=1)
       others = ""
-      do k = 1, system%rows%n
-         if (scaled(k) < guilty*scaled(row) .or. system%row_name(k) == system%row_name(row)) cycle
-         if (index(others//",", " '"//system%row_name(k)//"',") == 0) others = others//", '"//system%row_name(k)//"'"
+      do k = 1, linkage%rows%n
+         if (scaled(k) < guilty*scaled(row) .or. linkage%row_name(k) == linkage%row_name(row)) cycle
+         if (index(others//",", " '"//linkage%row_name(k)//"',") == 0) others = others//", '"//linkage%row_name(k)//"'"
       end do
       if (len(others) > 0) others = new_line("a")//"  = against it stand "//others(3:)
       call set_error(error, exit_assembly, "no velocities fulfil the constraints: joint or driver '"// &
-                     system%row_name(row)//"' is left with "//to_text(abs(right(row)))// &
-                     trim(merge(" rad/s", " m/s  ", system%rows%is_angle(row)))//others//new_line("a")// &
+                     linkage%row_name(row)//"' is left with "//to_text(abs(right(row)))// &
+                     trim(merge(" rad/s", " m/s  ", linkage%rows%is_angle(row)))//others//new_line("a")// &
                      "  = two drivers or initial speeds may contradict each other, or the mechanism is in a dead point that a "// &
                      "driver wants to pass")
    end subroutine velocity_error

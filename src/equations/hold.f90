@@ -6,7 +6,7 @@
 module hold
    use item, only: option_t
    use kinds, only: wp
-   use ode_system, only: ode_system_t
+   use linkage, only: linkage_t
    implicit none (type, external)
    private
    public :: hold_t, option_number
@@ -68,17 +68,17 @@ contains
    end subroutine hold_configure
 
    !> Nothing to change as a step begins, unless the way says otherwise.
-   subroutine hold_begin_step(self, system, h)
+   subroutine hold_begin_step(self, linkage, h)
       class(hold_t), intent(inout) :: self           !! the way
-      class(ode_system_t), intent(inout) :: system   !! the system, last evaluated at the start of the step
+      type(linkage_t), intent(inout) :: linkage      !! the bodies and their rows, last evaluated at the start of the step
       real(wp), intent(in) :: h                      !! length of the step [s]
    end subroutine hold_begin_step
 
    !> Nothing to correct, unless the way says otherwise. At the end of a step the motion of the system is set, and must be that
    !> of the corrected state afterwards.
-   subroutine hold_correct(self, system, t, y, status)
+   subroutine hold_correct(self, linkage, t, y, status)
       class(hold_t), intent(inout) :: self           !! the way
-      class(ode_system_t), intent(inout) :: system   !! the system
+      type(linkage_t), intent(inout) :: linkage      !! the bodies and their rows
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(inout), contiguous :: y(:)    !! (2 positions or more) coordinates and rates, corrected [any]
       integer, intent(out) :: status                 !! 0: done

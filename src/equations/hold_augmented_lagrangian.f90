@@ -5,13 +5,10 @@
 !> Source: Flores et al. (2008), section 2.5, eqs. (2.32)-(2.35), with Phi_q v + Phi_t where (2.34) prints Phi_q a;
 !> J. Garcia de Jalon, E. Bayo (1994). Limits: as augmented_lagrangian and hold_baumgarte.
 module hold_augmented_lagrangian
-   use augmented_lagrangian, only: augmented_lagrangian_t
    use hold, only: hold_t, option_number
-   use hold_baumgarte, only: set_gains
    use item, only: option_t
    use kinds, only: wp
-   use ode_system, only: ode_system_t
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -58,19 +55,13 @@ contains
    end subroutine lagrangian_configure
 
    !> Gains, and the penalty of the solver.
-   subroutine lagrangian_begin_step(self, system, h)
+   subroutine lagrangian_begin_step(self, linkage, h)
       class(hold_augmented_lagrangian_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system               !! the system
+      type(linkage_t), intent(inout) :: linkage                  !! the bodies and their rows
       real(wp), intent(in) :: h                                  !! length of the step [s]
 
-      call set_gains(system, self%omega*self%mu, self%omega)
-      select type (system)
-      class is (planar_system_t)
-         select type (solver => system%solver)
-         type is (augmented_lagrangian_t)
-            solver%penalty = self%penalty
-         end select
-      end select
+      call linkage%solution%set_gains(self%omega*self%mu, self%omega)
+      call linkage%solution%solver%set_penalty(self%penalty)
    end subroutine lagrangian_begin_step
 
 end module hold_augmented_lagrangian

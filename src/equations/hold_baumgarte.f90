@@ -7,12 +7,11 @@ module hold_baumgarte
    use hold, only: hold_t, option_number
    use item, only: option_t
    use kinds, only: wp
-   use ode_system, only: ode_system_t
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: hold_baumgarte_t, set_gains
+   public :: hold_baumgarte_t
 
    !> Constant gains.
    type, extends(hold_t) :: hold_baumgarte_t
@@ -53,25 +52,12 @@ contains
    end subroutine baumgarte_configure
 
    !> The gains do not change.
-   subroutine baumgarte_begin_step(self, system, h)
+   subroutine baumgarte_begin_step(self, linkage, h)
       class(hold_baumgarte_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system    !! the system
+      type(linkage_t), intent(inout) :: linkage       !! the bodies and their rows
       real(wp), intent(in) :: h                       !! length of the step [s]
 
-      call set_gains(system, self%alpha, self%beta)
+      call linkage%solution%set_gains(self%alpha, self%beta)
    end subroutine baumgarte_begin_step
-
-   !> Set the gains of a system.
-   subroutine set_gains(system, alpha, beta)
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: alpha                 !! gain on the rate of violation [1/s]
-      real(wp), intent(in) :: beta                  !! gain on the violation [1/s]
-
-      select type (system)
-      class is (planar_system_t)
-         system%alpha = alpha
-         system%beta = beta
-      end select
-   end subroutine set_gains
 
 end module hold_baumgarte

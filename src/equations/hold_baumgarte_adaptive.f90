@@ -14,12 +14,10 @@
 module hold_baumgarte_adaptive
    use floors, only: least_hold
    use hold, only: hold_t, option_number
-   use hold_baumgarte, only: set_gains
    use item, only: option_t
    use kinds, only: wp
    use memory, only: get, put
-   use ode_system, only: ode_system_t
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -71,30 +69,27 @@ contains
    end subroutine adaptive_configure
 
    !> The gain of a step.
-   subroutine adaptive_begin_step(self, system, h)
+   subroutine adaptive_begin_step(self, linkage, h)
       class(hold_baumgarte_adaptive_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system             !! the system, last evaluated at the start of the step
+      type(linkage_t), intent(inout) :: linkage                !! the bodies and their rows, last evaluated at the start of the step
       real(wp), intent(in) :: h                                !! length of the step [s]
 
       real(wp) :: rate, worst
       integer :: body
 
-      select type (system)
-      class is (planar_system_t)
-         if (system%rows%n_solve == 0) return
-         worst = maxval(system%row_weight(:system%rows%n_solve)*abs(system%rows%phi(:system%rows%n_solve)))
-         ! the same violation again: the step is tried again, shorter, and a gain that grew as it shrinks would not let it succeed
-         if (abs(worst - self%worst) > 0.0_wp) then
-            self%alpha = self%alpha*min(1.0_wp + min(self%alpha*h, 1.0_wp), max(0.5_wp, sqrt(worst/self%target)))
-         end if
-         self%worst = worst
-         rate = 0.0_wp
-         do body = 1, system%n_body
-            rate = max(rate, norm2(system%motion%v(:, body))/system%length_scale, abs(system%motion%omega(3, body)))
-         end do
-         self%alpha = max(least_hold*system%pace, min(self%alpha, most/h, rate))
-      end select
-      call set_gains(system, self%alpha, self%alpha)
+      if (linkage%rows%n_solve == 0) return
+      worst = maxval(linkage%solution%row_weight(:linkage%rows%n_solve)*abs(linkage%rows%phi(:linkage%rows%n_solve)))
+      ! the same violation again: the step is tried again, shorter, and a gain that grew as it shrinks would not let it succeed
+      if (abs(worst - self%worst) > 0.0_wp) then
+         self%alpha = self%alpha*min(1.0_wp + min(self%alpha*h, 1.0_wp), max(0.5_wp, sqrt(worst/self%target)))
+      end if
+      self%worst = worst
+      rate = 0.0_wp
+      do body = 1, linkage%bodies%n
+         rate = max(rate, norm2(linkage%motion%v(:, body))/linkage%scales%length, abs(linkage%motion%omega(3, body)))
+      end do
+      self%alpha = max(least_hold*linkage%scales%pace, min(self%alpha, most/h, rate))
+      call linkage%solution%set_gains(self%alpha, self%alpha)
    end subroutine adaptive_begin_step
 
    !> Numbers that a checkpoint needs: the gain.

@@ -5,10 +5,9 @@
 !> Source: Flores et al. (2008), section 2.5 (table 2.3). Limits: made for fixed steps; with variable ones the gains follow.
 module hold_baumgarte_step
    use hold, only: hold_t, option_number
-   use hold_baumgarte, only: set_gains
    use item, only: option_t
    use kinds, only: wp
-   use ode_system, only: ode_system_t
+   use linkage, only: linkage_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -54,12 +53,12 @@ contains
    end subroutine step_configure
 
    !> Gains of a step.
-   subroutine step_begin_step(self, system, h)
+   subroutine step_begin_step(self, linkage, h)
       class(hold_baumgarte_step_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system         !! the system
+      type(linkage_t), intent(inout) :: linkage            !! the bodies and their rows
       real(wp), intent(in) :: h                            !! length of the step [s]
 
-      call set_gains(system, self%alpha/h, self%beta/h)
+      call linkage%solution%set_gains(self%alpha/h, self%beta/h)
    end subroutine step_begin_step
 
 end module hold_baumgarte_step

@@ -17,8 +17,7 @@ module hold_partitioning
    use kinds, only: wp
    use lapack, only: dgels, dgeqp3, dgeqrf
    use memory, only: get, put
-   use ode_system, only: ode_system_t
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    implicit none (type, external)
    private
    public :: hold_partitioning_t
@@ -76,25 +75,22 @@ contains
    end subroutine partitioning_configure
 
    !> Correct the end of a step; sort anew if the dependent coordinates have become bad ones.
-   subroutine partitioning_correct_step(self, system, t, y, status)
+   subroutine partitioning_correct_step(self, linkage, t, y, status)
       class(hold_partitioning_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system       !! the system
+      type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows
       real(wp), intent(in) :: t                          !! time [s]
       real(wp), intent(inout), contiguous :: y(:)        !! (n) state, corrected [any]
       integer, intent(out) :: status                     !! 0: done
 
       status = 0
-      select type (system)
-      class is (planar_system_t)
-         call partitioning_correct(self, system, t, y, status)
-         if (status == 0 .and. self%rank > 0) call check_quality(self, system)
-      end select
+      call partitioning_correct(self, linkage, t, y, status)
+      if (status == 0 .and. self%rank > 0) call check_quality(self, linkage)
    end subroutine partitioning_correct_step
 
    !> Dependent coordinates and rates from the independent ones. The motion of the system is that afterwards.
-   subroutine partitioning_correct(self, system, t, y, status)
+   subroutine partitioning_correct(self, linkage, t, y, status)
       class(hold_partitioning_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system       !! the system
+      type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows
       real(wp), intent(in) :: t                          !! time [s]
       real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates, corrected [any]
       integer, intent(out) :: status                     !! 0: done
@@ -103,34 +99,31 @@ contains
       integer :: k
 
       status = 0
-      select type (system)
-      class is (planar_system_t)
-         if (system%rows%n_solve == 0) return
-         if (.not. allocated(self%jac)) call make_room(self, system%rows%n_solve, 3*system%rows%n_unknown)
-         if (self%rank < 0) then
-            call system%set_motion(t, y)
-            call system%evaluate_rows(system%piece%inside(t))
-            call sort_coordinates(self, system)
-         end if
-         before = huge(1.0_wp)
-         associate (n => system%rows%n_solve)
-            do k = 0, n_newton
-               call system%set_motion(t, y)
-               call system%evaluate_rows(system%piece%inside(t))
-               now = maxval(system%row_weight(:n)*abs(system%rows%phi(:n)))
-               if (k == n_newton .or. now <= round_off .or. (now <= closed .and. now > 0.5_wp*before)) exit
-               before = now
-               self%right(:n, 1) = -system%rows%phi(:n)*system%row_weight(:n)
-               call change_dependent(self, system, 0, y, status)
-               if (status /= 0) return
-            end do
-            status = merge(0, 1, now <= closed)
+      if (linkage%rows%n_solve == 0) return
+      if (.not. allocated(self%jac)) call make_room(self, linkage%rows%n_solve, 3*linkage%rows%n_unknown)
+      if (self%rank < 0) then
+         call linkage%set_motion(t, y)
+         call linkage%evaluate_rows(t)
+         call sort_coordinates(self, linkage)
+      end if
+      before = huge(1.0_wp)
+      associate (n => linkage%rows%n_solve)
+         do k = 0, n_newton
+            call linkage%set_motion(t, y)
+            call linkage%evaluate_rows(t)
+            now = linkage%greatest_violation()
+            if (k == n_newton .or. now <= round_off .or. (now <= closed .and. now > 0.5_wp*before)) exit
+            before = now
+            self%right(:n, 1) = -linkage%rows%phi(:n)*linkage%solution%row_weight(:n)
+            call change_dependent(self, linkage, 0, y, status)
             if (status /= 0) return
-            self%right(:n, 1) = -system%phi_dot(:n)*system%row_weight(:n)
-         end associate
-         call change_dependent(self, system, system%n_position, y, status)
-         call system%set_motion(t, y)
-      end select
+         end do
+         status = merge(0, 1, now <= closed)
+         if (status /= 0) return
+         self%right(:n, 1) = -linkage%solution%phi_dot(:n)*linkage%solution%row_weight(:n)
+      end associate
+      call change_dependent(self, linkage, linkage%n_position, y, status)
+      call linkage%set_motion(t, y)
    end subroutine partitioning_correct
 
    !> Workspace.
@@ -143,60 +136,61 @@ contains
    end subroutine make_room
 
    !> Change of the dependent coordinates, or of their rates, that the right-hand side asks for.
-   subroutine change_dependent(self, system, place, y, status)
+   subroutine change_dependent(self, linkage, place, y, status)
       class(hold_partitioning_t), intent(inout) :: self  !! the way, right-hand side set
-      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
       integer, intent(in) :: place                       !! before what is changed in the state
       real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates [any]
       integer, intent(out) :: status                     !! 0: done
 
       integer :: c, info, k
 
-      call scaled_jacobian(self, system)
-      call dgels("N", system%rows%n_solve, self%rank, 1, self%jac, size(self%jac, 1), self%right, size(self%right, 1), &
+      call scaled_jacobian(self, linkage)
+      call dgels("N", linkage%rows%n_solve, self%rank, 1, self%jac, size(self%jac, 1), self%right, size(self%right, 1), &
                  self%work, size(self%work), info)
       status = merge(0, 1, info == 0)
       if (status /= 0) return
       do k = 1, self%rank
          c = self%order(k)
-         y(place + c) = y(place + c) + self%right(k, 1)*merge(1.0_wp, system%length_scale, modulo(c, 3) == 0)
+         y(place + c) = y(place + c) + self%right(k, 1)*merge(1.0_wp, linkage%scales%length, modulo(c, 3) == 0)
       end do
    end subroutine change_dependent
 
    !> The Jacobian, rows and coordinates scaled, in the order of the coordinates.
-   subroutine scaled_jacobian(self, system)
+   subroutine scaled_jacobian(self, linkage)
       class(hold_partitioning_t), intent(inout) :: self  !! the way
-      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
-      integer :: body, c, column, k, place(0:system%n_body), position(3*system%rows%n_unknown), row
+      integer :: body, c, column, k, place(0:linkage%bodies%n), position(3*linkage%rows%n_unknown), row
 
       place = 0
-      place(system%rows%unknown) = [(3*k - 3, k=1, system%rows%n_unknown)]
+      place(linkage%rows%unknown) = [(3*k - 3, k=1, linkage%rows%n_unknown)]
       position(self%order) = [(k, k=1, size(self%order))]
       self%jac = 0.0_wp
-      do k = 1, system%rows%n_side
-         row = system%rows%side(1, k)
-         body = system%rows%side(3, k)
+      do k = 1, linkage%rows%n_side
+         row = linkage%rows%side(1, k)
+         body = linkage%rows%side(3, k)
          do c = 1, 3
             column = position(place(body) + c)
-            self%jac(row, column) = system%rows%jac(system%rows%side(2, k) - 6*(row - 1) + c, row)*system%row_weight(row) &
-                                    *merge(1.0_wp, system%length_scale, c == 3)
+            self%jac(row, column) = linkage%rows%jac(linkage%rows%side(2, k) - 6*(row - 1) + c, &
+                                                     row)*linkage%solution%row_weight(row) &
+                                    *merge(1.0_wp, linkage%scales%length, c == 3)
          end do
       end do
    end subroutine scaled_jacobian
 
    !> Choose the dependent coordinates at the present position.
-   subroutine sort_coordinates(self, system)
+   subroutine sort_coordinates(self, linkage)
       class(hold_partitioning_t), intent(inout) :: self  !! the way
-      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
       integer, allocatable :: pivots(:)
       integer :: info, k, m, n
 
-      m = system%rows%n_solve
-      n = 3*system%rows%n_unknown
+      m = linkage%rows%n_solve
+      n = 3*linkage%rows%n_unknown
       if (.not. allocated(self%order)) self%order = [(k, k=1, n)]
-      call scaled_jacobian(self, system)
+      call scaled_jacobian(self, linkage)
       allocate (pivots(n), source=0)
       call dgeqp3(m, n, self%jac, m, pivots, self%tau, self%work, size(self%work), info)
       self%rank = count([(abs(self%jac(k, k)) > rank_tolerance*abs(self%jac(1, 1)), k=1, min(m, n))])
@@ -205,18 +199,18 @@ contains
    end subroutine sort_coordinates
 
    !> Sort anew if the least pivot of the dependent columns has become too small.
-   subroutine check_quality(self, system)
+   subroutine check_quality(self, linkage)
       class(hold_partitioning_t), intent(inout) :: self  !! the way
-      class(planar_system_t), intent(in) :: system       !! the system, rows evaluated
+      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
       real(wp) :: greatest, least
       integer :: info, k
 
-      call scaled_jacobian(self, system)
+      call scaled_jacobian(self, linkage)
       greatest = maxval(norm2(self%jac, dim=1))
       call dgeqrf(size(self%jac, 1), self%rank, self%jac, size(self%jac, 1), self%tau, self%work, size(self%work), info)
       least = minval([(abs(self%jac(k, k)), k=1, self%rank)])
-      if (least < worse*self%quality*greatest) call sort_coordinates(self, system)
+      if (least < worse*self%quality*greatest) call sort_coordinates(self, linkage)
    end subroutine check_quality
 
    !> Numbers that a checkpoint needs: rank, quality and order, once there are any.

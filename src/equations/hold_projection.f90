@@ -11,8 +11,7 @@ module hold_projection
    use hold, only: hold_t
    use item, only: option_t
    use kinds, only: wp
-   use ode_system, only: ode_system_t
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    implicit none (type, external)
    private
    public :: hold_projection_t
@@ -56,26 +55,12 @@ contains
       self%at_steps = .true.
    end subroutine projection_configure
 
-   !> Correct the end of a step.
-   subroutine projection_correct_step(self, system, t, y, status)
+   !> Positions, then rates. The motion of the bodies is that of the corrected state afterwards.
+   subroutine projection_correct_step(self, linkage, t, y, status)
       class(hold_projection_t), intent(inout) :: self  !! the way
-      class(ode_system_t), intent(inout) :: system     !! the system
+      type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(inout), contiguous :: y(:)      !! (n) state, corrected [any]
-      integer, intent(out) :: status                   !! 0: done
-
-      status = 0
-      select type (system)
-      class is (planar_system_t)
-         call project(system, t, y, status)
-      end select
-   end subroutine projection_correct_step
-
-   !> Positions, then rates. The motion of the system is that of the corrected state afterwards.
-   subroutine project(system, t, y, status)
-      class(planar_system_t), intent(inout) :: system  !! the system, its motion set
-      real(wp), intent(in) :: t                        !! time [s]
-      real(wp), intent(inout), contiguous :: y(:)      !! (2 positions or more) coordinates and rates, corrected [any]
       integer, intent(out) :: status                   !! 0: done
 
       real(wp) :: before, now
@@ -83,42 +68,36 @@ contains
 
       status = 0
       before = huge(1.0_wp)
-      associate (n => system%rows%n_solve)
+      associate (n => linkage%rows%n_solve)
          do k = 0, n_newton
-            call system%evaluate_rows(system%piece%inside(t))
-            now = maxval(system%row_weight(:n)*abs(system%rows%phi(:n)))
+            call linkage%evaluate_rows(t)
+            now = linkage%greatest_violation()
             if (k == n_newton .or. now <= round_off .or. now > 0.5_wp*before) exit
             before = now
-            system%b(:n) = -system%rows%phi(:n)
-            call correct(system, t, 0, y, status)
+            linkage%solution%b(:n) = -linkage%rows%phi(:n)
+            call correct(linkage, t, 0, y, status)
             if (status /= 0) return
          end do
          ! beyond a dead point there is no position to correct to: shorter steps end there
          if (.not. now <= too_much) status = 1
          if (status /= 0) return
-         system%b(:n) = -system%phi_dot(:n)
+         linkage%solution%b(:n) = -linkage%solution%phi_dot(:n)
       end associate
-      call correct(system, t, system%n_position, y, status)
-   end subroutine project
+      call correct(linkage, t, linkage%n_position, y, status)
+   end subroutine projection_correct_step
 
    !> Add the least change to coordinates or rates, and set the motion anew.
-   subroutine correct(system, t, place, y, status)
-      class(planar_system_t), intent(inout) :: system  !! the system, b set
+   subroutine correct(linkage, t, place, y, status)
+      type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows, b set
       real(wp), intent(in) :: t                        !! time [s]
       integer, intent(in) :: place                     !! before what is corrected in the state
       real(wp), intent(inout), contiguous :: y(:)      !! (2 positions or more) coordinates and rates [any]
       integer, intent(out) :: status                   !! 0: done
 
-      integer :: k
-
-      call system%solve_rows(status)
+      call linkage%solve_rows(status)
       if (status /= 0) return
-      do k = 1, system%rows%n_unknown
-         associate (part => y(place + 3*k - 2:place + 3*k))
-            part = part + system%a(:, system%rows%unknown(k))
-         end associate
-      end do
-      call system%set_motion(t, y)
+      call linkage%add_change(place, y)
+      call linkage%set_motion(t, y)
    end subroutine correct
 
 end module hold_projection

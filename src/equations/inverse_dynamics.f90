@@ -1,4 +1,4 @@
-!> Loads at a state, and the reactions that go with given accelerations.
+!> The reactions that go with given accelerations.
 !>
 !> $$ \Phi_q^T \lambda = g - M a $$
 !>
@@ -8,58 +8,39 @@
 !> Source: Flores et al. (2008), section 2.5, eq. (2.14). Limits: dense, by singular values
 !> (LAPACK dgelsd).
 module inverse_dynamics
-   use consistent_start, only: rank_tolerance, row_scale, scaled_jacobian
+   use consistent_start, only: rank_tolerance, scaled_jacobian
    use kinds, only: wp
    use lapack, only: dgelsd
    use motion, only: set_some_acceleration
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    implicit none (type, external)
    private
-   public :: find_loads, find_reactions
+   public :: find_reactions
 
 contains
 
-   !> Loads of gravity, force elements and touching contacts at the present motion.
-   subroutine find_loads(system, t)
-      class(planar_system_t), intent(inout) :: system  !! the system, motion set; loads and g are set
-      real(wp), intent(in) :: t                        !! time [s]
-
-      integer :: k
-
-      system%loads%force = system%weight
-      system%loads%moment = 0.0_wp
-      system%load_power = 0.0_wp
-      do k = 1, size(system%forces)
-         call system%forces(k)%set%evaluate(system%piece%inside(t), system%motion, system%loads, system%load_power)
-      end do
-      do k = 1, size(system%clearances)
-         call system%clearances(k)%set%evaluate(system%motion, system%loads, system%losses)
-      end do
-      system%g(1:2, :) = system%loads%force(1:2, :)
-      system%g(3, :) = system%loads%moment(3, :)
-   end subroutine find_loads
-
    !> Multipliers that go with accelerations, and what stays unbalanced. The motion takes the accelerations.
-   subroutine find_reactions(system, a, unbalanced)
-      class(planar_system_t), intent(inout) :: system  !! the system, rows and loads evaluated; lambda is set
-      real(wp), intent(in), contiguous :: a(:)                  !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(out) :: unbalanced              !! norm of g - M a - Phi_q^T lambda, forces times the size [N.m]
+   subroutine find_reactions(linkage, g, a, unbalanced)
+      type(linkage_t), intent(inout) :: linkage  !! the linkage, rows evaluated; lambda is set
+      real(wp), intent(in) :: g(:, 0:)           !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
+      real(wp), intent(in), contiguous :: a(:)   !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(out) :: unbalanced        !! norm of g - M a - Phi_q^T lambda, forces times the size [N.m]
 
       real(wp), allocatable :: b(:, :), jac(:, :), rest(:), right(:), s(:), transposed(:, :), work(:)
       integer, allocatable :: iwork(:)
       integer :: info, k, length, m, n, rank
 
-      m = system%rows%n
+      m = linkage%rows%n
       n = size(a)
-      call set_some_acceleration(system%n_body, [(k, k=1, system%n_body)], a, system%motion)
+      call set_some_acceleration(linkage%bodies%n, [(k, k=1, linkage%bodies%n)], a, linkage%motion)
       allocate (right(n), source=0.0_wp)
-      do k = 1, system%n_body
-         right(3*k - 2:3*k) = system%g(:, k) - a(3*k - 2:3*k)*system%mass(:, k)
-         right(3*k - 2:3*k - 1) = right(3*k - 2:3*k - 1)*system%length_scale
+      do k = 1, linkage%bodies%n
+         right(3*k - 2:3*k) = g(:, k) - a(3*k - 2:3*k)*linkage%mass(:, k)
+         right(3*k - 2:3*k - 1) = right(3*k - 2:3*k - 1)*linkage%scales%length
       end do
       unbalanced = norm2(right)
       if (m == 0) return
-      call scaled_jacobian(system, jac)
+      call scaled_jacobian(linkage, jac)
       transposed = transpose(jac)
       allocate (b(max(m, n), 1), s(min(m, n)), work(1), source=0.0_wp)
       allocate (iwork(max(1, 40*min(m, n))), source=0)
@@ -71,7 +52,7 @@ contains
       call dgelsd(n, m, 1, transposed, n, b, max(m, n), s, rank_tolerance, rank, work, length, iwork, info)
       rest = right - matmul(b(1:m, 1), jac)
       unbalanced = norm2(rest)
-      system%lambda = b(1:m, 1)*row_scale(system)
+      linkage%solution%lambda = b(1:m, 1)*linkage%solution%row_weight
    end subroutine find_reactions
 
 end module inverse_dynamics

@@ -11,7 +11,7 @@ module mobility
    use consistent_start, only: rank_tolerance, scaled_jacobian
    use kinds, only: wp
    use lapack, only: dgeqp3, dgesvd
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
@@ -35,21 +35,21 @@ module mobility
 contains
 
    !> Freedoms and drivers in excess at the position where the rows were evaluated.
-   subroutine find_mobility(system, mobility)
-      class(planar_system_t), intent(in) :: system   !! the system, rows evaluated
+   subroutine find_mobility(linkage, mobility)
+      type(linkage_t), intent(in) :: linkage !! the bodies and their rows, rows evaluated
       type(mobility_t), intent(out) :: mobility      !! what is free, and drivers in excess
 
       real(wp), allocatable :: free(:, :), jac(:, :), joints(:, :), left(:, :)
       integer, allocatable :: drivers(:), others(:)
       integer :: k, m, n, rank
 
-      m = system%rows%n
-      n = 3*system%n_body
-      call mark_drivers(system, mobility%is_driver)
+      m = linkage%rows%n
+      n = 3*linkage%bodies%n
+      call mark_drivers(linkage, mobility%is_driver)
       mobility%n_driver = count(mobility%is_driver)
       drivers = pack([(k, k=1, m)], mobility%is_driver)
       others = pack([(k, k=1, m)], .not. mobility%is_driver)
-      call scaled_jacobian(system, jac)
+      call scaled_jacobian(linkage, jac)
       joints = jac(others, :)
       call split_space(joints, rank, left, free)
       mobility%n_freedom = n - rank
@@ -57,23 +57,23 @@ contains
       call find_excess(jac(drivers, :), free, drivers, mobility%is_excess)
       call split_space(jac, mobility%rank, left, free)
       mobility%n_left = n - mobility%rank
-      allocate (mobility%freedom(system%n_body), mobility%weakest(m), source=0.0_wp)
-      do k = 1, system%n_body
+      allocate (mobility%freedom(linkage%bodies%n), mobility%weakest(m), source=0.0_wp)
+      do k = 1, linkage%bodies%n
          if (mobility%n_left > 0) mobility%freedom(k) = maxval(norm2(free(3*k - 2:3*k, :), dim=1))
       end do
       if (mobility%rank > 0) mobility%weakest = left(:, mobility%rank)
    end subroutine find_mobility
 
    !> Which rows belong to drivers.
-   subroutine mark_drivers(system, is_driver)
-      class(planar_system_t), intent(in) :: system           !! the system
+   subroutine mark_drivers(linkage, is_driver)
+      type(linkage_t), intent(in) :: linkage         !! the bodies and their rows
       logical, allocatable, intent(out) :: is_driver(:)      !! (rows) rows of drivers
 
       integer :: k
 
-      allocate (is_driver(system%rows%n), source=.false.)
-      do k = 1, size(system%joints)
-         associate (set => system%joints(k)%set)
+      allocate (is_driver(linkage%rows%n), source=.false.)
+      do k = 1, size(linkage%joints)
+         associate (set => linkage%joints(k)%set)
             if (set%is_driver) is_driver(set%first_row + 1:set%first_row + set%n*set%n_row_item) = .true.
          end associate
       end do
@@ -139,8 +139,8 @@ contains
    end function stiffest_driver
 
    !> Names of the joints and drivers that some rows belong to, each once.
-   function joint_names(system, is_meant) result(words)
-      class(planar_system_t), intent(in) :: system   !! the system
+   function joint_names(linkage, is_meant) result(words)
+      type(linkage_t), intent(in) :: linkage         !! the bodies and their rows
       logical, intent(in) :: is_meant(:)             !! (rows) which rows
       character(:), allocatable :: words             !! as `'pin' 'guide'`
 
@@ -151,21 +151,21 @@ contains
       rows: do k = 1, size(is_meant)
          if (.not. is_meant(k)) cycle rows
          do i = 1, size(names)
-            if (names(i)%s == system%row_name(k)) cycle rows
+            if (names(i)%s == linkage%row_name(k)) cycle rows
          end do
-         call append_text(names, system%row_name(k))
+         call append_text(names, linkage%row_name(k))
       end do rows
       words = counted_names(names)
    end function joint_names
 
    !> Names of the bodies that move, those that move most first.
-   function moving_bodies(system, motion) result(words)
-      class(planar_system_t), intent(in) :: system   !! the system
+   function moving_bodies(linkage, motion) result(words)
+      type(linkage_t), intent(in) :: linkage         !! the bodies and their rows
       real(wp), intent(in) :: motion(:)              !! (bodies) how much each moves, 0 to 1 [1]
       character(:), allocatable :: words             !! as `'rod' 'bob'`
 
       type(text_t), allocatable :: names(:)
-      logical :: is_left(system%n_body)
+      logical :: is_left(linkage%bodies%n)
       integer :: k
 
       allocate (names(0))
@@ -173,7 +173,7 @@ contains
       do while (any(is_left))
          k = maxloc(motion, dim=1, mask=is_left)
          is_left(k) = .false.
-         call append_text(names, system%bodies%names(k)%s)
+         call append_text(names, linkage%bodies%names(k)%s)
       end do
       words = counted_names(names)
    end function moving_bodies

@@ -10,31 +10,34 @@ contains
    module procedure planar_dae_residual
       integer :: m, n, n_state
 
-      n = self%rows%n_unknown
+      n = self%linkage%rows%n_unknown
       n_state = self%n - self%n_quadrature
       m = self%n_row
       self%n_evaluations = self%n_evaluations + 1
       if (self%grips%n_bristle > 0) call self%take_bristles(y)
-      call self%set_motion(t, y)
+      call self%linkage%set_motion(t, y)
       call self%evaluate_terms(t, status)
       if (status /= 0) return
       if (self%grips%n_slip > 0) then  ! forces of contacts that stick, into g
-         call self%find_accelerations(self%g, .true., status)
+         call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
          if (status == 0) call self%stick(status)
          if (status /= 0) return
       end if
-      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, lambda, self%a)
-      call remains(n, self%rows%unknown, self%n_body, y, ydot, self%inverse_mass, self%g, self%a, r_y)
-      call spread_rows(self%n_body, m, self%rows%n_side, self%rows%side, self%rows%jac(:, :m), self%inverse_mass, mu, self%a)
-      call add_positions(n, self%rows%unknown, self%n_body, self%a, r_y)
+      call spread_rows(self%linkage%bodies%n, m, self%linkage%rows%n_side, self%linkage%rows%side, self%linkage%rows%jac(:, &
+                       :m), self%linkage%inverse_mass, lambda, self%linkage%solution%a)
+      call remains(n, self%linkage%rows%unknown, self%linkage%bodies%n, y, ydot, self%linkage%inverse_mass, self%loading%g, &
+                   self%linkage%solution%a, r_y)
+      call spread_rows(self%linkage%bodies%n, m, self%linkage%rows%n_side, self%linkage%rows%side, self%linkage%rows%jac(:, &
+                       :m), self%linkage%inverse_mass, mu, self%linkage%solution%a)
+      call add_positions(n, self%linkage%rows%unknown, self%linkage%bodies%n, self%linkage%solution%a, r_y)
       if (self%grips%n_bristle > 0) call self%bristle_rates(r_y)
       if (self%with_ledger) then
-         self%lambda(:m) = lambda
+         self%linkage%solution%lambda(:m) = lambda
          call self%ledger_rates(r_y(n_state + 1:))
       end if
       r_y(6*n + 1:) = ydot(6*n + 1:) - r_y(6*n + 1:)
-      r_lambda = self%phi_dot(:m)
-      r_mu = self%rows%phi(:m)
+      r_lambda = self%linkage%solution%phi_dot(:m)
+      r_mu = self%linkage%rows%phi(:m)
       if (.not. all(ieee_is_finite(r_y(:n_state)))) status = 1
    end procedure planar_dae_residual
 

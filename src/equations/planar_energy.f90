@@ -71,20 +71,21 @@ contains
       real(wp) :: m
       integer :: k
 
-      associate (motion => system%motion)
-         do k = 1, system%n_body
-            m = system%bodies%mass(k)
+      associate (motion => system%linkage%motion)
+         do k = 1, system%linkage%bodies%n
+            m = system%linkage%bodies%mass(k)
             energy%kinetic = energy%kinetic + 0.5_wp*(m*(motion%v(1, k)**2 + motion%v(2, k)**2) &
-                                                      + system%bodies%inertia(k)*motion%omega(3, k)**2)
-            energy%potential = energy%potential - m*(system%gravity(1)*motion%r(1, k) + system%gravity(2)*motion%r(2, k))
+                                                      + system%linkage%bodies%inertia(k)*motion%omega(3, k)**2)
+            energy%potential = energy%potential - m*(system%loading%gravity(1)*motion%r(1, k) &
+                                                     + system%loading%gravity(2)*motion%r(2, k))
          end do
       end associate
-      do k = 1, size(system%forces)
-         energy%elastic = energy%elastic + system%forces(k)%set%elastic_energy(system%motion)
+      do k = 1, size(system%loading%forces)
+         energy%elastic = energy%elastic + system%loading%forces(k)%set%elastic_energy(system%linkage%motion)
       end do
       if (.not. any_touching(system)) return
       do k = 1, size(system%clearances)
-         energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%motion)
+         energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%linkage%motion)
       end do
    end subroutine add_mechanical
 

@@ -42,32 +42,33 @@ contains
          end associate
       end do
       if (m == 0) return
-      associate (grips => self%grips, n => self%rows%n_solve)
+      associate (grips => self%grips, n => self%linkage%rows%n_solve)
          do c = 1, m
             associate (tangent => self%clearances(grips%slot(c))%set%grip%tangent(grips%contact(c)))
                grips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
-               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift + 2.0_wp*settling*self%pace*tangent%v)
+               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift &
+                                  + 2.0_wp*settling*self%linkage%scales%pace*tangent%v)
                grips%mobility(c) = mobility_of(self, c)
             end associate
          end do
-         grips%b(:n) = self%b(:n)
-         self%b(:n) = 0.0_wp
+         grips%b(:n) = self%linkage%solution%b(:n)
+         self%linkage%solution%b(:n) = 0.0_wp
          do d = 1, m
             grips%unit = 0.0_wp
             call add_pair(self, d, 1.0_wp, grips%unit)
-            call self%find_accelerations(grips%unit, .false., status)
+            call self%linkage%find_accelerations(grips%unit, .false., .true., status)
             if (status /= 0) exit
             do c = 1, m
                grips%matrix(c, d) = sliding_acceleration(self, c, .false.)
             end do
             grips%is_fixed(d) = grips%matrix(d, d) <= least_mobility*grips%mobility(d)
          end do
-         self%b(:n) = grips%b(:n)
+         self%linkage%solution%b(:n) = grips%b(:n)
          if (status /= 0) return
          call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
                           grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
          do c = 1, m
-            call add_pair(self, c, grips%force(c), self%g)
+            call add_pair(self, c, grips%force(c), self%loading%g)
             associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
                set%grip%tangent(k)%f_t = grips%force(c)
                set%grip%tangent(k)%is_driven = grips%is_fixed(c) &
@@ -76,7 +77,7 @@ contains
             end associate
          end do
       end associate
-      call self%find_accelerations(self%g, .true., status)
+      call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
    end procedure planar_stick
 
    !> Part of the rate of the sliding velocity of a contact on the list that comes from the accelerations.
@@ -104,13 +105,13 @@ contains
          do side = 1, 2
             body = set%body(side, item)
             if (body == 0) cycle
-            if (self%is_known(body)) then
+            if (self%linkage%reduced%is_known(body)) then
                if (.not. with_known) cycle
-               linear = self%motion%a(1:2, body)
-               turning = self%motion%alpha(3, body)
+               linear = self%linkage%motion%a(1:2, body)
+               turning = self%linkage%motion%alpha(3, body)
             else
-               linear = self%a(1:2, body)
-               turning = self%a(3, body)
+               linear = self%linkage%solution%a(1:2, body)
+               turning = self%linkage%solution%a(3, body)
             end if
             if (side == 1) then
                a = a - (dot_product(tangent%t, linear) + turning*moment_of(tangent%arm_i, tangent%t))
@@ -133,8 +134,8 @@ contains
             item = set%item_of(self%grips%contact(c))
             i = set%body(1, item)
             j = set%body(2, item)
-            mobility = self%inverse_mass(1, i) + self%inverse_mass(3, i)*moment_of(tangent%arm_i, tangent%t)**2 &
-                       + self%inverse_mass(1, j) + self%inverse_mass(3, j)*moment_of(tangent%arm_j, tangent%t)**2
+            mobility = self%linkage%inverse_mass(1, i) + self%linkage%inverse_mass(3, i)*moment_of(tangent%arm_i, tangent%t)**2 &
+                       + self%linkage%inverse_mass(1, j) + self%linkage%inverse_mass(3, j)*moment_of(tangent%arm_j, tangent%t)**2
          end associate
       end associate
    end function mobility_of

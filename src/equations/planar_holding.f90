@@ -8,39 +8,47 @@ contains
 
    !> Correct a state at the end of a step.
    module procedure planar_hold
-      class(hold_t), allocatable :: way
+      real(wp) :: before
 
-      call move_alloc(self%way, way)  ! the system that it corrects must not hold it too
-      call correct_by(way, self, t, y, status)
-      call move_alloc(way, self%way)
+      before = energy_before(self, t, y)
+      call self%way%correct_step(self%linkage, t, y, status)
+      if (status == 0) call book(self, before, y)
    end procedure planar_hold
 
    !> Project a state that was made by interpolation, in whatever way the constraints are held.
    module procedure planar_mend
       type(hold_projection_t) :: projection
+      real(wp) :: before
 
       status = 0
-      if (self%rows%n_solve > 0) call correct_by(projection, self, t, y, status)
+      if (self%linkage%rows%n_solve == 0) return
+      before = energy_before(self, t, y)
+      call projection%correct_step(self%linkage, t, y, status)
+      if (status == 0) call book(self, before, y)
    end procedure planar_mend
 
-   !> Correct a state; what that does to the energy is work of the stabilisation.
-   subroutine correct_by(way, system, t, y, status)
-      class(hold_t), intent(inout) :: way               !! how
-      class(planar_system_t), intent(inout) :: system   !! the system
+   !> Mechanical energy of a state that is to be corrected; nothing without a ledger. The motion is set.
+   real(wp) function energy_before(self, t, y) result(before)
+      class(planar_system_t), intent(inout) :: self     !! the system
       real(wp), intent(in) :: t                         !! time [s]
-      real(wp), intent(inout), contiguous :: y(:)       !! (n) state [any]
-      integer, intent(out) :: status                    !! 0: done
+      real(wp), intent(in) :: y(:)                      !! (n) state [any]
 
-      real(wp) :: before
+      call self%linkage%set_motion(t, y)
+      before = 0.0_wp
+      if (self%with_ledger) before = mechanical_energy(self)
+   end function energy_before
+
+   !> What a correction did to the energy is work of the stabilisation.
+   subroutine book(self, before, y)
+      class(planar_system_t), intent(inout) :: self     !! the system, its motion that of the corrected state
+      real(wp), intent(in) :: before                    !! energy before the correction [J]
+      real(wp), intent(inout) :: y(:)                   !! (n) state [any]
+
       integer :: z
 
-      call system%set_motion(t, y)
-      before = 0.0_wp
-      if (system%with_ledger) before = mechanical_energy(system)
-      call way%correct_step(system, t, y, status)
-      if (status /= 0 .or. .not. system%with_ledger) return
-      z = system%n - system%n_quadrature + work_stabilisation
-      y(z) = y(z) + (mechanical_energy(system) - before)
-   end subroutine correct_by
+      if (.not. self%with_ledger) return
+      z = self%n - self%n_quadrature + work_stabilisation
+      y(z) = y(z) + (mechanical_energy(self) - before)
+   end subroutine book
 
 end submodule planar_holding

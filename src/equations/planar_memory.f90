@@ -10,11 +10,11 @@ contains
       integer :: k
 
       n = 9 + self%way%memory_size()
-      do k = 1, size(self%joints)
-         n = n + self%joints(k)%set%memory_size()
+      do k = 1, size(self%linkage%joints)
+         n = n + self%linkage%joints(k)%set%memory_size()
       end do
-      do k = 1, size(self%forces)
-         n = n + self%forces(k)%set%memory_size()
+      do k = 1, size(self%loading%forces)
+         n = n + self%loading%forces(k)%set%memory_size()
       end do
       do k = 1, size(self%clearances)
          n = n + self%clearances(k)%set%memory_size()
@@ -26,18 +26,18 @@ contains
       integer :: k
 
       call put(row, place, self%n_evaluations)
-      call put(row, place, self%n_damped)
-      call put(row, place, [self%pace, self%late_rate, self%grips%h])
+      call put(row, place, self%linkage%solution%n_damped)
+      call put(row, place, [self%linkage%scales%pace, self%linkage%scales%late_rate, self%grips%h])
       call self%way%save(row, place)
-      call put(row, place, self%solver%n_factorisations)
-      call put(row, place, self%piece%low)
-      call put(row, place, self%piece%high)
-      call put(row, place, self%piece%end)
-      do k = 1, size(self%joints)
-         call self%joints(k)%set%save(row, place)
+      call put(row, place, self%linkage%solution%solver%n_factorisations)
+      call put(row, place, self%linkage%piece%low)
+      call put(row, place, self%linkage%piece%high)
+      call put(row, place, self%linkage%piece%end)
+      do k = 1, size(self%linkage%joints)
+         call self%linkage%joints(k)%set%save(row, place)
       end do
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%save(row, place)
+      do k = 1, size(self%loading%forces)
+         call self%loading%forces(k)%set%save(row, place)
       end do
       do k = 1, size(self%clearances)
          call self%clearances(k)%set%save(row, place)
@@ -49,20 +49,20 @@ contains
       integer :: k
 
       call get(row, place, self%n_evaluations)
-      call get(row, place, self%n_damped)
-      call get(row, place, self%pace)
-      call get(row, place, self%late_rate)
+      call get(row, place, self%linkage%solution%n_damped)
+      call get(row, place, self%linkage%scales%pace)
+      call get(row, place, self%linkage%scales%late_rate)
       call get(row, place, self%grips%h)
       call self%way%load(row, place)
-      call get(row, place, self%solver%n_factorisations)
-      call get(row, place, self%piece%low)
-      call get(row, place, self%piece%high)
-      call get(row, place, self%piece%end)
-      do k = 1, size(self%joints)
-         call self%joints(k)%set%load(row, place)
+      call get(row, place, self%linkage%solution%solver%n_factorisations)
+      call get(row, place, self%linkage%piece%low)
+      call get(row, place, self%linkage%piece%high)
+      call get(row, place, self%linkage%piece%end)
+      do k = 1, size(self%linkage%joints)
+         call self%linkage%joints(k)%set%load(row, place)
       end do
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%load(row, place)
+      do k = 1, size(self%loading%forces)
+         call self%loading%forces(k)%set%load(row, place)
       end do
       do k = 1, size(self%clearances)
          call self%clearances(k)%set%load(row, place)

@@ -15,19 +15,19 @@ contains
    !> Column by column: coordinates, rates, quadratures, both sets of multipliers.
    module procedure planar_dae_pattern
       type(couplings_t) :: near
-      integer :: body, first, i, k, level, m, n, n_entry, pass, place(0:self%n_body)
+      integer :: body, first, i, k, level, m, n, n_entry, pass, place(0:self%linkage%bodies%n)
 
-      n = self%rows%n_unknown
+      n = self%linkage%rows%n_unknown
       m = self%n_row
       place = 0
-      place(self%rows%unknown) = [(k, k=1, n)]
+      place(self%linkage%rows%unknown) = [(k, k=1, n)]
       call find_couplings(self, place, near)
       allocate (column(self%n + 2*m + 1), source=0)
       do pass = 1, 2
          n_entry = 0
          do level = 0, 1  ! coordinates, rates
             do k = 1, n
-               body = self%rows%unknown(k)
+               body = self%linkage%rows%unknown(k)
                do i = 1, 3
                   column(3*n*level + 3*(k - 1) + i) = n_entry
                   call add_three(3*(k - 1))
@@ -36,9 +36,9 @@ contains
                      if (near%by_joint(first) .and. level == 0) call add_three(3*(place(near%other(first)) - 1))
                      call add_three(3*n + 3*(place(near%other(first)) - 1))
                   end do
-                  do first = self%rows%last_side(body - 1) + 1, self%rows%last_side(body)
-                     call add_entry(self%n + self%rows%side(1, first) - 1)
-                     if (level == 0) call add_entry(self%n + m + self%rows%side(1, first) - 1)
+                  do first = self%linkage%rows%last_side(body - 1) + 1, self%linkage%rows%last_side(body)
+                     call add_entry(self%n + self%linkage%rows%side(1, first) - 1)
+                     if (level == 0) call add_entry(self%n + m + self%linkage%rows%side(1, first) - 1)
                   end do
                end do
             end do
@@ -51,7 +51,7 @@ contains
             do i = 1, m
                column(self%n + merge(0, m, level == 1) + i) = n_entry
                do k = 1, 2
-                  body = place(self%rows%body(k, i))
+                  body = place(self%linkage%rows%body(k, i))
                   if (body > 0) call add_three(3*n*level + 3*(body - 1))
                end do
             end do
@@ -90,10 +90,10 @@ contains
       n = 0
       do i = 1, self%n_row
          do k = 1, 2
-            body = self%rows%body(k, i)
+            body = self%linkage%rows%body(k, i)
             if (body == 0) cycle
-            if (self%is_known(body)) cycle
-            values(n + 1:n + 3) = self%inverse_mass(:, body)*self%rows%jac(3*k - 2:3*k, i)
+            if (self%linkage%reduced%is_known(body)) cycle
+            values(n + 1:n + 3) = self%linkage%inverse_mass(:, body)*self%linkage%rows%jac(3*k - 2:3*k, i)
             n = n + 3
          end do
       end do
@@ -108,39 +108,39 @@ contains
       integer, allocatable :: seen(:)
       integer :: body, i, k, kept, n, pass
 
-      allocate (near%last(0:self%n_body), source=0)
+      allocate (near%last(0:self%linkage%bodies%n), source=0)
       do pass = 1, 2
-         do k = 1, size(self%joints)
-            if (.not. self%joints(k)%set%is_solved .or. self%joints(k)%set%sides_apart) cycle
-            call couple_all(self%joints(k)%set%body, .true.)
+         do k = 1, size(self%linkage%joints)
+            if (.not. self%linkage%joints(k)%set%is_solved .or. self%linkage%joints(k)%set%sides_apart) cycle
+            call couple_all(self%linkage%joints(k)%set%body, .true.)
          end do
-         do k = 1, size(self%ideal)
-            if (.not. self%ideal(k)%set%sides_apart) call couple_all(self%ideal(k)%set%body, .true.)
+         do k = 1, size(self%linkage%ideal)
+            if (.not. self%linkage%ideal(k)%set%sides_apart) call couple_all(self%linkage%ideal(k)%set%body, .true.)
          end do
          do k = 1, size(self%clearances)
             call couple_all(self%clearances(k)%set%body, .false.)
          end do
-         do k = 1, size(self%forces)
-            do i = 1, self%forces(k)%set%n
-               call couple(self%forces(k)%set%bodies_of(i), .false.)
+         do k = 1, size(self%loading%forces)
+            do i = 1, self%loading%forces(k)%set%n
+               call couple(self%loading%forces(k)%set%bodies_of(i), .false.)
             end do
          end do
          if (pass == 2) exit
-         do body = 1, self%n_body
+         do body = 1, self%linkage%bodies%n
             near%last(body) = near%last(body) + near%last(body - 1)
          end do
-         n = near%last(self%n_body)
+         n = near%last(self%linkage%bodies%n)
          allocate (near%other(n), source=0)
          allocate (near%by_joint(n), source=.false.)
-         do body = self%n_body, 1, -1  ! places before the first: filled from there
+         do body = self%linkage%bodies%n, 1, -1  ! places before the first: filled from there
             near%last(body) = near%last(body - 1)
          end do
       end do
       ! each neighbour once: those through joints stand first
-      allocate (seen(0:self%n_body), source=0)
+      allocate (seen(0:self%linkage%bodies%n), source=0)
       kept = 0
       n = 0
-      do body = 1, self%n_body
+      do body = 1, self%linkage%bodies%n
          do i = n + 1, near%last(body)
             if (seen(near%other(i)) == body) cycle
             seen(near%other(i)) = body

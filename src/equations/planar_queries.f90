@@ -1,4 +1,4 @@
-!> What is asked of a planar scene beside its evaluation: event functions, names.
+!> What is asked of a planar scene beside its evaluation: event functions.
 submodule(planar_system) planar_queries
    use contact_memory, only: rests
    use gap_noise, only: find_gap_noise
@@ -11,7 +11,7 @@ contains
       if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) then
          call self%friction_events(t, y, g, rate)
       else
-         call self%set_motion(t, y)
+         call self%linkage%set_motion(t, y)
       end if
       if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
@@ -66,13 +66,13 @@ contains
 
       moment = self%time_of_difference(t)
       call self%evaluate(t, y, ydot, status)
-      call self%set_motion(t + moment, y + moment*ydot)
+      call self%linkage%set_motion(t + moment, y + moment*ydot)
       do k = 1, size(self%clearances)
-         call self%clearances(k)%set%gaps(self%motion, delta, acceleration)
+         call self%clearances(k)%set%gaps(self%linkage%motion, delta, acceleration)
       end do
       call self%evaluate(t, y, ydot, status)
       do k = 1, size(self%clearances)
-         call self%clearances(k)%set%gaps(self%motion, delta, rate)
+         call self%clearances(k)%set%gaps(self%linkage%motion, delta, rate)
       end do
       acceleration = (acceleration - rate)/moment
    end procedure planar_turns
@@ -87,7 +87,7 @@ contains
 
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
-            call set%gaps(self%motion, g, rate)
+            call set%gaps(self%linkage%motion, g, rate)
             if (set%n_touching == 0) cycle
             first = set%first_contact
             do i = 1, set%n_contact
@@ -106,13 +106,13 @@ contains
 
       noise = 0.0_wp
       shared = 0.0_wp
-      if (self%rows%n_solve > 0 .or. self%guided%n > 0) then
-         shared = maxval(abs(self%motion%r(:2, :))) + maxval(abs(self%motion%angle))*self%length_scale
+      if (self%linkage%rows%n_solve > 0 .or. self%linkage%reduced%guided%n > 0) then
+         shared = maxval(abs(self%linkage%motion%r(:2, :))) + maxval(abs(self%linkage%motion%angle))*self%linkage%scales%length
       end if
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             associate (first => set%first_contact + 1, last => set%first_contact + set%n_contact)
-               call find_gap_noise(set, self%motion, shared, noise(first:last), rate_noise(first:last))
+               call find_gap_noise(set, self%linkage%motion, shared, noise(first:last), rate_noise(first:last))
             end associate
          end associate
       end do
@@ -136,34 +136,5 @@ contains
          if (contact <= self%clearances(slot)%set%n_contact) return
       end do
    end procedure planar_find_contact
-
-   !> Name of the joint or driver that a constraint row belongs to.
-   module procedure planar_row_name
-      integer :: k
-
-      name = "?"
-      do k = 1, size(self%joints)
-         call look(self%joints(k))
-      end do
-      do k = 1, size(self%ideal)
-         call look(self%ideal(k))
-      end do
-
-   contains
-
-      !> Look in one set.
-      subroutine look(slot)
-         type(joint_slot_t), intent(in) :: slot  !! the set
-
-         integer :: item
-
-         associate (set => slot%set)
-            if (row <= set%first_row .or. row > set%first_row + set%n*set%n_row_item) return
-            item = (row - set%first_row - 1)/set%n_row_item + 1
-            name = set%names(item)%s
-         end associate
-      end subroutine look
-
-   end procedure planar_row_name
 
 end submodule planar_queries

@@ -52,12 +52,12 @@ contains
 
       catalogue%n_coordinates = 2
       info = bodies_info()
-      do k = 1, system%n_body
-         call catalogue%add_item(room_bodies, system%bodies%names(k)%s, info=info)
+      do k = 1, system%linkage%bodies%n
+         call catalogue%add_item(room_bodies, system%linkage%bodies%names(k)%s, info=info)
       end do
       call catalogue%add_kind(room_bodies, bodies_info())
-      do k = 1, size(system%joints)
-         associate (set => system%joints(k)%set)
+      do k = 1, size(system%linkage%joints)
+         associate (set => system%linkage%joints(k)%set)
             call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), set%info())
          end associate
       end do
@@ -78,15 +78,15 @@ contains
             end do
          end associate
       end do
-      do k = 1, size(system%ideal)
+      do k = 1, size(system%linkage%ideal)
          call ideal_info(joint_info)
          call catalogue%add_kind(room_clearances, joint_info)
-         do i = 1, system%ideal(k)%set%n
-            call catalogue%add_item(room_clearances, system%ideal(k)%set%names(i)%s, info=joint_info)
+         do i = 1, system%linkage%ideal(k)%set%n
+            call catalogue%add_item(room_clearances, system%linkage%ideal(k)%set%names(i)%s, info=joint_info)
          end do
       end do
-      do k = 1, size(system%forces)
-         associate (set => system%forces(k)%set)
+      do k = 1, size(system%loading%forces)
+         associate (set => system%loading%forces(k)%set)
             call catalogue%add_kind(room_forces, set%info())
             do i = 1, set%n
                call catalogue%add_item(room_forces, set%names(i)%s, info=set%info())
@@ -110,19 +110,19 @@ contains
       integer :: i, k, n
 
       n = 0
-      do k = 1, size(system%joints)
-         if (system%joints(k)%set%is_driver .eqv. is_driver) n = n + system%joints(k)%set%n
+      do k = 1, size(system%linkage%joints)
+         if (system%linkage%joints(k)%set%is_driver .eqv. is_driver) n = n + system%linkage%joints(k)%set%n
       end do
       allocate (item(n), slot(n), source=0)
-      do k = 1, size(system%joints)
-         associate (set => system%joints(k)%set)
+      do k = 1, size(system%linkage%joints)
+         associate (set => system%linkage%joints(k)%set)
             if (set%is_driver .neqv. is_driver) cycle
             slot(set%column) = k
             item(set%column) = [(i, i=1, set%n)]
          end associate
       end do
       do k = 1, n
-         associate (set => system%joints(slot(k))%set)
+         associate (set => system%linkage%joints(slot(k))%set)
             call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(k))%s, info=set%info())
          end associate
       end do
@@ -167,8 +167,8 @@ contains
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
-      call system%set_state(t, y, ydot)
-      if (system%rows%n > system%rows%n_solve) call system%find_reactions(t)
+      call system%linkage%set_state(t, y, ydot)
+      if (system%linkage%rows%n > system%linkage%rows%n_solve) call system%linkage%find_reactions(t, system%loading%g)
       call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state
 
@@ -211,7 +211,7 @@ contains
       character(*), intent(in) :: channel           !! the channel
       real(wp), intent(inout) :: values(:, :)       !! (components, bodies) values [any]
 
-      associate (motion => system%motion, n => system%n_body)
+      associate (motion => system%linkage%motion, n => system%linkage%bodies%n)
          select case (channel)
          case ("position")
             values = motion%r(1:2, 1:n)
@@ -255,8 +255,8 @@ contains
       integer :: column, i, k, row
       logical :: is_known
 
-      do k = 1, size(system%joints)
-         associate (set => system%joints(k)%set)
+      do k = 1, size(system%linkage%joints)
+         associate (set => system%linkage%joints(k)%set)
             if (set%is_driver .neqv. is_driver) cycle
             do i = 1, set%n
                column = set%column(i)
@@ -268,7 +268,7 @@ contains
                      call reaction_on_i(system, set, i, force, moment)
                      if (is_driver) then
                         ! along its coordinate, on the body of j
-                        values(1, column) = -system%lambda(row)
+                        values(1, column) = -system%linkage%solution%lambda(row)
                      else
                         values(:, column) = force
                      end if
@@ -276,16 +276,17 @@ contains
                      call reaction_on_i(system, set, i, force, moment)
                      values(1, column) = merge(-moment, moment, is_driver)
                   case ("violation")
-                     values(1, column) = norm2(system%rows%phi(row:last))
+                     values(1, column) = norm2(system%linkage%rows%phi(row:last))
                   case ("violation_rate")
-                     values(1, column) = norm2(system%phi_dot(row:last))
+                     values(1, column) = norm2(system%linkage%solution%phi_dot(row:last))
                   case ("coordinate", "displacement")
-                     call set%coordinate(i, system%motion, value, rate)
+                     call set%coordinate(i, system%linkage%motion, value, rate)
                      values(1, column) = value
                   case ("power")
-                     values(1, column) = sum(system%lambda(row:last)*system%rows%phi_t(row:last))
+                     values(1, column) = sum(system%linkage%solution%lambda(row:last)*system%linkage%rows%phi_t(row:last))
                   case default
-                     call set%report(channel, i, system%motion, system%lambda(row:last), values(:, column), is_known)
+                     call set%report(channel, i, system%linkage%motion, system%linkage%solution%lambda(row:last), values(:, &
+                                     column), is_known)
                   end select
                end associate
             end do
@@ -308,10 +309,10 @@ contains
       about_centre = 0.0_wp
       do k = 1, set%n_row_item
          row = set%first_row + (item - 1)*set%n_row_item + k
-         force = force - system%rows%jac(1:2, row)*system%lambda(row)
-         about_centre = about_centre - system%rows%jac(3, row)*system%lambda(row)
+         force = force - system%linkage%rows%jac(1:2, row)*system%linkage%solution%lambda(row)
+         about_centre = about_centre - system%linkage%rows%jac(3, row)*system%linkage%solution%lambda(row)
       end do
-      arm = set%reaction_point(item, system%motion) - system%motion%r(:, set%body(1, item))
+      arm = set%reaction_point(item, system%linkage%motion) - system%linkage%motion%r(:, set%body(1, item))
       couple = cross(arm, [force, 0.0_wp])
       moment = about_centre - couple(3)
    end subroutine reaction_on_i
@@ -326,15 +327,15 @@ contains
       integer :: i, k, n
 
       do k = 1, size(system%clearances)
-         call system%clearances(k)%set%report(channel, system%motion, values)
+         call system%clearances(k)%set%report(channel, system%linkage%motion, values)
       end do
       n = system%n_loose
-      do k = 1, size(system%ideal)
-         do i = 1, system%ideal(k)%set%n
+      do k = 1, size(system%linkage%ideal)
+         do i = 1, system%linkage%ideal(k)%set%n
             n = n + 1
             select case (channel)
             case ("force")
-               call reaction_on_i(system, system%ideal(k)%set, i, force, moment)
+               call reaction_on_i(system, system%linkage%ideal(k)%set, i, force, moment)
                values(:, n) = -force
             case ("eccentricity")
                values(:, n) = 0.0_wp
@@ -353,9 +354,9 @@ contains
       integer :: column, k
 
       column = 0
-      do k = 1, size(system%forces)
-         associate (set => system%forces(k)%set)
-            call set%report(channel, system%piece%inside(t), system%motion, values(:, column + 1:column + set%n))
+      do k = 1, size(system%loading%forces)
+         associate (set => system%loading%forces(k)%set)
+            call set%report(channel, system%linkage%piece%inside(t), system%linkage%motion, values(:, column + 1:column + set%n))
             column = column + set%n
          end associate
       end do

@@ -27,18 +27,18 @@ contains
       integer :: k, n, nq
 
       nq = self%n_position
-      n = 3*self%rows%n_unknown
-      rate = max(rate_of(self, y), remembered*self%pace, self%late_rate)
-      do k = 1, self%guided%n
-         scale(n + k) = merge(1.0_wp, self%length_scale, k <= self%guided%n_turning)
+      n = 3*self%linkage%rows%n_unknown
+      rate = max(rate_of(self, y), remembered*self%linkage%scales%pace, self%linkage%scales%late_rate)
+      do k = 1, self%linkage%reduced%guided%n
+         scale(n + k) = merge(1.0_wp, self%linkage%scales%length, k <= self%linkage%reduced%guided%n_turning)
       end do
       scale(nq + n + 1:2*nq) = scale(n + 1:nq)*rate
       do k = 1, n, 3
-         scale(k) = self%length_scale
-         scale(k + 1) = self%length_scale
+         scale(k) = self%linkage%scales%length
+         scale(k + 1) = self%linkage%scales%length
          scale(k + 2) = 1.0_wp
-         scale(nq + k) = self%length_scale*rate
-         scale(nq + k + 1) = self%length_scale*rate
+         scale(nq + k) = self%linkage%scales%length*rate
+         scale(nq + k + 1) = self%linkage%scales%length*rate
          scale(nq + k + 2) = rate
       end do
       if (self%grips%n_bristle > 0) call self%bristle_weights(scale)
@@ -48,7 +48,7 @@ contains
          swing = max(swing, maxval(self%clearances(k)%set%contact%swing, mask=self%clearances(k)%set%contact%is_touching))
       end do
       if (swing < 0.0_wp) return
-      rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%tolerance*rate))
+      rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%linkage%scales%tolerance*rate))
       scale(:nq) = touching*scale(:nq)
       scale(nq + 1:2*nq) = touching*rate*scale(nq + 1:2*nq)
    end procedure planar_weights
@@ -61,24 +61,25 @@ contains
       integer :: body, k, n, nq
 
       nq = self%n_position
-      n = 3*self%rows%n_unknown
+      n = 3*self%linkage%rows%n_unknown
       rate = 0.0_wp
       do k = nq + 1, nq + n, 3
-         rate = max(rate, abs(y(k))/self%length_scale, abs(y(k + 1))/self%length_scale, abs(y(k + 2)))
+         rate = max(rate, abs(y(k))/self%linkage%scales%length, abs(y(k + 1))/self%linkage%scales%length, abs(y(k + 2)))
       end do
-      do k = 1, self%known%n
-         body = self%known%item(k)%body
-         rate = max(rate, maxval(abs(self%motion%v(1:2, body)))/self%length_scale, abs(self%motion%omega(3, body)))
+      do k = 1, self%linkage%reduced%known%n
+         body = self%linkage%reduced%known%item(k)%body
+         rate = max(rate, maxval(abs(self%linkage%motion%v(1:2, body)))/self%linkage%scales%length, &
+                    abs(self%linkage%motion%omega(3, body)))
       end do
-      do k = 1, self%guided%n
-         rate = max(rate, abs(y(nq + n + k))/merge(1.0_wp, self%length_scale, k <= self%guided%n_turning))
+      do k = 1, self%linkage%reduced%guided%n
+         rate = max(rate, abs(y(nq + n + k))/merge(1.0_wp, self%linkage%scales%length, k <= self%linkage%reduced%guided%n_turning))
       end do
    end function rate_of
 
    !> Raise the pace to that of a state.
    module procedure planar_follow_pace
-      self%pace = max(self%pace, rate_of(self, y))
-      if (present(jump)) self%pace = max(self%pace, rate_to_come(self, jump))
+      self%linkage%scales%pace = max(self%linkage%scales%pace, rate_of(self, y))
+      if (present(jump)) self%linkage%scales%pace = max(self%linkage%scales%pace, rate_to_come(self, jump))
    end procedure planar_follow_pace
 
    !> The rate to which accelerations lead, sqrt(|a|/L) and sqrt(|alpha|); of bodies whose motion is known they are not looked at.
@@ -89,13 +90,14 @@ contains
       integer :: k, n, nq
 
       nq = self%n_position
-      n = 3*self%rows%n_unknown
+      n = 3*self%linkage%rows%n_unknown
       rate = 0.0_wp
       do k = nq + 1, nq + n, 3
-         rate = max(rate, sqrt(maxval(abs(ydot(k:k + 1)))/self%length_scale), sqrt(abs(ydot(k + 2))))
+         rate = max(rate, sqrt(maxval(abs(ydot(k:k + 1)))/self%linkage%scales%length), sqrt(abs(ydot(k + 2))))
       end do
-      do k = 1, self%guided%n
-         rate = max(rate, sqrt(abs(ydot(nq + n + k))/merge(1.0_wp, self%length_scale, k <= self%guided%n_turning)))
+      do k = 1, self%linkage%reduced%guided%n
+         rate = max(rate, sqrt(abs(ydot(nq + n + k))/merge(1.0_wp, self%linkage%scales%length, &
+                    k <= self%linkage%reduced%guided%n_turning)))
       end do
    end function rate_to_come
 
@@ -107,14 +109,14 @@ contains
 
       ! what the method does is counted, not this
       n_evaluations = self%n_evaluations
-      n_factorisations = self%solver%n_factorisations
-      self%pace = idle_part/end
-      self%late_rate = late/end
+      n_factorisations = self%linkage%solution%solver%n_factorisations
+      self%linkage%scales%pace = idle_part/end
+      self%linkage%scales%late_rate = late/end
       self%grips%h = first*end
-      call self%set_motion(t, y)
+      call self%linkage%set_motion(t, y)
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
-            call set%gaps(self%motion, delta, rate)
+            call set%gaps(self%linkage%motion, delta, rate)
             do i = 1, set%n_contact
                if (set%contact(i)%is_touching) call set%note_swing(i, delta(set%first_contact + i))
             end do
@@ -122,13 +124,14 @@ contains
       end do
       call self%evaluate(t, y, ydot, status)
       self%n_evaluations = n_evaluations
-      self%solver%n_factorisations = n_factorisations
+      self%linkage%solution%solver%n_factorisations = n_factorisations
       if (status /= 0) ydot = 0.0_wp
       call self%follow_pace(y, ydot)
       if (status /= 0) return
-      do k = 1, self%known%n
-         associate (body => self%known%item(k)%body, motion => self%motion)
-            self%pace = max(self%pace, sqrt(maxval(abs(motion%a(1:2, body)))/self%length_scale), sqrt(abs(motion%alpha(3, body))))
+      do k = 1, self%linkage%reduced%known%n
+         associate (body => self%linkage%reduced%known%item(k)%body, motion => self%linkage%motion)
+            self%linkage%scales%pace = max(self%linkage%scales%pace, sqrt(maxval(abs(motion%a(1:2, &
+                                           body)))/self%linkage%scales%length), sqrt(abs(motion%alpha(3, body))))
          end associate
       end do
    end procedure planar_begin_pace

@@ -10,9 +10,9 @@
 !> coordinates; a position near the one given.
 module prescribed_motion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use consistent_start, only: evaluate_rows, least_correction, limit_step, rates, row_scale, worst_violation
+   use consistent_start, only: evaluate_rows, least_correction, limit_step, rates, worst_violation
    use kinds, only: i8, wp
-   use planar_system, only: planar_system_t
+   use linkage, only: linkage_t
    implicit none (type, external)
    private
    public :: newton_t, solve_positions, solve_rates
@@ -39,8 +39,8 @@ module prescribed_motion
 contains
 
    !> Positions at a time, from a guess.
-   subroutine solve_positions(system, t, newton, q, outcome)
-      class(planar_system_t), intent(inout) :: system  !! the system, all joints ideal; rows are evaluated
+   subroutine solve_positions(linkage, t, newton, q, outcome)
+      type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows, all joints ideal; rows are evaluated
       real(wp), intent(in) :: t                        !! time [s]
       type(newton_t), intent(inout) :: newton          !! controls and cost
       real(wp), intent(inout) :: q(:)                  !! (3 bodies) guess, then positions [m, m, rad]
@@ -55,16 +55,16 @@ contains
       rank = size(q)
       outcome = solved
       do k = 0, newton%most
-         call evaluate_rows(system, t, q, rest)
-         if (.not. (all(ieee_is_finite(system%rows%phi)) .and. all(ieee_is_finite(system%rows%jac)))) then
+         call evaluate_rows(linkage, t, q, rest)
+         if (.not. (all(ieee_is_finite(linkage%rows%phi)) .and. all(ieee_is_finite(linkage%rows%jac)))) then
             outcome = not_finite_rows
             return
          end if
-         now = worst_violation(system)
+         now = worst_violation(linkage)
          if (now <= round_off .or. (now <= newton%tolerance .and. now >= 0.5_wp*before)) exit
          if (k == newton%most) exit
          before = now
-         call least_correction(system, -system%rows%phi, ease, correction, rank)
+         call least_correction(linkage, -linkage%rows%phi, ease, correction, rank)
          newton%n_solved = newton%n_solved + 1_i8
          q = q + limit_step(correction)
       end do
@@ -73,8 +73,8 @@ contains
    end subroutine solve_positions
 
    !> Velocities and accelerations at solved positions.
-   subroutine solve_rates(system, t, newton, q, v, a, outcome)
-      class(planar_system_t), intent(inout) :: system  !! the system; rows, phi_dot and motion are set
+   subroutine solve_rates(linkage, t, newton, q, v, a, outcome)
+      type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows; rows, phi_dot and motion are set
       real(wp), intent(in) :: t                        !! time [s]
       type(newton_t), intent(inout) :: newton          !! cost
       real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
@@ -82,25 +82,25 @@ contains
       real(wp), intent(out) :: a(:)                    !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       integer, intent(out) :: outcome                  !! one of the above
 
-      real(wp) :: left(system%rows%n)
+      real(wp) :: left(linkage%rows%n)
 
       v = 0.0_wp
-      call evaluate_rows(system, t, q, v)
-      call refine(system, newton, -system%rows%phi_t, v, left, outcome)
-      call evaluate_rows(system, t, q, v)
-      call rates(system, v, system%phi_dot)
+      call evaluate_rows(linkage, t, q, v)
+      call refine(linkage, newton, -linkage%rows%phi_t, v, left, outcome)
+      call evaluate_rows(linkage, t, q, v)
+      call rates(linkage, v, linkage%solution%phi_dot)
       a = 0.0_wp
       if (outcome /= solved) return
-      if (.not. all(ieee_is_finite(system%rows%gam))) then
+      if (.not. all(ieee_is_finite(linkage%rows%gam))) then
          outcome = not_finite_rows
          return
       end if
-      call refine(system, newton, system%rows%gam, a, left, outcome)
+      call refine(linkage, newton, linkage%rows%gam, a, left, outcome)
    end subroutine solve_rates
 
    !> Solve Phi_q x = right, with one refinement.
-   subroutine refine(system, newton, right, x, left, outcome)
-      class(planar_system_t), intent(in) :: system     !! the system, rows evaluated
+   subroutine refine(linkage, newton, right, x, left, outcome)
+      type(linkage_t), intent(in) :: linkage           !! the bodies and their rows, rows evaluated
       type(newton_t), intent(inout) :: newton          !! cost
       real(wp), intent(in) :: right(:)                 !! (rows) right-hand side [rates of the rows]
       real(wp), intent(inout) :: x(:)                  !! (3 bodies) zero, then the solution [rates of the coordinates]
@@ -111,17 +111,18 @@ contains
       integer :: k, rank
 
       ease = 1.0_wp
-      none = system%rows%phi_t
+      none = linkage%rows%phi_t
       do k = 1, 2
-         call rates(system, x, left)
-         call least_correction(system, right - (left - none), ease, correction, rank, near_singular)
+         call rates(linkage, x, left)
+         call least_correction(linkage, right - (left - none), ease, correction, rank, near_singular)
          newton%n_solved = newton%n_solved + 1_i8
          x = x + correction
       end do
-      call rates(system, x, left)
+      call rates(linkage, x, left)
       left = right - (left - none)
       outcome = solved
-      if (maxval(abs(left)*row_scale(system)) > contradiction*(1.0_wp + maxval(abs(right)*row_scale(system)))) then
+      if (maxval(abs(left)*linkage%solution%row_weight) > contradiction*(1.0_wp &
+          + maxval(abs(right)*linkage%solution%row_weight))) then
          outcome = contradictory
       end if
       if (rank < size(x)) outcome = singular

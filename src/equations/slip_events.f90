@@ -85,7 +85,7 @@ contains
    pure real(wp) function own_speed(self) result(speed)
       class(planar_system_t), intent(in) :: self   !! the system
 
-      speed = self%pace*self%length_scale
+      speed = self%linkage%scales%pace*self%linkage%scales%length
    end function own_speed
 
    !> Whether any contact sticks.
@@ -113,7 +113,7 @@ contains
       speed = own_speed(self)
       associate (set => self%clearances(slot)%set)
          before = set%grip%slip(k)
-         call set%gaps(self%motion, delta, rate)
+         call set%gaps(self%linkage%motion, delta, rate)
          if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%first_contact + k))) then
             set%grip%band(k) = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
          else
@@ -121,7 +121,7 @@ contains
          end if
          set%grip%since(k) = t
          if (before == is_undecided) then
-            call set%lie(k, self%motion, set%grip%tangent(k))
+            call set%lie(k, self%linkage%motion, set%grip%tangent(k))
             if (abs(set%grip%tangent(k)%v) > at_rest*speed) then
                set%grip%slip(k) = nint(sign(1.0_wp, set%grip%tangent(k)%v))
                return
@@ -163,8 +163,8 @@ contains
          v = now
          if (abs(now) < 0.5_wp*still) then
             self%grips%y = y + later*self%grips%ydot
-            call self%set_motion(t + later, self%grips%y)
-            call set%lie(k, self%motion, set%grip%tangent(k))
+            call self%linkage%set_motion(t + later, self%grips%y)
+            call set%lie(k, self%linkage%motion, set%grip%tangent(k))
             v = set%grip%tangent(k)%v
             call self%evaluate(t, y, self%grips%ydot, status)
          end if
@@ -185,7 +185,7 @@ contains
 
       associate (set => self%clearances(slot)%set)
          item = set%item_of(k)
-         compliance = sum(self%inverse_mass(1, set%body(:, item)))*set%grip%tangent(k)%f_n
+         compliance = sum(self%linkage%inverse_mass(1, set%body(:, item)))*set%grip%tangent(k)%f_n
       end associate
       time = 0.0_wp
       if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)

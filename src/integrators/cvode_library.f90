@@ -307,10 +307,11 @@ contains
       rate => fn_vgetarraypointer(ydot)
       is_new = 1_c_int
       m = problem%newton%m
+      allocate (lambda(m), source=0.0_wp)
       associate (system => problem%system)
          select type (system)
          class is (dae_system_t)
-            lambda = system%lambda(:m)
+            call system%multipliers(lambda)
          end select
       end associate
       call problem%fill_newton(t, 1.0_wp/gamma, state, rate, lambda, 0.0_wp*lambda, outcome)

@@ -18,12 +18,12 @@ module dae_system
    !> A constrained system.
    type, abstract, extends(ode_system_t) :: dae_system_t
       integer :: n_row = 0                     !! number of constraint rows, m
-      real(wp), allocatable :: lambda(:)       !! (m or more) multipliers of the last evaluation [N or N.m]
       logical :: is_large = .false.            !! so large that implicit methods keep its matrices sparse
    contains
       procedure(residual_interface), deferred :: dae_residual
       procedure(pattern_interface), deferred :: dae_pattern
       procedure(spread_interface), deferred :: dae_spread
+      procedure(multipliers_interface), deferred :: multipliers
    end type dae_system_t
 
    abstract interface
@@ -61,6 +61,14 @@ module dae_system
          class(dae_system_t), intent(in) :: self   !! the system
          real(wp), intent(out) :: values(:)        !! (entries of those columns) in the order of the pattern [any]
       end subroutine spread_interface
+
+      !> Multipliers of the last evaluation.
+      subroutine multipliers_interface(self, lambda)
+         import :: dae_system_t, wp
+         implicit none (type, external)
+         class(dae_system_t), intent(in) :: self   !! the system
+         real(wp), intent(out) :: lambda(:)        !! (m) multipliers [N or N.m]
+      end subroutine multipliers_interface
    end interface
 
 end module dae_system

@@ -114,7 +114,7 @@ contains
          select type (system)
          class is (dae_system_t)
             m = system%n_row
-            u(n + 1:n + m) = system%lambda(:m)
+            call system%multipliers(u(n + 1:n + m))
          end select
       end associate
    end subroutine set_start

@@ -111,7 +111,7 @@ contains
       character(*), intent(in) :: what                    !! which scene
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
-      real(wp) :: lambda(system%rows%n_solve), reference(system%n), tolerance(2), ydot(system%n)
+      real(wp) :: lambda(system%linkage%rows%n_solve), reference(system%n), tolerance(2), ydot(system%n)
       integer :: k, n, status
 
       if (allocated(error)) return
@@ -120,23 +120,24 @@ contains
       reference = 0.0_wp
       call system%evaluate(t, y, reference, status)
       call check_equal(error, status, 0, what//", reference")
-      lambda = system%lambda(:system%rows%n_solve)
+      lambda = system%linkage%solution%lambda(:system%linkage%rows%n_solve)
       do k = 1, n_solver_kinds
-         call new_solver(k, system%solver)
-         call system%solver%prepare(system%n_body, system%rows)
+         call new_solver(k, system%linkage%solution%solver)
+         call system%linkage%solution%solver%prepare(system%linkage%bodies%n, system%linkage%rows)
          ydot = 0.0_wp
          call system%evaluate(t, y, ydot, status)
-         call check_equal(error, status, 0, what//" by "//system%solver%name())
-         call check_equal(error, int(system%n_damped), 0, what//": damped solutions by "//system%solver%name())
-         call check_equations(system, what//" by "//system%solver%name(), error)
+         call check_equal(error, status, 0, what//" by "//system%linkage%solution%solver%name())
+         call check_equal(error, int(system%linkage%solution%n_damped), 0, &
+                          what//": damped solutions by "//system%linkage%solution%solver%name())
+         call check_equations(system, what//" by "//system%linkage%solution%solver%name(), error)
          ! penalties cost digits
          tolerance = [1.0e-10_wp, 1.0e-10_wp]
-         if (system%solver%name() == "augmented_lagrangian") tolerance = [1.0e-9_wp, 1.0e-8_wp]
+         if (system%linkage%solution%solver%name() == "augmented_lagrangian") tolerance = [1.0e-9_wp, 1.0e-8_wp]
          call check_close(error, ydot(n + 1:2*n), reference(n + 1:2*n), tolerance(1), what//": accelerations by "// &
-                          system%solver%name(), relative=.true.)
+                          system%linkage%solution%solver%name(), relative=.true.)
          if (size(lambda) == 0) cycle
-         call check_close(error, system%lambda(:size(lambda)), lambda, tolerance(2), what//": multipliers by "// &
-                          system%solver%name(), relative=.true.)
+         call check_close(error, system%linkage%solution%lambda(:size(lambda)), lambda, tolerance(2), what//": multipliers by "// &
+                          system%linkage%solution%solver%name(), relative=.true.)
       end do
    end subroutine check_solvers
 
@@ -148,10 +149,10 @@ contains
       integer :: k
 
       do k = 1, n_solver_kinds
-         call new_solver(k, system%solver)
-         if (system%solver%name() == name) exit
+         call new_solver(k, system%linkage%solution%solver)
+         if (system%linkage%solution%solver%name() == name) exit
       end do
-      call system%solver%prepare(system%n_body, system%rows)
+      call system%linkage%solution%solver%prepare(system%linkage%bodies%n, system%linkage%rows)
    end subroutine use_solver
 
    !> M a + Phi_q^T lambda = g of the unknown bodies, Phi_q a = b of the solved rows, in parts of the greatest terms and of
@@ -161,34 +162,35 @@ contains
       character(*), intent(in) :: what                    !! scene and solver
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
-      real(wp) :: bodies(3, 0:system%n_body), greatest(2), row_left
+      real(wp) :: bodies(3, 0:system%linkage%bodies%n), greatest(2), row_left
       integer :: body, row, side
 
       if (allocated(error)) return
       bodies(:, 0) = 0.0_wp
-      do body = 1, system%n_body
-         bodies(:, body) = system%mass(:, body)*system%a(:, body) - system%g(:, body)
+      do body = 1, system%linkage%bodies%n
+         bodies(:, body) = system%linkage%mass(:, body)*system%linkage%solution%a(:, body) - system%loading%g(:, body)
       end do
-      greatest = [maxval(abs(system%g)), max(maxval(abs(system%b)), maxval(abs(system%g*system%inverse_mass)))]
-      do row = 1, system%rows%n_solve
-         row_left = -system%b(row)
+      greatest = [maxval(abs(system%loading%g)), max(maxval(abs(system%linkage%solution%b)), &
+                                                     maxval(abs(system%loading%g*system%linkage%inverse_mass)))]
+      do row = 1, system%linkage%rows%n_solve
+         row_left = -system%linkage%solution%b(row)
          do side = 1, 2
-            body = system%rows%body(side, row)
+            body = system%linkage%rows%body(side, row)
             if (body == 0) cycle
-            associate (jac => system%rows%jac(3*side - 2:3*side, row))
-               bodies(:, body) = bodies(:, body) + jac*system%lambda(row)
-               greatest(1) = max(greatest(1), maxval(abs(jac*system%lambda(row))))
-               if (.not. any(system%rows%unknown == body)) cycle
-               row_left = row_left + dot_product(jac, system%a(:, body))
-               greatest(2) = max(greatest(2), maxval(abs(jac*system%a(:, body))))
+            associate (jac => system%linkage%rows%jac(3*side - 2:3*side, row))
+               bodies(:, body) = bodies(:, body) + jac*system%linkage%solution%lambda(row)
+               greatest(1) = max(greatest(1), maxval(abs(jac*system%linkage%solution%lambda(row))))
+               if (.not. any(system%linkage%rows%unknown == body)) cycle
+               row_left = row_left + dot_product(jac, system%linkage%solution%a(:, body))
+               greatest(2) = max(greatest(2), maxval(abs(jac*system%linkage%solution%a(:, body))))
             end associate
          end do
-         call check_close(error, row_left, 0.0_wp, 1.0e-10_wp*greatest(2), what//": row of "//system%row_name(row))
+         call check_close(error, row_left, 0.0_wp, 1.0e-10_wp*greatest(2), what//": row of "//system%linkage%row_name(row))
       end do
-      do body = 1, system%n_body
-         if (.not. any(system%rows%unknown == body)) cycle
+      do body = 1, system%linkage%bodies%n
+         if (.not. any(system%linkage%rows%unknown == body)) cycle
          call check_close(error, bodies(:, body), spread(0.0_wp, 1, 3), 1.0e-10_wp*greatest(1), what//": motion of "// &
-                          system%bodies%names(body)%s)
+                          system%linkage%bodies%names(body)%s)
       end do
    end subroutine check_equations
 
@@ -208,7 +210,7 @@ contains
       n = system%n_position
       do k = 1, 10
          y = start
-         y(1:n) = y(1:n) + random%vector(n, -1.0e-3_wp, 1.0e-3_wp)*system%length_scale
+         y(1:n) = y(1:n) + random%vector(n, -1.0e-3_wp, 1.0e-3_wp)*system%linkage%scales%length
          y(n + 1:2*n) = y(n + 1:2*n) + random%vector(n, -4.0_wp, 4.0_wp)
          call check_solvers(system, 0.0_wp, y, what, error)
       end do
@@ -338,13 +340,13 @@ contains
       call start_text(replace(deck, "coordinates = full", "method = ida"), system, start, error)
       if (allocated(error)) return
       call use_solver(system, "schur")
-      select type (solver => system%solver)
+      select type (solver => system%linkage%solution%solver)
       type is (augmented_schur_t)
          call check_equal(error, solver%lone%n(1), 1, "lone bodies with one row")
          call check_equal(error, solver%lone%n(2), 1, "lone bodies with two")
          if (allocated(error)) return
-         call check_equal(error, system%bodies%names(solver%lone%body(1))%s, "one", "the first of them")
-         call check_equal(error, system%bodies%names(solver%lone%body(2))%s, "two", "the second")
+         call check_equal(error, system%linkage%bodies%names(solver%lone%body(1))%s, "one", "the first of them")
+         call check_equal(error, system%linkage%bodies%names(solver%lone%body(2))%s, "two", "the second")
          call check_equal(error, size(solver%unknown), 4, "the other unknown bodies")
       class default
          call check_true(error, .false., "the Schur complement is in use")
@@ -367,8 +369,8 @@ contains
       call start_text(redundant, system, y, error)
       if (.not. allocated(error)) call start_text(twin, unique, start, error)
       if (allocated(error)) return
-      call check_true(error, system%is_redundant, what//" is known to be redundant")
-      call check_true(error, .not. unique%is_redundant, "the twin of "//what//" is not")
+      call check_true(error, system%linkage%solution%is_redundant, what//" is known to be redundant")
+      call check_true(error, .not. unique%linkage%solution%is_redundant, "the twin of "//what//" is not")
       call check_close(error, start, y, 1.0e-10_wp, "start of the twin of "//what)
       n = system%n_position
       allocate (ydot(system%n), ydot_twin(unique%n), source=0.0_wp)
@@ -376,13 +378,13 @@ contains
       call unique%evaluate(0.0_wp, y, ydot_twin, status)
       call check_equal(error, status, 0, "twin of "//what)
       do k = 1, n_solver_kinds
-         call new_solver(k, system%solver)
-         call system%solver%prepare(system%n_body, system%rows)
+         call new_solver(k, system%linkage%solution%solver)
+         call system%linkage%solution%solver%prepare(system%linkage%bodies%n, system%linkage%rows)
          call system%evaluate(0.0_wp, y, ydot, status)
-         call check_equal(error, status, 0, what//" by "//system%solver%name())
+         call check_equal(error, status, 0, what//" by "//system%linkage%solution%solver%name())
          call check_close(error, ydot(n + 1:2*n), ydot_twin(n + 1:2*n), 1.0e-10_wp, what//": accelerations by "// &
-                          system%solver%name(), relative=.true.)
-         call check_equations(system, what//" by "//system%solver%name(), error)
+                          system%linkage%solution%solver%name(), relative=.true.)
+         call check_equations(system, what//" by "//system%linkage%solution%solver%name(), error)
       end do
    end subroutine check_twins
 
@@ -410,12 +412,13 @@ contains
          call start_text(deck//second, many, y, error)
          if (allocated(error)) return
          do k = 1, n_solver_kinds
-            call new_solver(k, many%solver)
-            call many%solver%prepare(many%n_body, many%rows)
+            call new_solver(k, many%linkage%solution%solver)
+            call many%linkage%solution%solver%prepare(many%linkage%bodies%n, many%linkage%rows)
             call many%evaluate(0.0_wp, start, ydot, status)
             do i = 1, copies
-               call check_close(error, many%lambda(2*i - 1:2*i), one%lambda/copies, 1.0e-7_wp, "share of pin "//to_text(i)// &
-                                " of "//to_text(copies)//" by "//many%solver%name(), relative=.true.)
+               call check_close(error, many%linkage%solution%lambda(2*i - 1:2*i), one%linkage%solution%lambda/copies, &
+                                1.0e-7_wp, "share of pin "//to_text(i)// &
+                                " of "//to_text(copies)//" by "//many%linkage%solution%solver%name(), relative=.true.)
             end do
          end do
       end do

@@ -80,8 +80,8 @@ contains
       if (allocated(error)) return
       call start_text(with_word(deck, words(2)), small, start, error)
       if (allocated(error)) return
-      call check_equal(error, full%known%n, 0, "known bodies, unknown")
-      call check_equal(error, small%known%n, n_known, "known bodies")
+      call check_equal(error, full%linkage%reduced%known%n, 0, "known bodies, unknown")
+      call check_equal(error, small%linkage%reduced%known%n, n_known, "known bodies")
    end subroutine both_systems
 
    !> State of all bodies from that of the unknown ones and the time.
@@ -93,11 +93,11 @@ contains
 
       integer :: k, n
 
-      n = small%n_body
-      call small%set_motion(t, y)
+      n = small%linkage%bodies%n
+      call small%linkage%set_motion(t, y)
       do k = 1, n
-         full(3*k - 2:3*k) = [small%motion%r(1:2, k), small%motion%angle(k)]
-         full(3*n + 3*k - 2:3*n + 3*k) = [small%motion%v(1:2, k), small%motion%omega(3, k)]
+         full(3*k - 2:3*k) = [small%linkage%motion%r(1:2, k), small%linkage%motion%angle(k)]
+         full(3*n + 3*k - 2:3*n + 3*k) = [small%linkage%motion%v(1:2, k), small%linkage%motion%omega(3, k)]
       end do
       full(6*n + 1:) = y(2*small%n_position + 1:)
    end subroutine complete_state
@@ -134,7 +134,7 @@ contains
             call compare(of_small%groups(other)%data, of_full%groups(k)%data, of_full%rooms(room)%name//" "//name)
          end associate
       end do
-      k = 6*full%n_body
+      k = 6*full%linkage%bodies%n
       call check_close(error, rate_small(2*small%n_position + 1:), rate_full(k + 1:), 1.0e-10_wp*maxval(abs(rate_full(k + 1:))), &
                        "powers at t = "//to_text(t))
 
@@ -212,7 +212,8 @@ contains
          call compare_at(full, small, 0.0_wp, y, error)
          if (allocated(error)) return
          call check_true(error, maxval(abs(small%losses)) > 0.0_wp, "the contact loses energy")
-         call check_true(error, abs(small%lambda(small%known%item(1)%row(3))) > 0.1_wp, "the driver carries it")
+         call check_true(error, abs(small%linkage%solution%lambda(small%linkage%reduced%known%item(1)%row(3))) > 0.1_wp, &
+                         "the driver carries it")
       end do
    end subroutine test_contact_on_a_known_body
 
@@ -252,10 +253,10 @@ contains
 
       call both_systems(deck, 1, full, small, start, error)
       if (allocated(error)) return
-      call check_equal(error, small%guided%n, 7, "guided bodies")
-      call check_equal(error, small%guided%n_turning, 3, "those that turn")
+      call check_equal(error, small%linkage%reduced%guided%n, 7, "guided bodies")
+      call check_equal(error, small%linkage%reduced%guided%n_turning, 3, "those that turn")
       call check_equal(error, small%n_position, 7, "coordinates")
-      call check_equal(error, small%rows%n_solve, 0, "rows that are solved")
+      call check_equal(error, small%linkage%rows%n_solve, 0, "rows that are solved")
       call compare_often(deck, 1, 1.0_wp, error)
    end subroutine test_guided
 
@@ -314,8 +315,8 @@ contains
          call start_text(deck, two, y, error)
          if (.not. allocated(error)) call start_text(with_word(without(deck, "spare"), "fewest"), one, start, error)
          if (allocated(error)) return
-         call check_equal(error, two%known%n, 0, "known bodies with two drivers")
-         call check_equal(error, one%known%n, 1, "known bodies with one driver")
+         call check_equal(error, two%linkage%reduced%known%n, 0, "known bodies with two drivers")
+         call check_equal(error, one%linkage%reduced%known%n, 1, "known bodies with one driver")
          if (allocated(error)) return
          allocate (ydot_one(one%n), ydot_two(two%n), a(6), source=0.0_wp)
          call one%evaluate(0.3_wp, start, ydot_one, status)
@@ -323,11 +324,13 @@ contains
          call complete_state(one, 0.3_wp, start, y)
          call two%evaluate(0.3_wp, y, ydot_two, status)
          call check_equal(error, status, 0, "status with two drivers, "//solver%name())
-         call one%set_state(0.3_wp, start, ydot_one)
-         a = [one%motion%a(1:2, 1), one%motion%alpha(3, 1), one%motion%a(1:2, 2), one%motion%alpha(3, 2)]
+         call one%linkage%set_state(0.3_wp, start, ydot_one)
+         a = [one%linkage%motion%a(1:2, 1), one%linkage%motion%alpha(3, 1), one%linkage%motion%a(1:2, 2), &
+             one%linkage%motion%alpha(3, 2)]
          call check_close(error, ydot_two(7:12), a, 1.0e-9_wp, "accelerations with two drivers, "//solver%name(), relative=.true.)
-         call one%find_reactions(0.3_wp)
-         associate (moment => one%lambda(one%known%item(1)%row(3)), shares => two%lambda(size(two%lambda) - 1:))
+         call one%linkage%find_reactions(0.3_wp, one%loading%g)
+         associate (moment => one%linkage%solution%lambda(one%linkage%reduced%known%item(1)%row(3)), &
+                    shares => two%linkage%solution%lambda(size(two%linkage%solution%lambda) - 1:))
             call check_close(error, shares, 0.5_wp*[moment, moment], 1.0e-6_wp, "halves of the moment, "//solver%name(), &
                              relative=.true.)
             call check_true(error, abs(moment) > 1.0_wp, "there is a moment")
@@ -376,7 +379,7 @@ contains
                              "[joint.revolute]"//nl//"name i j"//nl//"one base a"//nl//"two b c"//nl//"three d e"//nl// &
                              "[driver.angle]"//nl//"name joint angle"//nl//"lift one "//angle//nl//"bend two {0.2 rad*t/1s}"//nl// &
                              "[analysis.dynamic]"//nl//"end = 1 s", system, error)
-         if (.not. allocated(error)) call check_equal(error, system%known%n, expected, "known bodies with "//angle)
+         if (.not. allocated(error)) call check_equal(error, system%linkage%reduced%known%n, expected, "known bodies with "//angle)
       end subroutine check_known
 
    end subroutine test_smooth
@@ -393,9 +396,9 @@ contains
                           "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor main 5"//nl// &
                           "[analysis.dynamic]"//nl//"end = 1 s", system, error)
       if (allocated(error)) return
-      call check_equal(error, system%known%n, 0, "known bodies")
-      call check_equal(error, system%rows%n_unknown, 1, "unknown bodies")
-      call check_equal(error, system%rows%n_solve, 3, "rows that are solved")
+      call check_equal(error, system%linkage%reduced%known%n, 0, "known bodies")
+      call check_equal(error, system%linkage%rows%n_unknown, 1, "unknown bodies")
+      call check_equal(error, system%linkage%rows%n_solve, 3, "rows that are solved")
    end subroutine test_all_driven
 
    !> The scale of the rates counts the known bodies: 5000 rpm of the crank, at whatever rest of the others.

@@ -145,14 +145,16 @@ contains
       if (.not. allocated(error)) call load_file(dry_deck, original, error)
       if (allocated(error)) return
       associate (a => loaded%system, b => original%system)
-         call close_to("mass", a%bodies%mass, b%bodies%mass)
-         call close_to("inertia", a%bodies%inertia, b%bodies%inertia)
-         call close_to("places", [a%bodies%r(1, :), a%bodies%angle], [b%bodies%r(1, :), b%bodies%angle])
+         call close_to("mass", a%linkage%bodies%mass, b%linkage%bodies%mass)
+         call close_to("inertia", a%linkage%bodies%inertia, b%linkage%bodies%inertia)
+         call close_to("places", [a%linkage%bodies%r(1, :), a%linkage%bodies%angle], [b%linkage%bodies%r(1, :), &
+                       b%linkage%bodies%angle])
          call close_to("points", [loaded%scene%points%s], [original%scene%points%s])
          call close_to("clearance", a%clearances(1)%set%clearance, b%clearances(1)%set%clearance)
          call close_to("stiffness", a%clearances(1)%set%parameters(1, :), b%clearances(1)%set%parameters(1, :))
-         call close_to("gains", [a%alpha, a%beta], [b%alpha, b%beta])
-         call close_to("scale", [a%length_scale], [b%length_scale])
+         call close_to("gains", [a%linkage%solution%alpha, a%linkage%solution%beta], [b%linkage%solution%alpha, &
+                       b%linkage%solution%beta])
+         call close_to("scale", [a%linkage%scales%length], [b%linkage%scales%length])
       end associate
       call close_to("density", loaded%scene%materials%density, original%scene%materials%density)
       call close_to("end", [loaded%plan%end], [original%plan%end])
@@ -221,10 +223,11 @@ contains
       call load_text("deck = 1"//nl//bodies//points//joints//guide//motor//gudgeon//analysis//"solver = lapack"//nl, &
                      loaded, error)
       if (allocated(error)) return
-      call check_equal(error, loaded%system%solver%name(), "lapack", "solver")
+      call check_equal(error, loaded%system%linkage%solution%solver%name(), "lapack", "solver")
       call check_impacts_of(error, loaded)
       call load_file(dry_deck, loaded, error)
-      if (.not. allocated(error)) call check_equal(error, loaded%system%solver%name(), "schur", "solver of the original")
+      if (.not. allocated(error)) call check_equal(error, loaded%system%linkage%solution%solver%name(), "schur", &
+                                                   "solver of the original")
    end subroutine test_solver
 
    !> Points i and j of joints exchanged, the driver with them; the journal stays that of the rod.

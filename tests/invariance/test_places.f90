@@ -57,7 +57,7 @@ contains
       call load_text(bouncing(0.0_wp, 0.0_wp), here, error)
       if (.not. allocated(error)) call load_text(bouncing(x, y), there, error)
       if (allocated(error)) return
-      call check_close(error, there%system%length_scale, here%system%length_scale, 0.0_wp, "size of the bodies")
+      call check_close(error, there%system%linkage%scales%length, here%system%linkage%scales%length, 0.0_wp, "size of the bodies")
       if (.not. allocated(error)) call run_to_end(here, keeper_here, summary_here, error)
       if (.not. allocated(error)) call run_to_end(there, keeper_there, summary_there, error)
       if (allocated(error)) return

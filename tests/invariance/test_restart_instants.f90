@@ -115,7 +115,7 @@ contains
                      "tolerance = 1e-6"//nl//"[output]"//nl//"every = 0.1 s"//nl, run%loaded, error)
       if (allocated(error)) return
       run%instants = run%loaded%plan%instants
-      call run%instants%begin(t_end, run%loaded%system%piece)
+      call run%instants%begin(t_end, run%loaded%system%linkage%piece)
       call run%loaded%method%start(run%loaded%system, 0.0_wp, run%loaded%y, t_end, status)
       call check_equal(error, status, 0, "start")
    end subroutine begin
@@ -140,7 +140,7 @@ contains
 
       integer :: status
 
-      call run%instants%pass(run%loaded%system%piece)
+      call run%instants%pass(run%loaded%system%linkage%piece)
       run%n_passed = run%n_passed + 1
       call run%loaded%method%restart(run%loaded%system, 0.0_wp, status)
       call check_equal(error, status, 0, "restart")
@@ -176,7 +176,7 @@ contains
       place = 0
       call run%loaded%method%load(row, place)
       call run%loaded%system%load(row, place)
-      do while (run%instants%next%at < run%loaded%system%piece%end)
+      do while (run%instants%next%at < run%loaded%system%linkage%piece%end)
          call run%instants%pass(piece)
       end do
    end subroutine load_run

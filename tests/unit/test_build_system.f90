@@ -76,8 +76,8 @@ contains
       call check_true(error, .not. allocated(system%clearances(1)%set%friction), "no friction in the first set")
       call check_true(error, allocated(system%clearances(3)%set%friction), "friction in the third")
       call check_equal(error, system%clearances(2)%set%law%name, "damped", "law of the second")
-      call check_equal(error, system%rows%n, 2, "rows of the ideal one")
-      call check_equal(error, system%row_name(2), "loose_4", "name of its rows")
+      call check_equal(error, system%linkage%rows%n, 2, "rows of the ideal one")
+      call check_equal(error, system%linkage%row_name(2), "loose_4", "name of its rows")
    end subroutine test_sets_share_laws
 
    !> The twin without clearance has a revolute joint for each, and no events.
@@ -92,11 +92,11 @@ contains
       call new_system(scene, levels_ideal, twin)
       call check_equal(error, twin%n_loose, 0, "loose joints")
       call check_equal(error, twin%n_event, 0, "event functions")
-      call check_equal(error, twin%rows%n, 9, "rows")
-      call check_equal(error, twin%row_name(9), "gudgeon", "name of the last row")
+      call check_equal(error, twin%linkage%rows%n, 9, "rows")
+      call check_equal(error, twin%linkage%row_name(9), "gudgeon", "name of the last row")
       call new_system(scene, levels_as_written, twin)
       call check_equal(error, twin%n_loose, 1, "loose joints as the deck has them")
-      call check_equal(error, twin%rows%n, 7, "rows as the deck has them")
+      call check_equal(error, twin%linkage%rows%n, 7, "rows as the deck has them")
    end subroutine test_ideal_twin
 
    !> From the materials of hole and pin, or as the law gives it.
@@ -143,14 +143,14 @@ contains
       if (allocated(error)) return
       do k = 1, 5
          n = 0
-         do row = 1, system%rows%n
-            if (system%row_name(row) == names(k)) n = n + 1
+         do row = 1, system%linkage%rows%n
+            if (system%linkage%row_name(row) == names(k)) n = n + 1
          end do
          call check_equal(error, n, n_row(k), "rows of "//names(k))
       end do
-      call check_equal(error, system%row_name(8), "gudgeon", "last row but one")
-      call check_equal(error, system%row_name(9), "gudgeon", "last row")
-      call check_equal(error, system%row_name(10), "?", "no row")
+      call check_equal(error, system%linkage%row_name(8), "gudgeon", "last row but one")
+      call check_equal(error, system%linkage%row_name(9), "gudgeon", "last row")
+      call check_equal(error, system%linkage%row_name(10), "?", "no row")
    end subroutine test_names_of_rows
 
    !> Channels of each contact are its own, whatever set it is in; elastic energies add up.

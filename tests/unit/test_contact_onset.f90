@@ -116,9 +116,9 @@ contains
             call method%advance(system, loaded%plan%end, status)
          end do
          call check_equal(error, status, advance_event, "an onset")
-         associate (n => system%rows%n_solve)
-            call check_close(error, system%rows%phi(:n), spread(0.0_wp, 1, n), 1.0e-15_wp, "on the constraints")
-            call check_close(error, system%phi_dot(:n), spread(0.0_wp, 1, n), 1.0e-13_wp, "and moving along them")
+         associate (n => system%linkage%rows%n_solve)
+            call check_close(error, system%linkage%rows%phi(:n), spread(0.0_wp, 1, n), 1.0e-15_wp, "on the constraints")
+            call check_close(error, system%linkage%solution%phi_dot(:n), spread(0.0_wp, 1, n), 1.0e-13_wp, "and moving along them")
          end associate
       end associate
    end subroutine test_mended

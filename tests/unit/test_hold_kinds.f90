@@ -76,7 +76,7 @@ contains
       call start_text(rotor//"stabilise = augmented_lagrangian penalty=1e7", system, y, error)
       if (allocated(error)) return
       call system%set_step(1.0_wp)
-      select type (solver => system%solver)
+      select type (solver => system%linkage%solution%solver)
       type is (augmented_lagrangian_t)
          call check_close(error, solver%penalty, 1.0e7_wp, 0.0_wp, "penalty of the solver")
       class default
@@ -98,7 +98,8 @@ contains
          call start_text(rotor//"stabilise = "//setting, held, start, error)
          if (allocated(error)) return
          call held%set_step(0.015625_wp)
-         call check_close(error, [held%alpha, held%beta], [alpha, beta], 1.0e-13_wp, "gains of "//setting, relative=.true.)
+         call check_close(error, [held%linkage%solution%alpha, held%linkage%solution%beta], [alpha, beta], 1.0e-13_wp, &
+                          "gains of "//setting, relative=.true.)
       end subroutine check_gains
 
    end subroutine test_gains
@@ -320,10 +321,11 @@ contains
          do while (method%t < 3.0_wp .and. .not. allocated(error))
             call method%advance(system, 3.0_wp, status)
             call check_true(error, status >= 0, "a step is made")
-            greatest = max(greatest, system%alpha*method%step%h)
-            call check_close(error, system%beta, system%alpha, 0.0_wp, "critical damping")
-            call check_true(error, system%alpha >= 0.1_wp*kick, "the gain is at least a tenth of the crank's rate at first")
-            if (method%t > 1.0_wp) worst = max(worst, maxval(system%row_weight*abs(system%rows%phi)))
+            greatest = max(greatest, system%linkage%solution%alpha*method%step%h)
+            call check_close(error, system%linkage%solution%beta, system%linkage%solution%alpha, 0.0_wp, "critical damping")
+            call check_true(error, system%linkage%solution%alpha >= 0.1_wp*kick, &
+                            "the gain is at least a tenth of the crank's rate at first")
+            if (method%t > 1.0_wp) worst = max(worst, maxval(system%linkage%solution%row_weight*abs(system%linkage%rows%phi)))
          end do
          call check_true(error, greatest <= 0.3_wp*(1.0_wp + 1.0e-12_wp), "gain times step "//to_text(greatest))
          call check_true(error, greatest > 0.25_wp, "the bound is reached")
@@ -378,7 +380,7 @@ contains
                if (any(before /= way%order)) n_change = n_change + 1
                before = way%order
             end select
-            worst = max(worst, maxval(system%row_weight*abs(system%rows%phi)))
+            worst = max(worst, maxval(system%linkage%solution%row_weight*abs(system%linkage%rows%phi)))
          end do
          call check_true(error, n_change >= 1, "coordinates are sorted anew, "//to_text(n_change)//" times")
          call check_true(error, worst < 1.0e-12_wp, "violation "//to_text(worst))

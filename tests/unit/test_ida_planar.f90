@@ -40,7 +40,7 @@ contains
       allocate (ydot(system%n), r_y(system%n), source=0.0_wp)
       allocate (r_lambda(system%n_row), r_mu(system%n_row), zero(system%n_row), source=0.0_wp)
       call system%evaluate(0.0_wp, y, ydot, status)
-      lambda = system%lambda(:system%n_row)
+      lambda = system%linkage%solution%lambda(:system%n_row)
       call system%dae_residual(0.0_wp, y, ydot, lambda, zero, r_y, r_lambda, r_mu, status)
       call check_equal(error, status, 0, "status")
       call check_true(error, maxval(abs(lambda)) > 1.0_wp, "there are constraint forces")
@@ -79,7 +79,7 @@ contains
          call check_close(error, other(1:nq), moved(nq + 1:2*nq), 1.0e-9_wp, "the same directions", relative=.true.)
          call check_close(error, other(nq + 1:2*nq), zero(1)*other(1:nq), 0.0_wp, "mu does not act on velocities")
          ! M^{-1} J^T lambda: its scalar product with M times a motion is lambda times the rate of the row
-         power = dot_product(moved(nq + 1:2*nq), [system%mass(:, system%rows%unknown)]*y(nq + 1:2*nq))
+         power = dot_product(moved(nq + 1:2*nq), [system%linkage%mass(:, system%linkage%rows%unknown)]*y(nq + 1:2*nq))
          call check_close(error, power, 3.0_wp*(r_lambda(k) - at_rest(k)), 1.0e-9_wp, "virtual power")
       end do
    end subroutine test_multipliers
@@ -111,8 +111,8 @@ contains
          violation = 0.0_wp
          do while (method%t < t_end .and. status >= 0)
             call method%advance(system, t_end, status)
-            violation(1) = max(violation(1), maxval(abs(system%rows%phi)))
-            violation(2) = max(violation(2), maxval(abs(system%phi_dot)))
+            violation(1) = max(violation(1), maxval(abs(system%linkage%rows%phi)))
+            violation(2) = max(violation(2), maxval(abs(system%linkage%solution%phi_dot)))
          end do
          call check_equal(error, status, 0, "status")
          call check_true(error, violation(1) < method%controls%tolerance, "positions on their constraints")
@@ -122,7 +122,8 @@ contains
          rate = method%step%y1(6)
          errors(k) = max(abs(angle - exact(1)), abs(rate - frequency*exact(2)))
          ! reaction at the pivot: m a - m g, from the closed form
-         call check_close(error, norm2(system%lambda(:system%n_row)), norm2(reaction(exact(1), frequency*exact(2))), &
+         call check_close(error, norm2(system%linkage%solution%lambda(:system%n_row)), norm2(reaction(exact(1), &
+                          frequency*exact(2))), &
                           3.0e3_wp*method%controls%tolerance, "reaction", relative=.true.)
       end do
       call check_true(error, all(errors(2:) < errors(:2)/8.0_wp), "the error follows the tolerance")
@@ -193,8 +194,8 @@ contains
       violation = 0.0_wp
       do while (method%t < t_end .and. status >= 0)
          call method%advance(system, t_end, status)
-         violation(1) = max(violation(1), maxval(abs(system%rows%phi)))
-         violation(2) = max(violation(2), maxval(abs(system%phi_dot)))
+         violation(1) = max(violation(1), maxval(abs(system%linkage%rows%phi)))
+         violation(2) = max(violation(2), maxval(abs(system%linkage%solution%phi_dot)))
       end do
       call check_equal(error, status, 0, "status")
       call check_true(error, violation(1) < 1.0e-9_wp, "positions on their constraints")

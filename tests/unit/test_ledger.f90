@@ -34,11 +34,11 @@ contains
       integer :: k, q, v
 
       rate = 0.0_wp
-      do k = 1, system%n_body
+      do k = 1, system%linkage%bodies%n
          q = 3*k - 2
-         v = 3*system%n_body + q
-         rate = rate + system%bodies%mass(k)*dot_product(y(v:v + 1), ydot(v:v + 1) - system%gravity(1:2)) &
-                + system%bodies%inertia(k)*y(v + 2)*ydot(v + 2)
+         v = 3*system%linkage%bodies%n + q
+         rate = rate + system%linkage%bodies%mass(k)*dot_product(y(v:v + 1), ydot(v:v + 1) - system%loading%gravity(1:2)) &
+                + system%linkage%bodies%inertia(k)*y(v + 2)*ydot(v + 2)
       end do
    end function mechanical_rate
 
@@ -58,7 +58,7 @@ contains
       if (allocated(error)) return
       call system%evaluate(t, y, ydot, status)
       call check_equal(error, status, 0, what//": status")
-      n = 6*system%n_body
+      n = 6*system%linkage%bodies%n
       gained = mechanical_rate(system, y, ydot)
       scale = abs(gained)
       if (system%n_loose > 0) call system%events(t, y, delta, rate)
@@ -81,7 +81,7 @@ contains
       change = 1.0e-7_wp
       do k = 1, 4
          z = y + places(k)*change*ydot
-         call system%set_motion(0.0_wp, z)
+         call system%linkage%set_motion(0.0_wp, z)
          energy = energy_of(system, z)
          balance(k) = energy%balance()
       end do
@@ -213,7 +213,7 @@ contains
       y(5) = 2.0_wp
       y(13:15) = [3.0_wp, 4.0_wp, 10.0_wp]
       y(19:24) = [1.0_wp, 20.0_wp, 300.0_wp, 6.0e5_wp, 4000.0_wp, 50000.0_wp]
-      call system%set_motion(0.0_wp, y)
+      call system%linkage%set_motion(0.0_wp, y)
       energy = energy_of(system, y)
       call check_close(error, energy%kinetic, 0.5_wp*(0.21_wp*25.0_wp + 2.5e-4_wp*100.0_wp), 1.0e-14_wp, "kinetic")
       call check_close(error, energy%potential, 0.21_wp*9.81_wp*2.0_wp, 1.0e-14_wp, "potential")

@@ -39,8 +39,8 @@ contains
 
       call system_of_text(bar//joints, system, error)
       if (allocated(error)) return
-      call evaluate_rows(system, 0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp, 3.0_wp, 0.0_wp, 0.0_wp], [real(wp) :: 0, 0, 0, 0, 0, 0])
-      call find_mobility(system, mobility)
+      call evaluate_rows(system%linkage, 0.0_wp, [0.0_wp, 0.0_wp, 0.0_wp, 3.0_wp, 0.0_wp, 0.0_wp], [real(wp) :: 0, 0, 0, 0, 0, 0])
+      call find_mobility(system%linkage, mobility)
    end subroutine look
 
    !> Two bodies without joints have six freedoms.
@@ -69,7 +69,7 @@ contains
       if (allocated(error)) return
       call check_equal(error, mobility%rank, 5, "rank")
       call check_equal(error, mobility%n_left, 1, "freedoms left")
-      call check_true(error, moving_bodies(system, mobility%freedom) == "'puck'", "the puck can turn, the bar cannot")
+      call check_true(error, moving_bodies(system%linkage, mobility%freedom) == "'puck'", "the puck can turn, the bar cannot")
    end subroutine test_three_pins_on_a_line
 
    !> The same pin twice.
@@ -97,7 +97,7 @@ contains
       if (allocated(error)) return
       call check_equal(error, mobility%rank, 5, "rank")
       call check_equal(error, mobility%n_left, 1, "freedoms left")
-      call check_true(error, moving_bodies(system, mobility%freedom) == "'bar'", "the bar can slide")
+      call check_true(error, moving_bodies(system%linkage, mobility%freedom) == "'bar'", "the bar can slide")
    end subroutine test_parallel_guides
 
    !> Drivers against freedoms: the second on one joint is in excess, and the puck's freedom is left.
@@ -114,8 +114,8 @@ contains
       call check_equal(error, mobility%n_freedom, 2, "freedoms")
       call check_equal(error, mobility%n_driver, 2, "drivers")
       call check_equal(error, mobility%n_left, 1, "freedoms left")
-      call check_true(error, joint_names(system, mobility%is_excess) == "'two'", "the driver in excess")
-      call check_true(error, moving_bodies(system, mobility%freedom) == "'puck'", "the puck can turn")
+      call check_true(error, joint_names(system%linkage, mobility%is_excess) == "'two'", "the driver in excess")
+      call check_true(error, moving_bodies(system%linkage, mobility%freedom) == "'puck'", "the puck can turn")
       call look(pins//"two d 1"//nl, system, mobility, error)
       if (allocated(error)) return
       call check_equal(error, mobility%n_left, 0, "freedoms left with a driver for each")

@@ -94,7 +94,7 @@ contains
       call start_text(replace(slider_crank("", "damped", "none", "clearance"), "[joint.revolute]", &
                               "wall ground 900 700"//nl//"[joint.revolute]"), system, y, error)
       if (allocated(error)) return
-      call check_close(error, system%length_scale, 0.06_wp, 1.0e-15_wp, "size of the bodies")
+      call check_close(error, system%linkage%scales%length, 0.06_wp, 1.0e-15_wp, "size of the bodies")
       allocate (scale(system%n), scale_turned(system%n), source=0.0_wp)
       call system%weights(y, scale)
       do k = 1, 3
@@ -106,9 +106,9 @@ contains
       call system%weights(y, scale_turned)
       call check_close(error, scale_turned(1:18), scale(1:18), 0.0_wp, "after many turns")
       ! at rest: a hundredth of the greatest rate so far, which the crank had
-      system%pace = 0.0_wp
+      system%linkage%scales%pace = 0.0_wp
       call system%follow_pace(y)
-      call check_close(error, system%pace, 5000.0_wp/60.0_wp*two_pi, 1.0e-9_wp, "pace of the crank")
+      call check_close(error, system%linkage%scales%pace, 5000.0_wp/60.0_wp*two_pi, 1.0e-9_wp, "pace of the crank")
       y(10:18) = 0.0_wp
       call system%follow_pace(y)
       call system%weights(y, scale)
@@ -133,10 +133,11 @@ contains
                              "[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"stone 2 0.05 "//place//nl// &
                              "[analysis.dynamic]"//nl//"end = 1 s", stone, error)
          if (allocated(error)) return
-         call check_close(error, stone%length_scale, expected, 0.0_wp, "size at "//place)
+         call check_close(error, stone%linkage%scales%length, expected, 0.0_wp, "size at "//place)
          ! from rest it moves its size in sqrt(size/g), a stone without weight never does
          call stone%begin_pace(0.0_wp, [(0.0_wp, k=1, stone%n)], 1.0_wp)
-         call check_close(error, stone%pace, merge(sqrt(9.81_wp/expected), idle_part, falls), 1.0e-14_wp, "pace at "//place, &
+         call check_close(error, stone%linkage%scales%pace, merge(sqrt(9.81_wp/expected), idle_part, falls), 1.0e-14_wp, &
+                          "pace at "//place, &
                           relative=.true.)
       end subroutine check_size
 

@@ -2,7 +2,7 @@
 module test_prescribed_motion
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use inverse_dynamics, only: find_loads, find_reactions
+   use inverse_dynamics, only: find_reactions
    use kinds, only: wp
    use planar_system, only: planar_system_t
    use prescribed_motion, only: newton_t, open_rows, singular, solve_positions, solve_rates, solved
@@ -61,13 +61,13 @@ contains
             t = 0.05_wp*n + k*h
             q(:, k) = start
             if (n > 0 .or. k > -1) q(:, k) = q(:, max(k - 1, -1))
-            call solve_positions(system, t, newton, q(:, k), outcome)
+            call solve_positions(system%linkage, t, newton, q(:, k), outcome)
             call check_equal(error, outcome, solved, "outcome of positions")
-            call solve_rates(system, t, newton, q(:, k), v(:, k), a(:, k), outcome)
+            call solve_rates(system%linkage, t, newton, q(:, k), v(:, k), a(:, k), outcome)
             call check_equal(error, outcome, solved, "outcome of rates")
          end do
-         call check_close(error, maxval(abs(system%rows%phi)), 0.0_wp, 1.0e-15_wp, "violation")
-         call check_close(error, maxval(abs(system%phi_dot)), 0.0_wp, 1.0e-13_wp, "rate of the violation")
+         call check_close(error, maxval(abs(system%linkage%rows%phi)), 0.0_wp, 1.0e-15_wp, "violation")
+         call check_close(error, maxval(abs(system%linkage%solution%phi_dot)), 0.0_wp, 1.0e-13_wp, "rate of the violation")
          call check_close(error, (q(:, 1) - q(:, -1))/(2.0_wp*h), v(:, 0), 1.0e-3_wp, "velocities by differences")
          call check_close(error, (v(:, 1) - v(:, -1))/(2.0_wp*h), a(:, 0), 2.0e-2_wp, "accelerations by differences")
          q(:, -1) = q(:, 1)
@@ -88,7 +88,7 @@ contains
                           "extra main {1rad}"//nl, system, error)
       if (allocated(error)) return
       q = start
-      call solve_positions(system, 0.0_wp, newton, q, outcome)
+      call solve_positions(system%linkage, 0.0_wp, newton, q, outcome)
       call check_equal(error, outcome, open_rows, "outcome")
    end subroutine test_out_of_reach
 
@@ -104,9 +104,9 @@ contains
       call system_of_text(crank, system, error)
       if (allocated(error)) return
       q = start + 0.001_wp
-      call solve_positions(system, 0.0_wp, newton, q, outcome)
+      call solve_positions(system%linkage, 0.0_wp, newton, q, outcome)
       call check_equal(error, outcome, singular, "outcome")
-      call check_close(error, maxval(abs(system%rows%phi)), 0.0_wp, 1.0e-15_wp, "violation")
+      call check_close(error, maxval(abs(system%linkage%rows%phi)), 0.0_wp, 1.0e-15_wp, "violation")
    end subroutine test_without_driver
 
    !> Crank at a right angle and at rest: the motor bears the crank's weight and half of the rod's.
@@ -122,9 +122,9 @@ contains
       if (allocated(error)) return
       q = start
       rest = 0.0_wp
-      call solve_positions(system, 0.0_wp, newton, q, outcome)
-      call find_loads(system, 0.0_wp)
-      call find_reactions(system, rest, unbalanced)
+      call solve_positions(system%linkage, 0.0_wp, newton, q, outcome)
+      call system%evaluate_loads(0.0_wp)
+      call find_reactions(system%linkage, system%loading%g, rest, unbalanced)
       call check_close(error, unbalanced, 0.0_wp, 1.0e-15_wp, "what the joints do not take")
       ! lever arms of the weights: 25 mm of the crank; of the rod half its weight at the throw, 50 mm
       call check_close(error, motor_moment(system), 9.81_wp*(0.30_wp*0.025_wp + 0.5_wp*0.21_wp*0.050_wp), 1.0e-15_wp, "moment")
@@ -137,9 +137,9 @@ contains
       integer :: k
 
       moment = 0.0_wp
-      do k = 1, size(system%joints)
-         associate (set => system%joints(k)%set)
-            if (set%is_driver) moment = -system%lambda(set%first_row + 1)
+      do k = 1, size(system%linkage%joints)
+         associate (set => system%linkage%joints(k)%set)
+            if (set%is_driver) moment = -system%linkage%solution%lambda(set%first_row + 1)
          end associate
       end do
    end function motor_moment
@@ -159,13 +159,13 @@ contains
       if (allocated(error)) return
       a = 0.0_wp
       call set_level(system)
-      call find_reactions(system, a, unbalanced)
+      call find_reactions(system%linkage, system%loading%g, a, unbalanced)
       ! the size of the body is 0.4 m, so the free motion, scaled, is (0, 1, 1)/sqrt(2)
       call check_close(error, unbalanced, 2.0_wp*9.81_wp*0.4_wp/sqrt(2.0_wp), 1.0e-14_wp, "load out of balance")
       ! falling freely: angular acceleration -m g l / (I + m l^2)
       a(3) = -2.0_wp*9.81_wp*0.4_wp/(0.1_wp + 2.0_wp*0.4_wp**2)
       a(2) = 0.4_wp*a(3)
-      call find_reactions(system, a, unbalanced)
+      call find_reactions(system%linkage, system%loading%g, a, unbalanced)
       call check_close(error, unbalanced, 0.0_wp, 1.0e-14_wp, "load out of balance when falling")
    end subroutine test_unbalanced
 
@@ -178,8 +178,8 @@ contains
       integer :: outcome
 
       q = [0.4_wp, 0.0_wp, 0.0_wp]
-      call solve_positions(system, 0.0_wp, newton, q, outcome)
-      call find_loads(system, 0.0_wp)
+      call solve_positions(system%linkage, 0.0_wp, newton, q, outcome)
+      call system%evaluate_loads(0.0_wp)
    end subroutine set_level
 
 end module test_prescribed_motion

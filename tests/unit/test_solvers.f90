@@ -37,7 +37,7 @@ contains
       do k = 1, 3
          call system_of_text(slider_crank("solver = "//words(k), "hertz", "none", "ideal"), system, error)
          if (allocated(error)) return
-         call check_equal(error, system%solver%name(), trim(chosen(k)), "solver for "//words(k))
+         call check_equal(error, system%linkage%solution%solver%name(), trim(chosen(k)), "solver for "//words(k))
       end do
    end subroutine test_names
 
@@ -79,11 +79,12 @@ contains
             call full%evaluate(0.0_wp, y, ydot_full, status(2))
             call check_true(error, all(status == 0), "both solve")
             call check_close(error, ydot(10:18), ydot_full(10:18), 1.0e-12_wp, "accelerations, "//levels(level), relative=.true.)
-            call check_close(error, schur%lambda, full%lambda, 1.0e-12_wp, "multipliers, "//levels(level), relative=.true.)
+            call check_close(error, schur%linkage%solution%lambda, full%linkage%solution%lambda, 1.0e-12_wp, &
+                             "multipliers, "//levels(level), relative=.true.)
             call check_close(error, ydot(19:), ydot_full(19:), 1.0e-11_wp, "powers, "//levels(level), relative=.true.)
          end do
-         call check_equal(error, int(schur%solver%n_factorisations), 20, "factorisations counted, schur")
-         call check_equal(error, int(full%solver%n_factorisations), 20, "factorisations counted, lapack")
+         call check_equal(error, int(schur%linkage%solution%solver%n_factorisations), 20, "factorisations counted, schur")
+         call check_equal(error, int(full%linkage%solution%solver%n_factorisations), 20, "factorisations counted, lapack")
       end do
    end subroutine test_equal_results
 
@@ -112,23 +113,24 @@ contains
             mass(3, :) = [1.0e-4_wp, 2.5e-4_wp, 1.0e-4_wp]
             left = mass*a
             left(2, :) = left(2, :) + 9.81_wp*mass(1, :)
-            do row = 1, system%rows%n
+            do row = 1, system%linkage%rows%n
                row_left = 0.0_wp
-               right = system%rows%phi_t(row)
+               right = system%linkage%rows%phi_t(row)
                do side = 1, 2
-                  body = system%rows%body(side, row)
+                  body = system%linkage%rows%body(side, row)
                   if (body == 0) cycle
-                  associate (jac => system%rows%jac(3*side - 2:3*side, row))
-                     left(:, body) = left(:, body) + jac*system%lambda(row)
+                  associate (jac => system%linkage%rows%jac(3*side - 2:3*side, row))
+                     left(:, body) = left(:, body) + jac*system%linkage%solution%lambda(row)
                      row_left = row_left + dot_product(jac, a(:, body))
                      right = right + dot_product(jac, v(:, body))
                   end associate
                end do
                ! Baumgarte's default gains are 5 per second
-               right = system%rows%gam(row) - 10.0_wp*right - 25.0_wp*system%rows%phi(row)
-               call check_close(error, row_left, right, 1.0e-12_wp*maxval(abs(a)), "row of "//system%row_name(row))
+               right = system%linkage%rows%gam(row) - 10.0_wp*right - 25.0_wp*system%linkage%rows%phi(row)
+               call check_close(error, row_left, right, 1.0e-12_wp*maxval(abs(a)), "row of "//system%linkage%row_name(row))
             end do
-            call check_close(error, reshape(left, [9]), spread(0.0_wp, 1, 9), 1.0e-12_wp*maxval(abs(system%lambda)), &
+            call check_close(error, reshape(left, [9]), spread(0.0_wp, 1, 9), &
+                             1.0e-12_wp*maxval(abs(system%linkage%solution%lambda)), &
                              "equations of motion, "//words(solver))
          end associate
       end do
@@ -151,7 +153,8 @@ contains
             y(3) = 0.3_wp*k
             call system%evaluate(0.0_wp, y, ydot, status)
             call check_equal(error, status, 1, "status of "//trim(solvers(solver)))
-            call check_true(error, system%bad_row > 0 .and. system%bad_row <= 4, "a row is named by "//trim(solvers(solver)))
+            call check_true(error, system%linkage%solution%bad_row > 0 .and. system%linkage%solution%bad_row <= 4, &
+                            "a row is named by "//trim(solvers(solver)))
          end do
          deallocate (y, ydot)
       end do
@@ -169,7 +172,7 @@ contains
       do solver = 1, size(solvers)
          call start_text(two_pins(trim(solvers(solver))), system, y, error)
          if (allocated(error)) return
-         call check_true(error, system%is_redundant, "known to be redundant")
+         call check_true(error, system%linkage%solution%is_redundant, "known to be redundant")
          ydot = y
          call check_close(error, channel_pair(system, 0.0_wp, y, "bob", "acceleration"), [0.0_wp, 0.0_wp], 1.0e-12_wp, &
                           "acceleration by "//trim(solvers(solver)))

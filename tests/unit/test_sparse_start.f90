@@ -107,19 +107,19 @@ contains
       call deck_positions(scene, q, v)
       random%state = 17_i8
       do k = 1, size(q)
-         q(k) = q(k) + disturbance*random%between(-1.0_wp, 1.0_wp)*merge(1.0_wp, system%length_scale, modulo(k, 3) == 0)
+         q(k) = q(k) + disturbance*random%between(-1.0_wp, 1.0_wp)*merge(1.0_wp, system%linkage%scales%length, modulo(k, 3) == 0)
       end do
       q_sparse = q
       v_sparse = v
-      call assemble(system, q, v, dense, error, is_sparse=.false.)
+      call assemble(system%linkage, q, v, dense, error, is_sparse=.false.)
       if (allocated(error)) return
-      call assemble(system, q_sparse, v_sparse, sparse, error, is_sparse=.true.)
+      call assemble(system%linkage, q_sparse, v_sparse, sparse, error, is_sparse=.true.)
       if (allocated(error)) return
       call check_close(error, q_sparse/maxval(abs(q)), q/maxval(abs(q)), 1.0e-9_wp, name//": positions")
       call check_close(error, v_sparse/max(1.0_wp, maxval(abs(v))), v/max(1.0_wp, maxval(abs(v))), 1.0e-9_wp, name//": velocities")
       call check_close(error, sparse%residual, 0.0_wp, 1.0e-12_wp, name//": violation")
-      call find_dependent(system, q, v, dense, is_sparse=.false.)
-      call find_dependent(system, q, v, sparse, is_sparse=.true.)
+      call find_dependent(system%linkage, q, v, dense, is_sparse=.false.)
+      call find_dependent(system%linkage, q, v, sparse, is_sparse=.true.)
       call check_equal(error, size(dense%dependent), n_dependent, name//": dependent rows, dense")
       call check_equal(error, size(sparse%dependent), n_dependent, name//": dependent rows, sparse")
       call check_equal(error, sparse%rank, dense%rank, name//": rank")
@@ -193,7 +193,7 @@ contains
       if (allocated(error)) return
       call new_system(scene, levels_ideal, system, is_for_start=.true.)
       call deck_positions(scene, q, v)
-      call assemble(system, q, v, report, error, is_sparse=.true.)
+      call assemble(system%linkage, q, v, report, error, is_sparse=.true.)
       if (allocated(error)) return
       call check_close(error, v(1:3), [0.0_wp, 1.5_wp, 3.0_wp], 1.0e-7_wp, "velocities of the first rod")
       ! of the second only its point at 3 m/s is told: the least rates are those of a free rod that is hit there,
@@ -235,7 +235,7 @@ contains
       do k = 1, 2
          call new_system(scene, levels_ideal, system, is_for_start=.true.)
          call deck_positions(scene, q, v)
-         call assemble(system, q, v, report, refusal, is_sparse=k == 2)
+         call assemble(system%linkage, q, v, report, refusal, is_sparse=k == 2)
          call check_true(error, allocated(refusal), "refused")
          if (allocated(error)) return
          call check_equal(error, refusal%code, exit_assembly, "exit code")

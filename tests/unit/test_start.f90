@@ -71,9 +71,9 @@ contains
             if (allocated(error)) return
             ydot = y
             call system%evaluate(0.0_wp, y, ydot, status)
-            call check_close(error, maxval(abs(system%rows%phi)), 0.0_wp, 1.0e-14_wp, "violation")
-            call check_close(error, maxval(abs(system%phi_dot)), 0.0_wp, 1.0e-12_wp, "rate of the violation")
-            call check_equal(error, report%rank, system%rows%n, "rank of the system that runs")
+            call check_close(error, maxval(abs(system%linkage%rows%phi)), 0.0_wp, 1.0e-14_wp, "violation")
+            call check_close(error, maxval(abs(system%linkage%solution%phi_dot)), 0.0_wp, 1.0e-12_wp, "rate of the violation")
+            call check_equal(error, report%rank, system%linkage%rows%n, "rank of the system that runs")
             call check_true(error, report%residual <= 1.0e-14_wp, "residual reported")
             call check_true(error, report%corrections > 0 .and. report%corrections < 10, "few corrections")
             call check_close(error, y(12), speed, 1.0e-9_wp, "speed of the crank")
@@ -104,8 +104,8 @@ contains
       if (allocated(error)) return
       ydot = y
       call system%evaluate(0.0_wp, y, ydot, status)
-      call check_close(error, maxval(abs(system%rows%phi)), 0.0_wp, 1.0e-14_wp, "violation")
-      call check_close(error, maxval(abs(system%phi_dot)), 0.0_wp, 1.0e-11_wp, "rate of the violation")
+      call check_close(error, maxval(abs(system%linkage%rows%phi)), 0.0_wp, 1.0e-14_wp, "violation")
+      call check_close(error, maxval(abs(system%linkage%solution%phi_dot)), 0.0_wp, 1.0e-11_wp, "rate of the violation")
    end subroutine test_far_away
 
    !> A pendulum with velocities that do not fit: the change is least in m/s over the body's size and rad/s.
@@ -201,7 +201,7 @@ contains
       if (allocated(error)) return
       ydot = y
       call system%evaluate(0.0_wp, y, ydot, status)
-      call check_close(error, maxval(abs(system%rows%phi)), 0.0_wp, 1.0e-15_wp, "violation")
+      call check_close(error, maxval(abs(system%linkage%rows%phi)), 0.0_wp, 1.0e-15_wp, "violation")
       call check_close(error, y(6) - y(3), pi/3.0_wp, 1.0e-15_wp, "angle between the bodies")
       call check_close(error, y(3), pi/60.0_wp, 1.0e-15_wp, "angle of the driven body")
       call check_close(error, y([9, 12]), [8.0_wp, 8.0_wp], 1.0e-13_wp, "both turn with the driver")
@@ -340,7 +340,7 @@ contains
 
          call start_text(pendulum(tables), system, y, error, report)
          if (allocated(error)) return
-         call check_true(error, system%is_redundant .eqv. len(expected) > 0, "known to be redundant")
+         call check_true(error, system%linkage%solution%is_redundant .eqv. len(expected) > 0, "known to be redundant")
          if (len(expected) == 0) then
             call check_equal(error, redundancy_text(system, report), "", "nothing to say")
          else

@@ -101,7 +101,7 @@ contains
          lower = random%between(-pi, pi)
          q(1:3) = [0.5_wp*cos(upper), 0.5_wp*sin(upper), upper]
          q(4:6) = [cos(upper) + 0.5_wp*cos(lower), sin(upper) + 0.5_wp*sin(lower), lower]
-         call solve_positions(system, 0.0_wp, newton, q, outcome)
+         call solve_positions(system%linkage, 0.0_wp, newton, q, outcome)
          steps = 0
          call relax(system, 1.0e-12_wp, 100, q, balance, steps, is_settled)
          call check_true(error, is_settled, "it settles")

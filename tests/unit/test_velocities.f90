@@ -149,8 +149,8 @@ contains
       call start_text(rods(1, "omega[rad/s]", ["5"])//motor, system, y, error, report)
       if (allocated(error)) return
       call check_close(error, y(12), 7.0_wp, 1.0e-14_wp, "omega", relative=.true.)
-      call check_close(error, system%length_scale, 0.4_wp, 0.0_wp, "size of the bodies")
-      call check_close(error, report%rate_changed, 2.0_wp*system%length_scale, 1.0e-6_wp, "change")
+      call check_close(error, system%linkage%scales%length, 0.4_wp, 0.0_wp, "size of the bodies")
+      call check_close(error, report%rate_changed, 2.0_wp*system%linkage%scales%length, 1.0e-6_wp, "change")
       call start_text(rods(1, "", [""])//motor, system, y, error, report)
       if (allocated(error)) return
       call check_close(error, report%rate_changed, 0.0_wp, 0.0_wp, "defaults that change are no change")

@@ -1,0 +1,164 @@
+!> The bodies of a scene with its ideal joints and drivers, and the solver of their equations.
+!>
+!> Bodies whose motion is a known function of time are left out of the unknowns, with the rows that fix them.
+module build_linkage
+   use augmented_schur, only: schur_is_cheap
+   use build_known, only: choice_t, list_carried, start_angles
+   use columns, only: column_of
+   use find_known, only: joint_bodies, joint_points, ties_bodies
+   use joint_registry, only: n_joint_kinds, new_joint_set
+   use joint_set, only: joint_set_t, list_sides, new_rows
+   use kinds, only: wp
+   use linkage, only: linkage_t
+   use motion, only: new_motion, set_planar_motion
+   use scene, only: scene_t
+   use scene_size, only: size_of_bodies
+   use solver_registry, only: n_solver_kinds, new_solver
+   implicit none (type, external)
+   private
+   public :: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
+
+contains
+
+   !> Bodies, masses and sizes; the bodies stand where the deck puts them.
+   subroutine begin_linkage(scene, linkage)
+      type(scene_t), intent(in) :: scene              !! the scene
+      type(linkage_t), intent(inout) :: linkage       !! bodies are set
+
+      integer :: k, n
+
+      n = scene%bodies%n
+      linkage%bodies = scene%bodies
+      allocate (linkage%mass(3, n), linkage%inverse_mass(3, 0:n), source=0.0_wp)
+      do k = 1, n
+         linkage%mass(:, k) = [scene%bodies%mass(k), scene%bodies%mass(k), scene%bodies%inertia(k)]
+      end do
+      linkage%scales%length = size_of_bodies(scene)
+      linkage%scales%tolerance = scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number
+      call new_motion(n, linkage%motion)
+      call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), linkage%motion)
+   end subroutine begin_linkage
+
+   !> Coordinates of the bodies where the deck puts them.
+   pure function start_positions(scene) result(q)
+      type(scene_t), intent(in) :: scene      !! the scene
+      real(wp) :: q(3, scene%bodies%n)        !! (3, bodies) x, y, angle [m, m, rad]
+
+      q(1:2, :) = scene%bodies%r(1:2, :)
+      q(3, :) = scene%bodies%angle
+   end function start_positions
+
+   !> Places for the sets of joints and drivers: up to two for each kind that has rows.
+   subroutine count_sets(scene, choices, is_taken, linkage)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
+      type(linkage_t), intent(inout) :: linkage               !! joints are allocated
+
+      integer :: k, n
+
+      n = 0
+      do k = 1, n_joint_kinds
+         if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
+         if (any(choices(k)%is_fixing)) n = n + 1
+         if (.not. all(choices(k)%is_fixing)) n = n + 1
+      end do
+      allocate (linkage%joints(n))
+   end subroutine count_sets
+
+   !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows.
+   subroutine add_joints(scene, choices, is_taken, is_solved, linkage)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
+      logical, intent(in) :: is_taken(n_joint_kinds)          !! (kinds) which kinds take part
+      logical, intent(in) :: is_solved                        !! which of them
+      type(linkage_t), intent(inout) :: linkage               !! joints are set
+
+      class(joint_set_t), allocatable :: set
+      integer, allocatable :: chosen(:), i(:), j(:)
+      integer :: body(2), column(2), k, m, n
+
+      n = 0
+      if (.not. is_solved) n = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
+      column = 0
+      do k = 1, n_joint_kinds
+         if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
+         chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
+         call new_joint_set(k, set)
+         allocate (i(size(chosen)), j(size(chosen)))
+         if (ties_bodies(scene, k)) then
+            do m = 1, size(chosen)
+               body = joint_bodies(scene, k, chosen(m))
+               i(m) = body(1)
+               j(m) = body(2)
+            end do
+            call set%new_of_bodies(scene%joints(k)%items(chosen), i, j)
+         else
+            do m = 1, size(chosen)
+               call joint_points(scene, k, chosen(m), i(m), j(m))
+            end do
+            call set%new(scene%joints(k)%items(chosen), i, j, scene%points)
+         end if
+         call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
+         call set%set_start(linkage%motion)
+         deallocate (i, j)
+         m = merge(2, 1, set%is_driver)
+         set%column = column(m) + chosen
+         column(m) = column(m) + size(scene%joints(k)%items)
+         if (size(chosen) == 0) cycle
+         set%is_solved = is_solved
+         set%first_row = linkage%rows%n
+         linkage%rows%n = linkage%rows%n + set%n*set%n_row_item
+         n = n + 1
+         call move_alloc(set, linkage%joints(n)%set)
+      end do
+   end subroutine add_joints
+
+   !> Room for all constraint rows, and their bodies.
+   subroutine declare_rows(linkage)
+      type(linkage_t), intent(inout) :: linkage  !! rows are set
+
+      logical :: is_reduced(linkage%bodies%n)
+      integer :: k, n, n_solve
+
+      n_solve = linkage%rows%n_solve
+      n = linkage%rows%n
+      call new_rows(n, linkage%rows)
+      linkage%rows%n_solve = n_solve
+      do k = 1, size(linkage%joints)
+         call linkage%joints(k)%set%declare_rows(linkage%rows)
+      end do
+      do k = 1, size(linkage%ideal)
+         call linkage%ideal(k)%set%declare_rows(linkage%rows)
+      end do
+      is_reduced = linkage%reduced%is_known
+      is_reduced(linkage%reduced%guided%item%body) = .true.
+      call list_sides(is_reduced, linkage%rows)
+      call list_carried(linkage)
+      linkage%n_position = 3*linkage%rows%n_unknown + linkage%reduced%guided%n
+      call linkage%make_room
+   end subroutine declare_rows
+
+   !> The solver the deck asks for; `auto` is the cheaper of the Schur complement and the sparse matrix.
+   subroutine choose_solver(scene, way, linkage)
+      type(scene_t), intent(in) :: scene              !! the scene
+      character(*), intent(in) :: way                 !! word of the way of holding the constraints
+      type(linkage_t), intent(inout) :: linkage       !! the solver is set
+
+      character(:), allocatable :: word
+      integer :: k
+
+      word = scene%dynamic%values(column_of(scene%dynamic_kind, "solver"))%text
+      if (word == "auto") then
+         word = "sparse"
+         if (schur_is_cheap(linkage%rows)) word = "schur"
+         if (way == "augmented_lagrangian") word = way
+      end if
+      do k = 1, n_solver_kinds
+         call new_solver(k, linkage%solution%solver)
+         if (linkage%solution%solver%name() == word) exit
+      end do
+      call linkage%solution%solver%prepare(linkage%bodies%n, linkage%rows)
+   end subroutine choose_solver
+
+end module build_linkage

@@ -1,0 +1,251 @@
+!> Bodies linked by ideal joints and drivers: their motion, the constraint rows Phi(q, t) = 0, and the solution of the equations.
+!>
+!> Coordinates are (x, y, angle) of each body whose motion is unknown, then one of each guided body. Loads come from outside, so
+!> that ways of holding the constraints, the start and the analyses without integration need nothing but this.
+!> Source: Flores et al. (2008), eqs. (2.10), (2.11), (2.15).
+module linkage
+   use bodies, only: bodies_t
+   use guided_motion, only: find_guided_multipliers, guided_response, move_guided, set_guided_acceleration
+   use joint_set, only: joint_slot_t, rows_t
+   use kinds, only: wp
+   use known_motion, only: find_multipliers, move_known
+   use motion, only: motion_t, set_some_acceleration, set_some_motion
+   use planar_kernels, only: right_hand_side, take_known
+   use reduced, only: reduced_t
+   use smooth_piece, only: smooth_piece_t
+   use solution, only: solution_t
+   implicit none (type, external)
+   private
+   public :: linkage_t, scales_t
+
+   !> What is large and what is small, see `planar_scales`.
+   type :: scales_t
+      real(wp) :: length = 1.0_wp         !! size of the bodies, for error scales [m]
+      real(wp) :: tolerance = 1.0e-8_wp   !! of the integrator, for what round-off allows [1]
+      real(wp) :: pace = 1.0_wp           !! greatest rate of the mechanism so far [1/s]
+      real(wp) :: late_rate = 0.01_wp     !! rate that errors are measured by at least [1/s]
+   end type scales_t
+
+   !> Bodies and what links them.
+   type :: linkage_t
+      type(bodies_t) :: bodies                      !! the bodies
+      integer :: n_position = 0                     !! coordinates of the state
+      real(wp), allocatable :: mass(:, :)           !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), allocatable :: inverse_mass(:, :)   !! (3, 0:bodies) the same inverted, 0 if known [1/kg, 1/kg, 1/(kg.m^2)]
+      type(scales_t) :: scales                      !! sizes and rates
+      type(joint_slot_t), allocatable :: joints(:)  !! ideal joints and drivers, one set per kind
+      integer :: n_solved_set = 0                   !! sets of them with rows that are solved for, the first ones
+      type(joint_slot_t), allocatable :: ideal(:)   !! joints with clearance taken as ideal, one set per kind
+      type(reduced_t) :: reduced                    !! bodies that are not unknown
+      type(smooth_piece_t) :: piece                 !! where functions of time are evaluated
+      type(motion_t) :: motion                      !! positions, velocities, and accelerations where they are set
+      type(rows_t) :: rows                          !! constraint rows
+      type(solution_t) :: solution                  !! accelerations and multipliers
+      real(wp), allocatable, private :: rest(:, :)  !! (3, 0:bodies) scratch: loads [N, N, N.m]
+   contains
+      procedure :: make_room => linkage_make_room
+      procedure :: move => linkage_move, set_motion => linkage_set_motion
+      procedure :: set_acceleration => linkage_set_acceleration, set_state => linkage_set_state
+      procedure :: evaluate_rows => linkage_evaluate_rows, find_accelerations => linkage_find_accelerations
+      procedure :: solve_rows => linkage_solve_rows, add_change => linkage_add_change
+      procedure :: find_reactions => linkage_find_reactions, greatest_violation => linkage_greatest_violation
+      procedure :: row_name => linkage_row_name
+   end type linkage_t
+
+contains
+
+   !> Room for the solution. The rows are declared.
+   subroutine linkage_make_room(self)
+      class(linkage_t), intent(inout) :: self       !! the linkage
+
+      associate (solution => self%solution, n => self%rows%n, n_body => self%bodies%n)
+         solution%row_weight = merge(1.0_wp, 1.0_wp/self%scales%length, self%rows%is_angle)
+         allocate (solution%phi_dot(n), solution%b(n), solution%lambda(n), source=0.0_wp)
+         allocate (solution%a(3, 0:n_body), self%rest(3, 0:n_body), source=0.0_wp)
+      end associate
+   end subroutine linkage_make_room
+
+   !> Motion of all bodies at a state.
+   subroutine linkage_set_motion(self, t, y)
+      class(linkage_t), intent(inout) :: self       !! the linkage
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in) :: y(2*self%n_position)  !! (2 positions) coordinates and rates, the first of a state [any]
+
+      call self%move(self%piece%inside(t), y)
+   end subroutine linkage_set_motion
+
+   !> Motion of all bodies at a state and a time in the smooth stretch.
+   subroutine linkage_move(self, t, y)
+      class(linkage_t), intent(inout) :: self       !! the linkage
+      real(wp), intent(in) :: t                     !! time, in the smooth stretch [s]
+      real(wp), intent(in) :: y(2*self%n_position)  !! (2 positions) coordinates and rates, the first of a state [any]
+
+      if (self%reduced%known%n > 0) call move_known(self%reduced%known, self%joints, t, self%motion)
+      associate (n => 3*self%rows%n_unknown, nq => self%n_position)
+         if (n > 0) call set_some_motion(self%rows%n_unknown, self%rows%unknown, y, y(nq + 1:nq + n), self%motion)
+         if (self%reduced%guided%n > 0) call move_guided(self%reduced%guided, y(n + 1:nq), y(nq + n + 1:2*nq), self%motion)
+      end associate
+   end subroutine linkage_move
+
+   !> Motion of all bodies, with accelerations, from a state and its derivative.
+   subroutine linkage_set_state(self, t, y, ydot)
+      class(linkage_t), intent(inout) :: self        !! the linkage
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: y(:)       !! (2 positions or more) state [any]
+      real(wp), intent(in), contiguous :: ydot(:)    !! (2 positions or more) its derivative [any]
+
+      call self%set_motion(t, y)
+      call self%set_acceleration(ydot)
+   end subroutine linkage_set_state
+
+   !> Accelerations of the unknown bodies from the derivative of a state.
+   subroutine linkage_set_acceleration(self, ydot)
+      class(linkage_t), intent(inout) :: self        !! the linkage, its motion set
+      real(wp), intent(in), contiguous :: ydot(:)    !! (2 positions or more) derivative of a state [any]
+
+      associate (n => 3*self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
+         call set_some_acceleration(self%rows%n_unknown, self%rows%unknown, ydot(nq + 1:nq + n), self%motion)
+         if (guided%n > 0) call set_guided_acceleration(guided, ydot(nq + n + 1:2*nq), self%motion)
+      end associate
+   end subroutine linkage_set_acceleration
+
+   !> Solved rows, rates of their violations and right-hand sides at the present motion.
+   subroutine linkage_evaluate_rows(self, t)
+      class(linkage_t), intent(inout) :: self   !! the linkage, its motion set
+      real(wp), intent(in) :: t                 !! time [s]
+
+      real(wp) :: inside
+      integer :: k
+
+      inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
+      do k = 1, self%n_solved_set
+         call self%joints(k)%set%evaluate(inside, self%motion, self%rows)
+      end do
+      do k = 1, size(self%ideal)
+         call self%ideal(k)%set%evaluate(inside, self%motion, self%rows)
+      end do
+      associate (rows => self%rows, motion => self%motion, solution => self%solution)
+         call right_hand_side(self%bodies%n, rows%n, rows%n_solve, rows%body, rows%phi, rows%phi_t, rows%jac, rows%gam, motion%v, &
+                              motion%omega, solution%alpha, solution%beta, solution%phi_dot, solution%b)
+         if (rows%n_known > 0) call take_known(self%bodies%n, rows%n, rows%n_known, rows%known, rows%jac, motion%a, &
+                                               motion%alpha, solution%b)
+      end associate
+   end subroutine linkage_evaluate_rows
+
+   !> Accelerations and multipliers of the rows, as they were evaluated.
+   subroutine linkage_find_accelerations(self, g, must_agree, with_guided, status)
+      class(linkage_t), intent(inout) :: self        !! the linkage, rows evaluated
+      real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
+      logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
+      logical, intent(in) :: with_guided             !! whether those of guided bodies are wanted too
+      integer, intent(out) :: status                 !! 0: found
+
+      status = 0
+      if (with_guided .and. self%reduced%guided%n > 0) then
+         call guided_response(self%reduced%guided, g, must_agree, self%motion%alpha, self%solution%a)
+      end if
+      if (self%rows%n_unknown == 0) return
+      call self%solution%find(self%inverse_mass, self%rows, g, must_agree, status)
+   end subroutine linkage_find_accelerations
+
+   !> Least change of coordinates or rates in the metric of the masses, into `solution%a`: Phi_q a = b for the b that is set.
+   subroutine linkage_solve_rows(self, status)
+      class(linkage_t), intent(inout) :: self   !! the linkage, rows evaluated, b set
+      integer, intent(out) :: status            !! 0: found
+
+      self%rest = 0.0_wp
+      call self%find_accelerations(self%rest, .false., .false., status)
+   end subroutine linkage_solve_rows
+
+   !> Add what `solve_rows` found to the coordinates of a state, or to their rates.
+   subroutine linkage_add_change(self, place, y)
+      class(linkage_t), intent(in) :: self          !! the linkage, rows solved
+      integer, intent(in) :: place                  !! 0: coordinates; n_position: rates
+      real(wp), intent(inout), contiguous :: y(:)   !! (2 positions or more) coordinates and rates [any]
+
+      integer :: k
+
+      do k = 1, self%rows%n_unknown
+         associate (part => y(place + 3*k - 2:place + 3*k))
+            part = part + self%solution%a(:, self%rows%unknown(k))
+         end associate
+      end do
+   end subroutine linkage_add_change
+
+   !> Greatest scaled violation of the solved rows, as they were evaluated.
+   pure real(wp) function linkage_greatest_violation(self) result(worst)
+      class(linkage_t), intent(in) :: self   !! the linkage
+
+      associate (n => self%rows%n_solve)
+         worst = maxval(self%solution%row_weight(:n)*abs(self%rows%phi(:n)))
+      end associate
+   end function linkage_greatest_violation
+
+   !> Multipliers of the rows that fix the bodies that are not solved for, at the motion and the accelerations that are set.
+   !> Reports want them.
+   subroutine linkage_find_reactions(self, t, g)
+      class(linkage_t), intent(inout) :: self        !! the linkage
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
+
+      integer :: k
+
+      do k = self%n_solved_set + 1, size(self%joints)
+         call self%joints(k)%set%evaluate(self%piece%inside(t), self%motion, self%rows)
+      end do
+      associate (known => self%reduced%known, guided => self%reduced%guided, solution => self%solution)
+         do k = 1, known%n
+            call copy(known%item(k)%body)
+         end do
+         do k = 1, guided%n
+            call copy(guided%item(k)%body)
+         end do
+         call find_guided_multipliers(guided, self%rows, self%mass, g, solution%a, solution%lambda)
+         call find_multipliers(known, self%rows, self%reduced%carried, self%mass, g, solution%a, self%rest, solution%lambda)
+      end associate
+
+   contains
+
+      !> Acceleration of a body that is not solved for.
+      subroutine copy(body)
+         integer, intent(in) :: body  !! the body
+
+         self%solution%a(:, body) = [self%motion%a(1, body), self%motion%a(2, body), self%motion%alpha(3, body)]
+      end subroutine copy
+
+   end subroutine linkage_find_reactions
+
+   !> Name of the joint or driver that a constraint row belongs to.
+   function linkage_row_name(self, row) result(name)
+      class(linkage_t), intent(in) :: self   !! the linkage
+      integer, intent(in) :: row             !! number of the row
+      character(:), allocatable :: name      !! the joint's name
+
+      integer :: k
+
+      name = "?"
+      do k = 1, size(self%joints)
+         call look(self%joints(k))
+      end do
+      do k = 1, size(self%ideal)
+         call look(self%ideal(k))
+      end do
+
+   contains
+
+      !> Look in one set.
+      subroutine look(slot)
+         type(joint_slot_t), intent(in) :: slot  !! the set
+
+         integer :: item
+
+         associate (set => slot%set)
+            if (row <= set%first_row .or. row > set%first_row + set%n*set%n_row_item) return
+            item = (row - set%first_row - 1)/set%n_row_item + 1
+            name = set%names(item)%s
+         end associate
+      end subroutine look
+
+   end function linkage_row_name
+
+end module linkage

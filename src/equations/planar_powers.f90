@@ -1,0 +1,37 @@
+!> The powers of the ledger, as of the last evaluation.
+submodule(planar_system) planar_powers
+   use known_motion, only: power_of_known
+   implicit none (type, external)
+
+contains
+
+   !> Powers of the ledger.
+   module procedure ledger_rates
+      integer :: k
+
+      power(work_drive) = 0.0_wp
+      power(work_stabilisation) = 0.0_wp
+      associate (linkage => self%linkage, rows => self%linkage%rows, motion => self%linkage%motion, &
+                 driven => self%linkage%reduced%driven)
+         if (linkage%reduced%known%n > 0) then
+            power(work_drive) = power_of_known(size(driven), driven, rows%n_known, rows%known, linkage%bodies%n, rows%n, &
+                                               linkage%mass, self%loading%g, rows%jac, linkage%solution%lambda, motion%v, &
+                                               motion%omega, motion%a, motion%alpha)
+         end if
+         do k = 1, rows%n_solve
+            power(work_drive) = power(work_drive) + linkage%solution%lambda(k)*rows%phi_t(k)
+            power(work_stabilisation) = power(work_stabilisation) - linkage%solution%lambda(k)*linkage%solution%phi_dot(k)
+         end do
+      end associate
+      power(work_load) = self%loading%power
+      power(lost_damper) = 0.0_wp
+      do k = 1, size(self%loading%forces)
+         power(lost_damper) = power(lost_damper) + self%loading%forces(k)%set%lost_power(self%linkage%motion)
+      end do
+      do k = 1, self%n_contact
+         power(n_ledger + 2*k - 1) = self%losses(1, k)
+         power(n_ledger + 2*k) = self%losses(2, k)
+      end do
+   end procedure ledger_rates
+
+end submodule planar_powers

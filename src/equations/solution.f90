@@ -1,0 +1,79 @@
+!> Accelerations and multipliers of constrained bodies: the right-hand side, the solver, and what to do where rows depend on one
+!> another.
+!>
+!> [ M  Phi_q^T ] [ a      ]   [ g ]
+!> [ Phi_q   0  ] [ lambda ] = [ b ],   b = gamma - 2 alpha Phi' - beta^2 Phi,   Phi' = Phi_q v + Phi_t.
+!>
+!> Where rows depend on one another, or nearly so, the damped solution answers: it stays finite, and the control of the step
+!> decides what is good enough.
+!> Signs: the reaction on the bodies is -Phi_q^T lambda. Source: Flores et al. (2008), eqs. (2.15), (2.23).
+module solution
+   use augmented, only: augmented_t
+   use joint_set, only: rows_t
+   use kinds, only: i8, wp
+   implicit none (type, external)
+   private
+   public :: solution_t
+
+   real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
+                                                               !! shows in reactions that are not unique [1]
+   integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
+   real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
+
+   !> The last solution, and how it is found.
+   type :: solution_t
+      class(augmented_t), allocatable :: solver          !! way of solving the augmented equations
+      logical :: is_redundant = .false.                  !! whether rows depend on one another from the start
+      real(wp) :: alpha = 0.0_wp                         !! Baumgarte's gain on the rate of violation [1/s]
+      real(wp) :: beta = 0.0_wp                          !! Baumgarte's gain on the violation [1/s]
+      real(wp), allocatable :: row_weight(:)             !! (rows) one over the size of the bodies, or one for angles [1/m or 1/rad]
+      real(wp), allocatable :: phi_dot(:)                !! (rows) rate of the violation [m/s or rad/s]
+      real(wp), allocatable :: b(:)                      !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
+      real(wp), allocatable :: a(:, :)                   !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
+      integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
+      integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
+   contains
+      procedure :: find => solution_find, set_gains => solution_set_gains
+   end type solution_t
+
+contains
+
+   !> Set the gains of the stabilisation.
+   subroutine solution_set_gains(self, alpha, beta)
+      class(solution_t), intent(inout) :: self   !! the solution
+      real(wp), intent(in) :: alpha              !! gain on the rate of violation [1/s]
+      real(wp), intent(in) :: beta               !! gain on the violation [1/s]
+
+      self%alpha = alpha
+      self%beta = beta
+   end subroutine solution_set_gains
+
+   !> Accelerations of the unknown bodies and multipliers of the solved rows, as rows and b were set. Status 1 if rows that always
+   !> depend on others contradict them, or if there is no solution.
+   subroutine solution_find(self, inverse_mass, rows, g, must_agree, status)
+      class(solution_t), intent(inout) :: self                 !! the solution
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses, 0 if known [1/kg, 1/kg, 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows, evaluated
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) loads [N, N, N.m]
+      logical, intent(in) :: must_agree                        !! whether a contradiction counts: that of a correction is round-off
+      integer, intent(out) :: status                           !! 0: found
+
+      integer :: k
+
+      status = 0
+      self%bad_row = 1
+      if (.not. self%is_redundant) call self%solver%solve(inverse_mass, rows, g, self%b, self%a, self%lambda, self%bad_row)
+      if (self%bad_row == 0) return
+      self%n_damped = self%n_damped + 1
+      k = merge(2, 1, self%is_redundant)
+      call self%solver%solve_damped(inverse_mass, rows, g, self%b, damping(k), n_refinement(k), self%a, self%lambda, self%bad_row)
+      if (self%bad_row == 0 .and. must_agree .and. (self%is_redundant .or. self%solver%is_iterative)) then
+         if (.not. self%solver%left_over <= contradiction) then
+            self%bad_row = maxloc(abs(self%solver%residual(:rows%n_solve)), dim=1)
+         end if
+      end if
+      if (self%bad_row > 0) status = 1
+   end subroutine solution_find
+
+end module solution
