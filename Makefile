@@ -163,8 +163,8 @@ $(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/set
 endif
 
 # The rooms, in the order of docs/architecture.md.
-ROOMS := core math deck functions model contact lubrication joints forces clearance integrators scene equations \
-         analysis files channels statistics numbers pictures output cli
+ROOMS := core math deck functions model contact lubrication joints forces clearance solve reduce linkage hold start \
+         integrators system scene build analysis files channels statistics numbers pictures output cli
 SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90) $(ROOMS:%=src/%/*.F90)))
 C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))
 MAIN := $(wildcard src/main.f90)

@@ -12,7 +12,8 @@ module driver_angle
    use driver_speed, only: add_driver_channels, write_driver_row
    use expression, only: expression_t
    use item, only: item_t
-   use joint_set, only: joint_set_t, rows_t
+   use joint_set, only: joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_expression, add_reference, dim_angle, kind_info_t
    use kinds, only: two_pi, wp
    use motion, only: motion_t

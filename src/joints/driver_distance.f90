@@ -11,7 +11,8 @@ module driver_distance
    use expression, only: expression_t
    use item, only: item_t
    use joint_distance, only: write_distance_row
-   use joint_set, only: joint_set_t, rows_t
+   use joint_set, only: joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_channel, add_expression, add_reference, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t

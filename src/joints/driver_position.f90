@@ -14,7 +14,7 @@ module driver_position
    use driver_distance, only: add_length_channels
    use expression, only: expression_t
    use item, only: item_t
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use joint_translational, only: add_axis_columns, joint_translational_t
    use kind_info, only: add_expression, add_reference, dim_length, kind_info_t
    use kinds, only: wp

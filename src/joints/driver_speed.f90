@@ -9,7 +9,8 @@
 !> Limits: revolute joints.
 module driver_speed
    use item, only: item_t
-   use joint_set, only: joint_set_t, rows_t
+   use joint_set, only: joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_channel, add_number, add_reference, dim_angular_speed, kind_info_t
    use kinds, only: two_pi, wp
    use motion, only: motion_t

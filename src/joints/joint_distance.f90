@@ -13,7 +13,8 @@
 !> with 1/|d| is left out; an assembled mechanism is never there.
 module joint_distance
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t, rows_t
+   use joint_set, only: add_joint_channels, joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t

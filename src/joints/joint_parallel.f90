@@ -9,7 +9,8 @@
 !> deck's start.
 module joint_parallel
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t, rows_t
+   use joint_set, only: add_joint_channels, joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_reference, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t

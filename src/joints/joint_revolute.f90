@@ -7,7 +7,8 @@
 !> Source: Flores et al. (2008), eq. (2.5). Limits: none.
 module joint_revolute
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t, rows_t
+   use joint_set, only: add_joint_channels, joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_reference, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t

@@ -10,7 +10,8 @@
 !> bodies is the one of the deck's start.
 module joint_translational
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t, rows_t
+   use joint_set, only: add_joint_channels, joint_set_t
+   use rows, only: rows_t
    use kind_info, only: add_number, add_reference, add_word, dim_angle, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position

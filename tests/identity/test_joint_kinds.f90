@@ -13,7 +13,8 @@ module test_joint_kinds
    use item, only: item_t
    use joint_distance, only: joint_distance_t
    use joint_registry, only: n_joint_kinds, new_joint_set
-   use joint_set, only: joint_set_t, new_rows, rows_t
+   use joint_set, only: joint_set_t
+   use rows, only: new_rows, rows_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use lapack, only: dgelsd

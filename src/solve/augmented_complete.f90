@@ -3,7 +3,7 @@
 !> Source: Flores et al. (2008), eq. (2.15); LAPACK dgetc2, dgesc2.
 module augmented_complete
    use augmented_dense, only: augmented_dense_t, dense_prepare, threshold
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    use lapack, only: dgesc2, dgetc2
    implicit none (type, external)

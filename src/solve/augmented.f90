@@ -15,7 +15,7 @@
 !> entries per body. Source: Flores et al. (2008), eqs. (2.14)-(2.18), (2.34). Limits: rows that contradict one another
 !> have no solution; what is left over of them decides whether that is an error.
 module augmented
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: i8, wp
    implicit none (type, external)
    private

@@ -9,7 +9,7 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: of order (3 unknown bodies + rows)^3.
 module augmented_dense
    use augmented, only: direct_t
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    implicit none (type, external)
    private

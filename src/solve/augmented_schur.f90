@@ -10,7 +10,7 @@
 module augmented_schur
    use augmented, only: body_accelerations, direct_t
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    use lone_bodies, only: find_lone_bodies, lone_t, solve_lone_bodies
    use ordering, only: envelope_of, reverse_cuthill_mckee
@@ -221,14 +221,14 @@ contains
 
    !> Accelerations and multipliers.
    subroutine schur_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
-      class(augmented_schur_t), intent(inout) :: self  !! the solver
+      class(augmented_schur_t), intent(inout) :: self              !! the solver
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)      !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-      type(rows_t), intent(in) :: rows                 !! rows
+      type(rows_t), intent(in) :: rows                             !! rows
       real(wp), intent(in), contiguous :: g(:, 0:)                 !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in), contiguous :: b(:)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: a(:, 0:)              !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)             !! (rows) multipliers [N or N.m]
-      integer, intent(out) :: bad_row                  !! row that depends on others, or nearly so, 0: none
+      integer, intent(out) :: bad_row                              !! row that depends on others, or nearly so, 0: none
 
       integer :: n_body
 

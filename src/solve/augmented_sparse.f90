@@ -5,7 +5,7 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
 module augmented_sparse
    use augmented, only: direct_t
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
    implicit none (type, external)

@@ -6,12 +6,13 @@
 module linkage
    use bodies, only: bodies_t
    use guided_motion, only: find_guided_multipliers, guided_response, move_guided, set_guided_acceleration
-   use joint_set, only: joint_slot_t, rows_t
+   use joint_set, only: joint_slot_t
+   use rows, only: rows_t
    use kinds, only: wp
    use known_motion, only: find_multipliers, move_known
    use motion, only: motion_t, set_some_acceleration, set_some_motion
-   use planar_kernels, only: right_hand_side, take_known
    use reduced, only: reduced_t
+   use row_kernels, only: right_hand_side, take_known
    use smooth_piece, only: smooth_piece_t
    use solution, only: solution_t
    implicit none (type, external)

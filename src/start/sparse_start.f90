@@ -15,7 +15,7 @@ module sparse_start
    use augmented, only: body_accelerations, row_residuals
    use augmented_schur, only: assemble, part_t, prepare_part
    use envelope, only: factorise_semidefinite, solve_factored, vanishing_vector
-   use joint_set, only: list_sides, new_rows, rows_t
+   use rows, only: list_sides, new_rows, rows_t
    use kinds, only: wp
    implicit none (type, external)
    private

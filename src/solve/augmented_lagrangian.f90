@@ -13,7 +13,7 @@
 module augmented_lagrangian
    use augmented, only: augmented_t, body_accelerations, row_residuals
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    use ordering, only: envelope_of, reverse_cuthill_mckee
    implicit none (type, external)

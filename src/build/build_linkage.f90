@@ -7,7 +7,8 @@ module build_linkage
    use columns, only: column_of
    use find_known, only: joint_bodies, joint_points, ties_bodies
    use joint_registry, only: n_joint_kinds, new_joint_set
-   use joint_set, only: joint_set_t, list_sides, new_rows
+   use joint_set, only: joint_set_t
+   use rows, only: list_sides, new_rows
    use kinds, only: wp
    use linkage, only: linkage_t
    use motion, only: new_motion, set_planar_motion

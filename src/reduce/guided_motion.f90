@@ -17,7 +17,7 @@
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14), in the coordinate of the joint. Limits: the axis is fixed in the base.
 module guided_motion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)

@@ -13,7 +13,8 @@
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14). Limits: drivers of angles.
 module known_motion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use joint_set, only: joint_slot_t, rows_t
+   use joint_set, only: joint_slot_t
+   use rows, only: rows_t
    use kinds, only: wp
    use motion, only: cross, motion_t
    implicit none (type, external)

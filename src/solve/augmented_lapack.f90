@@ -3,7 +3,7 @@
 !> Source: Flores et al. (2008), eq. (2.15); LAPACK dgetrf, dgetrs.
 module augmented_lapack
    use augmented_dense, only: augmented_dense_t, dense_prepare, threshold
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use lapack, only: dgetrf, dgetrs
    implicit none (type, external)
    private

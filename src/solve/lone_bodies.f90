@@ -7,7 +7,7 @@
 !> solved without assembling it. In a crank mechanism with a loose joint all bodies are such.
 !> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: one or two rows a body; other bodies are not lone.
 module lone_bodies
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: wp
    implicit none (type, external)
    private

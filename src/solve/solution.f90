@@ -9,7 +9,7 @@
 !> Signs: the reaction on the bodies is -Phi_q^T lambda. Source: Flores et al. (2008), eqs. (2.15), (2.23).
 module solution
    use augmented, only: augmented_t
-   use joint_set, only: rows_t
+   use rows, only: rows_t
    use kinds, only: i8, wp
    implicit none (type, external)
    private
