@@ -163,7 +163,7 @@ $(error no Fortran modules of SUNDIALS 6 or 7 in $(SUNDIALS_PREFIX): scripts/set
 endif
 
 # The rooms, in the order of docs/architecture.md.
-ROOMS := core math deck functions model contact lubrication joints forces clearance solve reduce linkage hold start \
+ROOMS := core math deck functions model coordinates contact lubrication joints forces clearance solve reduce linkage hold start \
          integrators system scene build analysis files channels statistics numbers pictures output cli
 SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90) $(ROOMS:%=src/%/*.F90)))
 C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))

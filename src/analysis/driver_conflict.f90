@@ -26,8 +26,8 @@ contains
    subroutine name_conflict(scene, levels, q, v, error)
       type(scene_t), intent(in) :: scene                      !! the scene
       integer, intent(in) :: levels                           !! how joints with clearance are taken
-      real(wp), intent(in) :: q(:)                            !! (3 bodies) positions of the deck [m, m, rad]
-      real(wp), intent(in) :: v(:)                            !! (3 bodies) velocities of the deck [m/s, m/s, rad/s]
+      real(wp), intent(in) :: q(:)                            !! (n_q bodies) positions of the deck [any]
+      real(wp), intent(in) :: v(:)                            !! (n_v bodies) velocities of the deck [m/s or rad/s]
       type(error_t), allocatable, intent(inout) :: error      !! why it cannot be assembled
 
       type(text_t), allocatable :: guilty(:)
@@ -68,8 +68,8 @@ contains
       integer, intent(in) :: levels          !! how joints with clearance are taken
       integer, intent(in) :: kind            !! kind of the driver
       integer, intent(in) :: row             !! its row in the table
-      real(wp), intent(in) :: q(:)           !! (3 bodies) positions of the deck [m, m, rad]
-      real(wp), intent(in) :: v(:)           !! (3 bodies) velocities of the deck [m/s, m/s, rad/s]
+      real(wp), intent(in) :: q(:)           !! (n_q bodies) positions of the deck [any]
+      real(wp), intent(in) :: v(:)           !! (n_v bodies) velocities of the deck [m/s or rad/s]
 
       type(scene_t) :: other
       type(assembly_t) :: report

@@ -16,12 +16,13 @@ module guards
    use normal_law, only: parameter_deepest
    use planar_system, only: planar_system_t
    use scene, only: scene_t
+   use scene_size, only: extent_of_scene
    use surfaces, only: shape_plane
    use text, only: append_text, real_text, text_t
    implicit none (type, external)
    private
    public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
-      new_guards, scene_size
+      new_guards
 
    integer, parameter :: guard_penetration = 1   !! a penetration, part of the size of the surfaces (radius; slider: length)
    integer, parameter :: guard_clearance = 2     !! a penetration, the clearance
@@ -83,7 +84,7 @@ contains
          guards%penetration = number_of(kind, settings, "penetration")
          guards%energy = number_of(kind, settings, "energy")
          if (number_of(kind, settings, "speed") > 0.0_wp) guards%speed = number_of(kind, settings, "speed")
-         guards%size = scene_size(scene)
+         guards%size = extent_of_scene(scene)
          travel = number_of(kind, settings, "travel")
          if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
          allocate (guards%limit(n_contact_guard, system%n_contact), source=huge(1.0_wp))
@@ -131,34 +132,6 @@ contains
          end associate
       end do
    end subroutine set_limits
-
-   !> Size of a scene where the deck puts it: the diagonal of the box around all centres of mass and points; 0: a single place.
-   pure real(wp) function scene_size(scene) result(length)
-      type(scene_t), intent(in) :: scene    !! the scene
-
-      real(wp) :: greatest(2), least(2), place(2)
-      integer :: k
-
-      greatest = -huge(1.0_wp)
-      least = huge(1.0_wp)
-      do k = 1, scene%bodies%n
-         greatest = max(greatest, scene%bodies%r(1:2, k))
-         least = min(least, scene%bodies%r(1:2, k))
-      end do
-      do k = 1, scene%points%n
-         associate (s => scene%points%s(1:2, k), body => scene%points%body(k))
-            place = s
-            if (body > 0) then
-               associate (angle => scene%bodies%angle(body))
-                  place = scene%bodies%r(1:2, body) + [cos(angle)*s(1) - sin(angle)*s(2), sin(angle)*s(1) + cos(angle)*s(2)]
-               end associate
-            end if
-         end associate
-         greatest = max(greatest, place)
-         least = min(least, place)
-      end do
-      length = norm2(greatest - least)
-   end function scene_size
 
    !> Before the first step.
    subroutine guards_begin(self, system)

@@ -255,7 +255,7 @@ contains
       do k = 1, size(system%clearances)
          associate (body => system%clearances(k)%set%body)
             do i = 1, size(body, 2)
-               omega = max(omega, abs(system%linkage%motion%omega(3, body(1, i))), abs(system%linkage%motion%omega(3, body(2, i))))
+               omega = max(omega, maxval(abs(system%linkage%motion%omega(:, body(:, i)))))
             end do
          end associate
       end do

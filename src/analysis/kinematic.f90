@@ -14,6 +14,7 @@ module kinematic
    use errors, only: error_t, exit_integration, set_error
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, wp
+   use linkage, only: linkage_t
    use mobility, only: find_mobility, mobility_t, stiffest_driver
    use planar_energy, only: energy_of, energy_t
    use planar_report, only: build_catalogue, fill_catalogue
@@ -34,9 +35,9 @@ module kinematic
    !> The motion at one instant.
    type :: state_t
       real(wp) :: t = 0.0_wp            !! time [s]
-      real(wp), allocatable :: q(:)     !! (3 bodies) positions [m, m, rad]
-      real(wp), allocatable :: v(:)     !! (3 bodies) velocities [m/s, m/s, rad/s]
-      real(wp), allocatable :: a(:)     !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), allocatable :: q(:)     !! (n_q bodies) positions [any]
+      real(wp), allocatable :: v(:)     !! (n_v bodies) velocities [m/s or rad/s]
+      real(wp), allocatable :: a(:)     !! (n_v bodies) accelerations [m/s^2 or rad/s^2]
    end type state_t
 
 contains
@@ -44,7 +45,7 @@ contains
    !> Run from assembled positions at t = 0 to the end.
    subroutine run_kinematic(system, q, plan, newton, limit_cpu, recorder, summary, error)
       type(planar_system_t), intent(inout) :: system      !! the system, all joints ideal
-      real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
+      real(wp), intent(in) :: q(:)                        !! (n_q bodies) positions at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls
       real(wp), intent(in) :: limit_cpu                   !! processor time allowed, 0: no limit [s]
@@ -91,7 +92,7 @@ contains
    !> From output instant to output instant.
    subroutine follow(system, q, plan, newton, budget, recorder, catalogue, summary, error)
       type(planar_system_t), intent(inout) :: system      !! the system
-      real(wp), intent(in) :: q(:)                        !! (3 bodies) positions at t = 0 [m, m, rad]
+      real(wp), intent(in) :: q(:)                        !! (n_q bodies) positions at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls and cost
       type(cpu_budget_t), intent(inout) :: budget         !! processor time left
@@ -142,13 +143,14 @@ contains
 
       h = t - state%t
       do while (state%t < t)
-         do while (turn_in(state, h) > longest_turn .and. h > shortest)
+         do while (turn_in(system%linkage, state, h) > longest_turn .and. h > shortest)
             h = 0.5_wp*h
          end do
          next%t = state%t + h
          if (h >= t - state%t) next%t = t
-         next%q = state%q + h*(state%v + 0.5_wp*h*state%a)
-         next%v = next%q  ! the prediction
+         next%q = state%q
+         call system%linkage%coordinates%add_change(system%linkage%bodies%n, h*(state%v + 0.5_wp*h*state%a), next%q)
+         next%v = 0.0_wp*state%v
          next%a = state%a
          call try(system, newton, next, outcome)
          if (outcome == solved) then
@@ -168,11 +170,12 @@ contains
    end subroutine move_to
 
    !> Predicted turn of the body that turns most in a step.
-   pure real(wp) function turn_in(state, h) result(turn)
-      type(state_t), intent(in) :: state   !! the motion
-      real(wp), intent(in) :: h            !! the step [s]
+   pure real(wp) function turn_in(linkage, state, h) result(turn)
+      type(linkage_t), intent(in) :: linkage   !! the bodies
+      type(state_t), intent(in) :: state       !! the motion
+      real(wp), intent(in) :: h                !! the step [s]
 
-      turn = maxval(abs(h*state%v(3::3)) + abs(0.5_wp*h*h*state%a(3::3)))
+      turn = linkage%coordinates%greatest_turn(linkage%bodies%n, abs(h*state%v) + abs(0.5_wp*h*h*state%a))
    end function turn_in
 
    !> Solve a predicted instant; a correction that turns a body by much is not trusted.
@@ -182,11 +185,15 @@ contains
       type(state_t), intent(inout) :: next            !! predicted, then solved
       integer, intent(out) :: outcome                 !! as of `prescribed_motion`
 
-      real(wp) :: predicted(size(next%q)/3)
+      real(wp) :: correction(size(next%v)), predicted(size(next%q))
 
-      predicted = next%q(3::3)
+      predicted = next%q
       call solve_instant(system, newton, next, outcome)
-      if (outcome == solved .and. maxval(abs(next%q(3::3) - predicted)) > longest_correction) outcome = open_rows
+      if (outcome /= solved) return
+      associate (coordinates => system%linkage%coordinates, n => system%linkage%bodies%n)
+         call coordinates%difference(n, predicted, next%q, correction)
+         if (coordinates%greatest_turn(n, correction) > longest_correction) outcome = open_rows
+      end associate
    end subroutine try
 
    !> Positions, velocities and accelerations at the time of a state, from its positions.
@@ -208,7 +215,7 @@ contains
       type(summary_t), intent(inout) :: summary         !! maxima are raised
 
       type(energy_t) :: energy
-      real(wp) :: unbalanced, y(2*size(state%q))
+      real(wp) :: unbalanced, y(size(state%q) + size(state%v))
 
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
       call system%evaluate_loads(state%t)

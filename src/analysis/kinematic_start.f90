@@ -6,7 +6,6 @@ module kinematic_start
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
    use planar_system, only: planar_system_t
    use scene, only: scene_t
-   use start_state, only: deck_positions
    use text, only: to_text
    implicit none (type, external)
    private
@@ -21,7 +20,7 @@ contains
    subroutine find_kinematic_start(scene, system, q, report, mobility, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system, all joints ideal
-      real(wp), allocatable, intent(out) :: q(:)            !! (3 bodies) positions at t = 0 [m, m, rad]
+      real(wp), allocatable, intent(out) :: q(:)            !! (n_q bodies) positions at t = 0 [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(mobility_t), intent(out) :: mobility             !! freedoms and drivers at the start
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, a driver is missing or in excess
@@ -29,7 +28,7 @@ contains
       type(error_t), allocatable :: assembly_error
       real(wp), allocatable :: v(:)
 
-      call deck_positions(scene, q, v)
+      call system%linkage%deck_state(q, v)
       call assemble(system%linkage, q, v, report, assembly_error)
       call evaluate_rows(system%linkage, 0.0_wp, q, v)
       call find_mobility(system%linkage, mobility)

@@ -7,6 +7,7 @@
 !> beside it and whatever parameters are swept.
 module perturbation
    use columns, only: column_of
+   use coordinates, only: coordinates_t
    use kinds, only: wp
    use scene, only: scene_t
    implicit none (type, external)
@@ -17,21 +18,22 @@ module perturbation
 
    !> A perturbation of the start.
    type :: shift_t
-      real(wp), allocatable :: q(:)  !! (3 bodies) of positions [m, m, rad]
-      real(wp), allocatable :: v(:)  !! (3 bodies) of velocities [m/s, m/s, rad/s]
+      real(wp), allocatable :: q(:)  !! (n_v bodies) of positions [m or rad]
+      real(wp), allocatable :: v(:)  !! (n_v bodies) of velocities [m/s or rad/s]
    end type shift_t
 
 contains
 
    !> The perturbation of a run.
-   function new_shift(scene, member) result(shift)
+   function new_shift(scene, coordinates, member) result(shift)
       type(scene_t), intent(in) :: scene    !! the scene, with an ensemble
+      class(coordinates_t), intent(in) :: coordinates  !! of its bodies
       integer, intent(in) :: member         !! number of the run, from 1
       type(shift_t) :: shift                !! its perturbation
 
       integer, allocatable :: state(:)
-      integer :: k, n
-      real(wp) :: arm, unused(discarded), x(6)
+      integer :: first, k, last, n
+      real(wp) :: arm, unused(discarded), x(coordinates%n_v, 2)
 
       call random_seed(size=n)
       allocate (state(n))
@@ -40,15 +42,17 @@ contains
          state(1) = ieor(state(1), member)
          call random_seed(put=state)
          call random_number(unused)
-         allocate (shift%q(3*scene%bodies%n), shift%v(3*scene%bodies%n))
+         allocate (shift%q(coordinates%n_v*scene%bodies%n), shift%v(coordinates%n_v*scene%bodies%n))
          do k = 1, scene%bodies%n
             arm = 1.0_wp
             if (scene%bodies%inertia(k) > 0.0_wp) arm = sqrt(scene%bodies%inertia(k)/scene%bodies%mass(k))
             call random_number(x)
             x = 2.0_wp*x - 1.0_wp
-            x([3, 6]) = x([3, 6])/arm
-            shift%q(3*k - 2:3*k) = values(column_of(kind, "position"))%number*x(1:3)
-            shift%v(3*k - 2:3*k) = values(column_of(kind, "velocity"))%number*x(4:6)
+            where (spread(coordinates%is_turn, 2, 2)) x = x/arm
+            first = coordinates%n_v*(k - 1) + 1
+            last = coordinates%n_v*k
+            shift%q(first:last) = values(column_of(kind, "position"))%number*x(:, 1)
+            shift%v(first:last) = values(column_of(kind, "velocity"))%number*x(:, 2)
          end do
       end associate
    end function new_shift

@@ -8,7 +8,6 @@ module start_state
    use guided_motion, only: guided_coordinates
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
-   use motion, only: set_planar_motion
    use perturbation, only: shift_t
    use planar_system, only: planar_system_t
    use scene, only: scene_t
@@ -16,26 +15,11 @@ module start_state
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: deck_positions, find_start, redundancy_text
+   public :: find_start, redundancy_text
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
 
 contains
-
-   !> Positions and velocities as the deck gives them.
-   pure subroutine deck_positions(scene, q, v)
-      type(scene_t), intent(in) :: scene            !! the scene
-      real(wp), allocatable, intent(out) :: q(:)    !! (3 bodies) positions [m, m, rad]
-      real(wp), allocatable, intent(out) :: v(:)    !! (3 bodies) velocities [m/s, m/s, rad/s]
-
-      integer :: k
-
-      allocate (q(3*scene%bodies%n), v(3*scene%bodies%n), source=0.0_wp)
-      do k = 1, scene%bodies%n
-         q(3*k - 2:3*k) = [scene%bodies%r(1:2, k), scene%bodies%angle(k)]
-         v(3*k - 2:3*k) = [scene%bodies%v(1:2, k), scene%bodies%omega(k)]
-      end do
-   end subroutine deck_positions
 
    !> State at t = 0 of a system of the scene.
    !>
@@ -53,10 +37,10 @@ contains
 
       type(planar_system_t) :: twin
       real(wp), allocatable :: q(:), v(:)
-      integer :: k, levels
+      integer :: levels
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
-      call deck_positions(scene, q, v)
+      call system%linkage%deck_state(q, v)
       associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
          levels = levels_as_written
          if (system%n_loose == 0 .or. start == "ideal") levels = levels_ideal
@@ -66,12 +50,12 @@ contains
       call new_system(scene, levels, twin, is_for_start=.true.)
       call assemble(twin%linkage, q, v, report, error)
       if (allocated(error)) then
-         call deck_positions(scene, q, v)
+         call system%linkage%deck_state(q, v)
          call name_conflict(scene, levels, q, v, error)
          return
       end if
       if (present(shift)) then
-         q = q + shift%q
+         call system%linkage%coordinates%add_change(system%linkage%bodies%n, shift%q, q)
          v = v + shift%v
          call new_system(scene, levels_as_written, twin, is_for_start=.true.)
          call assemble(twin%linkage, q, v, report, error)
@@ -80,19 +64,7 @@ contains
       call find_dependent(system%linkage, q, v, report)
       system%linkage%solution%is_redundant = size(report%dependent) > 0
       allocate (y(system%n), source=0.0_wp)
-      do k = 1, system%linkage%rows%n_unknown
-         associate (body => system%linkage%rows%unknown(k))
-            y(3*k - 2:3*k) = q(3*body - 2:3*body)
-            y(system%n_position + 3*k - 2:system%n_position + 3*k) = v(3*body - 2:3*body)
-         end associate
-      end do
-      if (system%linkage%reduced%guided%n > 0) then
-         call set_planar_motion(system%linkage%bodies%n, q, v, system%linkage%motion)
-         system%linkage%reduced%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
-         associate (n => 3*system%linkage%rows%n_unknown, nq => system%n_position)
-            call guided_coordinates(system%linkage%reduced%guided, system%linkage%motion, y(n + 1:nq), y(nq + n + 1:2*nq))
-         end associate
-      end if
+      call system%linkage%take_state(q, v, y)
       call look_at_overlap(system, y, &
                            scene%dynamic%values(column_of(scene%dynamic_kind, "overlap"))%text == "preload", error)
    end subroutine find_start

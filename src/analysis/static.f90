@@ -40,7 +40,7 @@ module static
 
    !> An equilibrium.
    type :: equilibrium_t
-      real(wp), allocatable :: q(:)             !! (3 bodies) positions [m, m, rad]
+      real(wp), allocatable :: q(:)             !! (n_q bodies) positions [any]
       character(:), allocatable :: words        !! stable, unstable or indifferent, and why
       character(:), allocatable :: warning      !! what a careful reader should know; blank if it is stable
       real(wp) :: unbalanced = 0.0_wp           !! load out of balance, of the largest [1]
@@ -57,7 +57,7 @@ contains
    subroutine find_equilibrium(scene, system, q, report, equilibrium, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system; left at the equilibrium
-      real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions of the deck [m, m, rad]
+      real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions of the deck [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(equilibrium_t), intent(out) :: equilibrium       !! what was found
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or no equilibrium found
@@ -96,7 +96,7 @@ contains
    subroutine assemble_at_rest(scene, system, q, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(planar_system_t), intent(inout) :: system        !! the system that is searched
-      real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions, assembled [m, m, rad]
+      real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions, assembled [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled
 
@@ -121,7 +121,7 @@ contains
    !> Let KINSOL polish; keep what it found if that is an equilibrium nearby.
    subroutine try_to_polish(system, q, balance, equilibrium)
       type(planar_system_t), intent(inout) :: system         !! the system, balance evaluated
-      real(wp), intent(inout) :: q(:)                        !! (3 bodies) positions, polished [m, m, rad]
+      real(wp), intent(inout) :: q(:)                        !! (n_q bodies) positions, polished [any]
       type(balance_t), intent(inout) :: balance              !! at the positions
       type(equilibrium_t), intent(inout) :: equilibrium      !! whether it was polished
 
@@ -169,12 +169,12 @@ contains
             equilibrium%words = "unstable in "//to_text(n_steep)//" of "//to_text(size(stiffness))// &
                                 " freedoms; a push grows e-fold in "//real_text(1.0_wp/sqrt(-square(1)), 4)//" s"
             equilibrium%warning = "the equilibrium is unstable: the least push moves "// &
-                                  moving_bodies(system%linkage, bodies_in(balance%modes(:, 1:1)))// &
+                                  moving_bodies(system%linkage, bodies_in(system, balance%modes(:, 1:1)))// &
                                   "; begin the search beside it to find a stable one"
          else if (n_flat > 0) then
             equilibrium%words = "indifferent in "//to_text(n_flat)//" of "//to_text(size(stiffness))//" freedoms"
             equilibrium%warning = "the equilibrium is indifferent: nothing holds "// &
-                                  moving_bodies(system%linkage, bodies_in(balance%modes(:, &
+                                  moving_bodies(system%linkage, bodies_in(system, balance%modes(:, &
                                                 pack_range(abs(stiffness) <= limit))))// &
                                   " where the search left them"
          else
@@ -194,15 +194,18 @@ contains
    end function pack_range
 
    !> How much each body takes part in some motions.
-   pure function bodies_in(modes) result(part)
-      real(wp), intent(in) :: modes(:, :)    !! (3 bodies, motions) unit motions [1]
-      real(wp) :: part(size(modes, 1)/3)     !! (bodies) greatest part of each, 0 to 1 [1]
+   pure function bodies_in(system, modes) result(part)
+      class(planar_system_t), intent(in) :: system       !! the system
+      real(wp), intent(in) :: modes(:, :)                !! (n_v bodies, motions) unit motions [1]
+      real(wp) :: part(system%linkage%bodies%n)          !! (bodies) greatest part of each, 0 to 1 [1]
 
       integer :: k
 
-      do k = 1, size(part)
-         part(k) = maxval(norm2(modes(3*k - 2:3*k, :), dim=1))
-      end do
+      associate (n_v => system%linkage%coordinates%n_v)
+         do k = 1, size(part)
+            part(k) = maxval(norm2(modes(n_v*(k - 1) + 1:n_v*k, :), dim=1))
+         end do
+      end associate
    end function bodies_in
 
    !> The search did not settle: say what still moves, and what to try.
@@ -213,12 +216,9 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! the message
 
       real(wp) :: part(system%linkage%bodies%n), free_load(size(balance%load))
-      integer :: k
 
       free_load = matmul(balance%free, matmul(balance%load, balance%free))
-      do k = 1, system%linkage%bodies%n
-         part(k) = norm2(free_load(3*k - 2:3*k))
-      end do
+      part = bodies_in(system, reshape(free_load, [size(free_load), 1]))
       part = part/max(maxval(part), tiny(1.0_wp))
       where (part < 0.1_wp) part = 0.0_wp
       call set_error(error, exit_assembly, "no static equilibrium was found: "//real_text(equilibrium%unbalanced, 3)// &

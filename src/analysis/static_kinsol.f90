@@ -46,7 +46,7 @@ contains
       call c_f_pointer(user_data, problem)
       x => fn_vgetarraypointer(unknowns)
       f => fn_vgetarraypointer(values)
-      n = 3*problem%system%linkage%bodies%n
+      n = size(problem%system%linkage%mass)
       call look_at(problem%system, x(1:n)*position_scale(problem%system))
       call set_multipliers(problem, x(n + 1:))
       f(1:n) = unbalanced_load(problem%system)/problem%load

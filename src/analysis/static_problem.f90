@@ -26,10 +26,10 @@ module static_problem
 
    !> The balance at a position.
    type :: balance_t
-      real(wp), allocatable :: load(:)        !! (3 bodies) what is out of balance, r [N.m]
-      real(wp), allocatable :: free(:, :)     !! (3 bodies, freedoms) motions that the rows leave free, N [1]
+      real(wp), allocatable :: load(:)        !! (n_v bodies) what is out of balance, r [N.m]
+      real(wp), allocatable :: free(:, :)     !! (n_v bodies, freedoms) motions that the rows leave free, N [1]
       real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
-      real(wp), allocatable :: modes(:, :)    !! (3 bodies, freedoms) the motions that belong to them [1]
+      real(wp), allocatable :: modes(:, :)    !! (n_v bodies, freedoms) the motions that belong to them [1]
       integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
    end type balance_t
 
@@ -38,18 +38,17 @@ contains
    !> Scales of the coordinates: the size of the bodies for lengths, one for angles.
    pure function position_scale(system) result(scale)
       class(planar_system_t), intent(in) :: system   !! the system
-      real(wp) :: scale(3*system%linkage%bodies%n)             !! (3 bodies) scales [m, m, rad]
+      real(wp) :: scale(size(system%linkage%mass))   !! (n_v bodies) scales [m or rad]
 
-      scale = system%linkage%scales%length
-      scale(3::3) = 1.0_wp
+      scale = system%linkage%coordinates%scales(system%linkage%scales%length, system%linkage%bodies%n)
    end function position_scale
 
    !> Rows and loads at rest at a position, contacts touching where they penetrate.
    subroutine look_at(system, q)
       class(planar_system_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
-      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+      real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
 
-      real(wp) :: delta(system%n_contact), rate(system%n_contact), rest(size(q))
+      real(wp) :: delta(system%n_contact), rate(system%n_contact), rest(size(system%linkage%mass))
       integer :: i, k
 
       rest = 0.0_wp
@@ -69,19 +68,22 @@ contains
    !> Loads less reactions for given multipliers, after `look_at`.
    function unbalanced_load(system) result(load)
       class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
-      real(wp) :: load(3*system%linkage%bodies%n)              !! (3 bodies) what is out of balance, scaled [N.m]
+      real(wp) :: load(size(system%linkage%mass))              !! (n_v bodies) what is out of balance, scaled [N.m]
 
       integer :: body, row, side
 
       load = reshape(system%loading%g(:, 1:), [size(load)])
-      do row = 1, system%linkage%rows%n
-         do side = 1, 2
-            body = system%linkage%rows%body(side, row)
-            if (body == 0) cycle
-            load(3*body - 2:3*body) = load(3*body - 2:3*body) - system%linkage%rows%jac(3*side - 2:3*side, &
-                                      row)*system%linkage%solution%lambda(row)
+      associate (rows => system%linkage%rows, n_v => system%linkage%coordinates%n_v)
+         do row = 1, rows%n
+            do side = 1, 2
+               body = rows%body(side, row)
+               if (body == 0) cycle
+               associate (part => load(n_v*(body - 1) + 1:n_v*body))
+                  part = part - rows%jac(n_v*(side - 1) + 1:n_v*side, row)*system%linkage%solution%lambda(row)
+               end associate
+            end do
          end do
-      end do
+      end associate
       load = load*position_scale(system)
    end function unbalanced_load
 
@@ -89,7 +91,7 @@ contains
    real(wp) function load_scale(system)
       class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 
-      real(wp) :: rest(3*system%linkage%bodies%n), weights(3*system%linkage%bodies%n), loads(3*system%linkage%bodies%n)
+      real(wp) :: rest(size(system%linkage%mass)), weights(size(system%linkage%mass)), loads(size(system%linkage%mass))
 
       rest = unbalanced_load(system)
       weights = reshape(system%loading%weight(:, 1:), [size(weights)])*position_scale(system)
@@ -100,10 +102,10 @@ contains
    !> The balance at a position, with the multipliers that fit it best. No stiffness yet.
    subroutine evaluate_balance(system, q, balance)
       class(planar_system_t), intent(inout) :: system  !! the system; all is set, lambda too
-      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+      real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
       type(balance_t), intent(inout) :: balance        !! the load out of balance is set
 
-      real(wp) :: rest(size(q)), unbalanced
+      real(wp) :: rest(size(system%linkage%mass)), unbalanced
 
       rest = 0.0_wp
       call look_at(system, q)
@@ -115,26 +117,31 @@ contains
    !> Free motions and the tangent stiffness against them, by central differences of r with lambda held.
    subroutine free_stiffness(system, q, balance)
       class(planar_system_t), intent(inout) :: system  !! the system, balance evaluated at the positions
-      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
+      real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
       type(balance_t), intent(inout) :: balance        !! free motions, stiffness and modes are set
 
       real(wp), allocatable :: jac(:, :), k_free(:, :), left(:, :), slope(:, :), work(:)
-      real(wp) :: above(size(q)), q_near(size(q)), scale(size(q))
+      real(wp), dimension(size(system%linkage%mass)) :: above, scale
+      real(wp) :: q_near(size(q))
       integer :: info, k, n, rank
 
       call scaled_jacobian(system%linkage, jac)
       call split_space(jac, rank, left, balance%free)
       n = size(balance%free, 2)
       scale = position_scale(system)
-      allocate (slope(size(q), n), work(max(1, 64*n)), source=0.0_wp)
+      allocate (slope(size(scale), n), work(max(1, 64*n)), source=0.0_wp)
+      associate (coordinates => system%linkage%coordinates, n_body => system%linkage%bodies%n)
       do k = 1, n
-         q_near = q + difference*scale*balance%free(:, k)
+         q_near = q
+         call coordinates%add_change(n_body, difference*scale*balance%free(:, k), q_near)
          call look_at(system, q_near)
          above = unbalanced_load(system)
-         q_near = q - difference*scale*balance%free(:, k)
+         q_near = q
+         call coordinates%add_change(n_body, -difference*scale*balance%free(:, k), q_near)
          call look_at(system, q_near)
          slope(:, k) = (unbalanced_load(system) - above)/(2.0_wp*difference)
       end do
+      end associate
       call look_at(system, q)
       balance%n_evaluations = balance%n_evaluations + int(2*n + 1, i8)
       k_free = matmul(transpose(balance%free), slope)
@@ -159,7 +166,7 @@ contains
       n = size(square)
       square = 0.0_wp
       if (n == 0) return
-      mass = position_scale(system)**2*reshape(system%linkage%mass, [3*system%linkage%bodies%n])
+      mass = position_scale(system)**2*reshape(system%linkage%mass, [size(system%linkage%mass)])
       allocate (k_free(n, n), work(64*n), source=0.0_wp)
       do k = 1, n
          k_free(k, k) = balance%stiffness(k)

@@ -11,6 +11,7 @@
 !> space); Dauphin et al. (2014), the absolute value of the curvature. Limits: loads that do work in a closed
 !> path may keep it from settling.
 module static_relaxation
+   use coordinates, only: coordinates_t
    use kinds, only: eps, wp
    use planar_system, only: planar_system_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, solve_positions
@@ -31,19 +32,19 @@ contains
       class(planar_system_t), intent(inout) :: system  !! the system, positions assembled
       real(wp), intent(in) :: part                     !! unbalanced load allowed, of the largest [1]
       integer, intent(in) :: most                      !! steps allowed
-      real(wp), intent(inout) :: q(:)                  !! (3 bodies) positions, moved [m, m, rad]
+      real(wp), intent(inout) :: q(:)                  !! (n_q bodies) positions, moved [any]
       type(balance_t), intent(inout) :: balance        !! at the positions
       integer, intent(inout) :: steps                  !! steps made so far
       logical, intent(out) :: is_settled               !! the load is below
 
-      real(wp) :: direction(size(q))
+      real(wp) :: direction(size(system%linkage%mass))
 
       call evaluate_balance(system, q, balance)
       do
          call free_stiffness(system, q, balance)
          is_settled = norm2(balance%load) <= part*load_scale(system) + least_unbalance(balance)
          if (is_settled .or. steps >= most) return
-         call downhill(balance, extent_of(system, q), direction)
+         call downhill(system%linkage%coordinates, balance, extent_of(system), direction)
          call go_along(system, direction, q, balance)
          steps = steps + 1
       end do
@@ -58,18 +59,20 @@ contains
    end function least_unbalance
 
    !> Extent of the mechanism in sizes of its bodies.
-   pure real(wp) function extent_of(system, q) result(extent)
-      class(planar_system_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: q(:)                  !! (3 bodies) positions [m, m, rad]
+   pure real(wp) function extent_of(system) result(extent)
+      class(planar_system_t), intent(in) :: system  !! the system, its motion set
 
-      extent = sizes + max(maxval(q(1::3)) - minval(q(1::3)), maxval(q(2::3)) - minval(q(2::3)))/system%linkage%scales%length
+      associate (r => system%linkage%motion%r(:, 1:))
+         extent = sizes + maxval(maxval(r, dim=2) - minval(r, dim=2))/system%linkage%scales%length
+      end associate
    end function extent_of
 
    !> The step, along each mode and in all not longer than allowed.
-   pure subroutine downhill(balance, extent, direction)
+   pure subroutine downhill(coordinates, balance, extent, direction)
+      class(coordinates_t), intent(in) :: coordinates  !! of the bodies
       type(balance_t), intent(in) :: balance      !! load, stiffness and modes
       real(wp), intent(in) :: extent              !! of the mechanism, in sizes of its bodies [1]
-      real(wp), intent(out) :: direction(:)       !! (3 bodies) scaled step [1]
+      real(wp), intent(out) :: direction(:)       !! (n_v bodies) scaled step [1]
 
       real(wp) :: floor_stiffness, force, part(size(direction))
       integer :: k
@@ -79,28 +82,29 @@ contains
       do k = 1, size(balance%stiffness)
          force = dot_product(balance%modes(:, k), balance%load)
          part = balance%modes(:, k)*(force/max(abs(balance%stiffness(k)), floor_stiffness))
-         direction = direction + shortened(part, extent)
+         direction = direction + shortened(coordinates, part, extent)
       end do
-      direction = shortened(direction, extent)
+      direction = shortened(coordinates, direction, extent)
    end subroutine downhill
 
    !> A step not longer than allowed.
-   pure function shortened(step, extent) result(short)
-      real(wp), intent(in) :: step(:)             !! (3 bodies) scaled step [1]
+   pure function shortened(coordinates, step, extent) result(short)
+      class(coordinates_t), intent(in) :: coordinates  !! of the bodies
+      real(wp), intent(in), contiguous :: step(:)             !! (n_v bodies) scaled step [1]
       real(wp), intent(in) :: extent              !! of the mechanism, in sizes of its bodies [1]
-      real(wp) :: short(size(step))               !! (3 bodies) in the same direction [1]
+      real(wp) :: short(size(step))               !! (n_v bodies) in the same direction [1]
 
       real(wp) :: length
 
-      length = max(maxval(abs(step(3::3))), maxval(abs(step(1::3)))/extent, maxval(abs(step(2::3)))/extent)
+      length = coordinates%greatest_rate(size(step)/coordinates%n_v, step, extent)
       short = step*(longest_step/max(length, longest_step))
    end function shortened
 
    !> Move along a step, shortened where the loads turn against it.
    subroutine go_along(system, direction, q, balance)
       class(planar_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(in) :: direction(:)             !! (3 bodies) scaled step [1]
-      real(wp), intent(inout) :: q(:)                  !! (3 bodies) positions, moved [m, m, rad]
+      real(wp), intent(in) :: direction(:)             !! (n_v bodies) scaled step [1]
+      real(wp), intent(inout) :: q(:)                  !! (n_q bodies) positions, moved [any]
       type(balance_t), intent(inout) :: balance        !! at the positions
 
       type(newton_t) :: newton
@@ -114,7 +118,8 @@ contains
       push_high = 0.0_wp
       part = 1.0_wp
       do k = 1, n_search
-         q_new = q + part*direction*position_scale(system)
+         q_new = q
+         call system%linkage%coordinates%add_change(system%linkage%bodies%n, part*direction*position_scale(system), q_new)
          call solve_positions(system%linkage, 0.0_wp, newton, q_new, outcome)
          if (outcome == open_rows .or. outcome == not_finite_rows) then
             high = part

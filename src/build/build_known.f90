@@ -2,6 +2,7 @@
 !>
 !> Bodies whose motion is a known function of time leave the unknowns, with the rows that fix them; a body that one joint leaves a
 !> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations.
+!> Planar: both are kernels of the plane.
 module build_known
    use columns, only: column_of
    use find_guided, only: find_guided_bodies, guide_t, kind_sliding

@@ -1,6 +1,7 @@
 !> The bodies of a scene with its ideal joints and drivers, and the solver of their equations.
 !>
 !> Bodies whose motion is a known function of time are left out of the unknowns, with the rows that fix them.
+!> Planar: the coordinates of all scenes are those of the plane.
 module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
@@ -11,7 +12,8 @@ module build_linkage
    use rows, only: list_sides, new_rows
    use kinds, only: wp
    use linkage, only: linkage_t
-   use motion, only: new_motion, set_planar_motion
+   use motion, only: new_motion
+   use planar_coordinates, only: new_planar_coordinates
    use scene, only: scene_t
    use scene_size, only: size_of_bodies
    use solver_registry, only: n_solver_kinds, new_solver
@@ -26,28 +28,22 @@ contains
       type(scene_t), intent(in) :: scene              !! the scene
       type(linkage_t), intent(inout) :: linkage       !! bodies are set
 
-      integer :: k, n
+      real(wp), allocatable :: q(:), v(:)
+      integer :: n
 
       n = scene%bodies%n
       linkage%bodies = scene%bodies
-      allocate (linkage%mass(3, n), linkage%inverse_mass(3, 0:n), source=0.0_wp)
-      do k = 1, n
-         linkage%mass(:, k) = [scene%bodies%mass(k), scene%bodies%mass(k), scene%bodies%inertia(k)]
-      end do
+      allocate (linkage%coordinates, source=new_planar_coordinates())
+      associate (coordinates => linkage%coordinates)
+         allocate (linkage%mass(coordinates%n_v, n), linkage%inverse_mass(coordinates%n_v, 0:n), source=0.0_wp)
+         call coordinates%find_masses(scene%bodies, linkage%mass)
+      end associate
       linkage%scales%length = size_of_bodies(scene)
       linkage%scales%tolerance = scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number
       call new_motion(n, linkage%motion)
-      call set_planar_motion(n, start_positions(scene), 0.0_wp*start_positions(scene), linkage%motion)
+      call linkage%deck_state(q, v)
+      call linkage%place_bodies(q, 0.0_wp*v)
    end subroutine begin_linkage
-
-   !> Coordinates of the bodies where the deck puts them.
-   pure function start_positions(scene) result(q)
-      type(scene_t), intent(in) :: scene      !! the scene
-      real(wp) :: q(3, scene%bodies%n)        !! (3, bodies) x, y, angle [m, m, rad]
-
-      q(1:2, :) = scene%bodies%r(1:2, :)
-      q(3, :) = scene%bodies%angle
-   end function start_positions
 
    !> Places for the sets of joints and drivers: up to two for each kind that has rows.
    subroutine count_sets(scene, choices, is_taken, linkage)
@@ -136,7 +132,6 @@ contains
       is_reduced(linkage%reduced%guided%item%body) = .true.
       call list_sides(is_reduced, linkage%rows)
       call list_carried(linkage)
-      linkage%n_position = 3*linkage%rows%n_unknown + linkage%reduced%guided%n
       call linkage%make_room
    end subroutine declare_rows
 

@@ -66,10 +66,10 @@ contains
          call choose_solver(scene, system%way%name(), linkage)
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
-      call add_loads(scene, system%loading)
+      call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
       allocate (system%losses(2, system%n_contact), source=0.0_wp)
       system%n_quadrature = merge(n_ledger + 2*system%n_contact, 0, system%with_ledger)
-      system%n = 2*system%n_position + system%n_quadrature
+      system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       system%n_event = system%n_contact
       call count_grips(system)
       if (any([(system%clearances(k)%set%law%jumps_at_turn, k=1, size(system%clearances))])) then
@@ -101,19 +101,20 @@ contains
       end do
       system%n = system%n + n_bristle
       if (n_slip > 0) system%n_event = 2*system%n_contact
-      call new_grip_forces(n_slip, n_bristle, system%linkage%bodies%n, system%linkage%rows%n, system%n, system%grips)
+      call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%grips)
    end subroutine count_grips
 
    !> Gravity, and force elements: one set per kind that has rows.
-   subroutine add_loads(scene, loading)
+   subroutine add_loads(scene, n_v, loading)
       type(scene_t), intent(in) :: scene              !! the scene
+      integer, intent(in) :: n_v                      !! rates of a body
       type(loading_t), intent(inout) :: loading       !! gravity and forces are set
 
       integer :: k, n
 
       n = scene%bodies%n
       loading%gravity = scene%gravity
-      allocate (loading%weight(3, 0:n), loading%g(3, 0:n), source=0.0_wp)
+      allocate (loading%weight(3, 0:n), loading%g(n_v, 0:n), source=0.0_wp)
       do k = 1, n
          loading%weight(:, k) = scene%bodies%mass(k)*scene%gravity
       end do

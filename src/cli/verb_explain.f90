@@ -22,7 +22,7 @@ module verb_explain
    use planar_system, only: planar_system_t
    use row_plan, only: contact_rows_text
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
-   use start_state, only: deck_positions, find_start, redundancy_text
+   use start_state, only: find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium
    use text, only: real_text, replace, text_t, to_text
    use time_plan, only: last_instant
@@ -81,7 +81,7 @@ contains
          call find_kinematic_start(loaded%scene, loaded%system, q, assembly, mobility, error)
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case (analysis_static)
-         call deck_positions(loaded%scene, q, v)
+         call loaded%system%linkage%deck_state(q, v)
          call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case default
@@ -170,7 +170,7 @@ contains
       call say("")
       call say("model")
       associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
-         call say(counted(n, "planar body", "planar bodies")//", "//to_text(3*n)//" coordinates", 2)
+         call say(counted(n, "planar body", "planar bodies")//", "//to_text(size(linkage%mass))//" coordinates", 2)
          do k = 1, linkage%reduced%known%n
             call say("'"//names(linkage%reduced%known%item(k)%body)%s//"' moves as a known function of time", 2)
          end do
@@ -197,8 +197,8 @@ contains
                   to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
       call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": coordinates less rows "// &
-               to_text(3*system%linkage%bodies%n - system%linkage%rows%n)//"; with all joints ideal "// &
-               to_text(3*twin%linkage%bodies%n - twin%linkage%rows%n), 2)
+               to_text(size(system%linkage%mass) - system%linkage%rows%n)//"; with all joints ideal "// &
+               to_text(size(twin%linkage%mass) - twin%linkage%rows%n), 2)
       if (norm2(system%loading%gravity) > 0.0_wp) then
          call say("gravity "//to_text(system%loading%gravity(1))//" "//to_text(system%loading%gravity(2))//" m/s^2", 2)
       end if
@@ -217,7 +217,7 @@ contains
                   ": the error below says why", 2)
          return
       end if
-      call say(counted(3*loaded%system%linkage%bodies%n - loaded%system%linkage%rows%n + size(assembly%dependent), &
+      call say(counted(size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n + size(assembly%dependent), &
                        "degree of freedom", "degrees of freedom"), 2)
       if (loaded%scene%analysis == analysis_kinematic) then
          call find_mobility(loaded%system%linkage, mobility)

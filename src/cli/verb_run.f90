@@ -33,7 +33,7 @@ module verb_run
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
-   use start_state, only: deck_positions, find_start, redundancy_text
+   use start_state, only: find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
    use text, only: append_text, real_text, starts_with, text_list_t, text_t, to_text
@@ -86,7 +86,8 @@ contains
       if (options%member > 0) then
          call check_member(options, loaded, error)
          if (allocated(error)) return
-         call find_start(loaded%scene, loaded%system, y, assembly, error, new_shift(loaded%scene, options%member))
+         call find_start(loaded%scene, loaded%system, y, assembly, error, &
+                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member))
       else
          call find_start(loaded%scene, loaded%system, y, assembly, error)
       end if
@@ -166,7 +167,7 @@ contains
       type(summary_t) :: summary
       real(wp), allocatable :: q(:), v(:)
 
-      call deck_positions(loaded%scene, q, v)
+      call loaded%system%linkage%deck_state(q, v)
       call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)

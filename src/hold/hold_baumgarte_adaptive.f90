@@ -78,7 +78,7 @@ contains
       integer :: body
 
       if (linkage%rows%n_solve == 0) return
-      worst = maxval(linkage%solution%row_weight(:linkage%rows%n_solve)*abs(linkage%rows%phi(:linkage%rows%n_solve)))
+      worst = linkage%greatest_violation()
       ! the same violation again: the step is tried again, shorter, and a gain that grew as it shrinks would not let it succeed
       if (abs(worst - self%worst) > 0.0_wp) then
          self%alpha = self%alpha*min(1.0_wp + min(self%alpha*h, 1.0_wp), max(0.5_wp, sqrt(worst/self%target)))
@@ -86,7 +86,7 @@ contains
       self%worst = worst
       rate = 0.0_wp
       do body = 1, linkage%bodies%n
-         rate = max(rate, norm2(linkage%motion%v(:, body))/linkage%scales%length, abs(linkage%motion%omega(3, body)))
+         rate = max(rate, norm2(linkage%motion%v(:, body))/linkage%scales%length, maxval(abs(linkage%motion%omega(:, body))))
       end do
       self%alpha = max(least_hold*linkage%scales%pace, min(self%alpha, most/h, rate))
       call linkage%solution%set_gains(self%alpha, self%alpha)

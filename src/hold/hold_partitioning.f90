@@ -100,7 +100,7 @@ contains
 
       status = 0
       if (linkage%rows%n_solve == 0) return
-      if (.not. allocated(self%jac)) call make_room(self, linkage%rows%n_solve, 3*linkage%rows%n_unknown)
+      if (.not. allocated(self%jac)) call make_room(self, linkage%rows%n_solve, linkage%coordinates%n_v*linkage%rows%n_unknown)
       if (self%rank < 0) then
          call linkage%set_motion(t, y)
          call linkage%evaluate_rows(t)
@@ -115,14 +115,14 @@ contains
             if (k == n_newton .or. now <= round_off .or. (now <= closed .and. now > 0.5_wp*before)) exit
             before = now
             self%right(:n, 1) = -linkage%rows%phi(:n)*linkage%solution%row_weight(:n)
-            call change_dependent(self, linkage, 0, y, status)
+            call change_dependent(self, linkage, .false., y, status)
             if (status /= 0) return
          end do
          status = merge(0, 1, now <= closed)
          if (status /= 0) return
          self%right(:n, 1) = -linkage%solution%phi_dot(:n)*linkage%solution%row_weight(:n)
       end associate
-      call change_dependent(self, linkage, linkage%n_position, y, status)
+      call change_dependent(self, linkage, .true., y, status)
       call linkage%set_motion(t, y)
    end subroutine partitioning_correct
 
@@ -136,10 +136,10 @@ contains
    end subroutine make_room
 
    !> Change of the dependent coordinates, or of their rates, that the right-hand side asks for.
-   subroutine change_dependent(self, linkage, place, y, status)
+   subroutine change_dependent(self, linkage, to_rates, y, status)
       class(hold_partitioning_t), intent(inout) :: self  !! the way, right-hand side set
-      type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
-      integer, intent(in) :: place                       !! before what is changed in the state
+      type(linkage_t), intent(inout) :: linkage          !! the bodies and their rows, evaluated
+      logical, intent(in) :: to_rates                    !! whether rates are changed, not coordinates
       real(wp), intent(inout), contiguous :: y(:)        !! (2 positions or more) coordinates and rates [any]
       integer, intent(out) :: status                     !! 0: done
 
@@ -150,10 +150,16 @@ contains
                  self%work, size(self%work), info)
       status = merge(0, 1, info == 0)
       if (status /= 0) return
-      do k = 1, self%rank
-         c = self%order(k)
-         y(place + c) = y(place + c) + self%right(k, 1)*merge(1.0_wp, linkage%scales%length, modulo(c, 3) == 0)
-      end do
+      associate (n_v => linkage%coordinates%n_v, change => linkage%solution%a)
+         change = 0.0_wp
+         do k = 1, self%rank
+            c = modulo(self%order(k) - 1, n_v) + 1
+            associate (body => linkage%rows%unknown((self%order(k) - 1)/n_v + 1))
+               change(c, body) = self%right(k, 1)*merge(1.0_wp, linkage%scales%length, linkage%coordinates%is_turn(c))
+            end associate
+         end do
+      end associate
+      call linkage%add_change(to_rates, y)
    end subroutine change_dependent
 
    !> The Jacobian, rows and coordinates scaled, in the order of the coordinates.
@@ -161,22 +167,23 @@ contains
       class(hold_partitioning_t), intent(inout) :: self  !! the way
       type(linkage_t), intent(in) :: linkage             !! the bodies and their rows, evaluated
 
-      integer :: body, c, column, k, place(0:linkage%bodies%n), position(3*linkage%rows%n_unknown), row
+      integer :: body, c, column, k, place(0:linkage%bodies%n), position(size(self%order)), row
 
-      place = 0
-      place(linkage%rows%unknown) = [(3*k - 3, k=1, linkage%rows%n_unknown)]
-      position(self%order) = [(k, k=1, size(self%order))]
-      self%jac = 0.0_wp
-      do k = 1, linkage%rows%n_side
-         row = linkage%rows%side(1, k)
-         body = linkage%rows%side(3, k)
-         do c = 1, 3
-            column = position(place(body) + c)
-            self%jac(row, column) = linkage%rows%jac(linkage%rows%side(2, k) - 6*(row - 1) + c, &
-                                                     row)*linkage%solution%row_weight(row) &
-                                    *merge(1.0_wp, linkage%scales%length, c == 3)
+      associate (rows => linkage%rows, n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
+         place = 0
+         place(rows%unknown) = [(n_v*(k - 1), k=1, rows%n_unknown)]
+         position(self%order) = [(k, k=1, size(self%order))]
+         self%jac = 0.0_wp
+         do k = 1, rows%n_side
+            row = rows%side(1, k)
+            body = rows%side(3, k)
+            do c = 1, n_v
+               column = position(place(body) + c)
+               self%jac(row, column) = rows%jac(rows%side(2, k) - size(rows%jac, 1)*(row - 1) + c, row) &
+                                       *linkage%solution%row_weight(row)*merge(1.0_wp, linkage%scales%length, is_turn(c))
+            end do
          end do
-      end do
+      end associate
    end subroutine scaled_jacobian
 
    !> Choose the dependent coordinates at the present position.
@@ -188,7 +195,7 @@ contains
       integer :: info, k, m, n
 
       m = linkage%rows%n_solve
-      n = 3*linkage%rows%n_unknown
+      n = linkage%coordinates%n_v*linkage%rows%n_unknown
       if (.not. allocated(self%order)) self%order = [(k, k=1, n)]
       call scaled_jacobian(self, linkage)
       allocate (pivots(n), source=0)

@@ -75,7 +75,7 @@ contains
             if (k == n_newton .or. now <= round_off .or. now > 0.5_wp*before) exit
             before = now
             linkage%solution%b(:n) = -linkage%rows%phi(:n)
-            call correct(linkage, t, 0, y, status)
+            call correct(linkage, t, .false., y, status)
             if (status /= 0) return
          end do
          ! beyond a dead point there is no position to correct to: shorter steps end there
@@ -83,20 +83,20 @@ contains
          if (status /= 0) return
          linkage%solution%b(:n) = -linkage%solution%phi_dot(:n)
       end associate
-      call correct(linkage, t, linkage%n_position, y, status)
+      call correct(linkage, t, .true., y, status)
    end subroutine projection_correct_step
 
    !> Add the least change to coordinates or rates, and set the motion anew.
-   subroutine correct(linkage, t, place, y, status)
+   subroutine correct(linkage, t, to_rates, y, status)
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows, b set
       real(wp), intent(in) :: t                        !! time [s]
-      integer, intent(in) :: place                     !! before what is corrected in the state
+      logical, intent(in) :: to_rates                  !! whether rates are corrected, not coordinates
       real(wp), intent(inout), contiguous :: y(:)      !! (2 positions or more) coordinates and rates [any]
       integer, intent(out) :: status                   !! 0: done
 
       call linkage%solve_rows(status)
       if (status /= 0) return
-      call linkage%add_change(place, y)
+      call linkage%add_change(to_rates, y)
       call linkage%set_motion(t, y)
    end subroutine correct
 

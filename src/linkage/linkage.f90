@@ -1,16 +1,18 @@
 !> Bodies linked by ideal joints and drivers: their motion, the constraint rows Phi(q, t) = 0, and the solution of the equations.
 !>
-!> Coordinates are (x, y, angle) of each body whose motion is unknown, then one of each guided body. Loads come from outside, so
-!> that ways of holding the constraints, the start and the analyses without integration need nothing but this.
+!> The state has the coordinates of each body whose motion is unknown, then one of each guided body, then the rates of both.
+!> Loads come from outside, so that ways of holding the constraints, the start and the analyses without integration need
+!> nothing but this.
 !> Source: Flores et al. (2008), eqs. (2.10), (2.11), (2.15).
 module linkage
    use bodies, only: bodies_t
-   use guided_motion, only: find_guided_multipliers, guided_response, move_guided, set_guided_acceleration
+   use coordinates, only: coordinates_t
+   use guided_motion, only: find_guided_multipliers, guided_coordinates, guided_response, move_guided, set_guided_acceleration
    use joint_set, only: joint_slot_t
    use rows, only: rows_t
    use kinds, only: wp
    use known_motion, only: find_multipliers, move_known
-   use motion, only: motion_t, set_some_acceleration, set_some_motion
+   use motion, only: motion_t
    use reduced, only: reduced_t
    use row_kernels, only: right_hand_side, take_known
    use smooth_piece, only: smooth_piece_t
@@ -29,22 +31,25 @@ module linkage
 
    !> Bodies and what links them.
    type :: linkage_t
-      type(bodies_t) :: bodies                      !! the bodies
-      integer :: n_position = 0                     !! coordinates of the state
-      real(wp), allocatable :: mass(:, :)           !! (3, bodies) masses [kg, kg, kg.m^2]
-      real(wp), allocatable :: inverse_mass(:, :)   !! (3, 0:bodies) the same inverted, 0 if known [1/kg, 1/kg, 1/(kg.m^2)]
-      type(scales_t) :: scales                      !! sizes and rates
-      type(joint_slot_t), allocatable :: joints(:)  !! ideal joints and drivers, one set per kind
-      integer :: n_solved_set = 0                   !! sets of them with rows that are solved for, the first ones
-      type(joint_slot_t), allocatable :: ideal(:)   !! joints with clearance taken as ideal, one set per kind
-      type(reduced_t) :: reduced                    !! bodies that are not unknown
-      type(smooth_piece_t) :: piece                 !! where functions of time are evaluated
-      type(motion_t) :: motion                      !! positions, velocities, and accelerations where they are set
-      type(rows_t) :: rows                          !! constraint rows
-      type(solution_t) :: solution                  !! accelerations and multipliers
-      real(wp), allocatable, private :: rest(:, :)  !! (3, 0:bodies) scratch: loads [N, N, N.m]
+      type(bodies_t) :: bodies                          !! the bodies
+      class(coordinates_t), allocatable :: coordinates  !! what their positions and rates are
+      integer :: n_position = 0                         !! coordinates in the state
+      integer :: n_rate = 0                             !! rates in the state
+      real(wp), allocatable :: mass(:, :)               !! (n_v, bodies) masses [kg or kg.m^2]
+      real(wp), allocatable :: inverse_mass(:, :)       !! (n_v, 0:bodies) the same inverted, 0 if known [1/kg or 1/(kg.m^2)]
+      type(scales_t) :: scales                          !! sizes and rates
+      type(joint_slot_t), allocatable :: joints(:)      !! ideal joints and drivers, one set per kind
+      integer :: n_solved_set = 0                       !! sets of them with rows that are solved for, the first ones
+      type(joint_slot_t), allocatable :: ideal(:)       !! joints with clearance taken as ideal, one set per kind
+      type(reduced_t) :: reduced                        !! bodies that are not unknown
+      type(smooth_piece_t) :: piece                     !! where functions of time are evaluated
+      type(motion_t) :: motion                          !! positions, velocities, and accelerations where they are set
+      type(rows_t) :: rows                              !! constraint rows
+      type(solution_t) :: solution                      !! accelerations and multipliers
+      real(wp), allocatable, private :: rest(:, :)      !! (n_v, 0:bodies) scratch: loads [N or N.m]
    contains
-      procedure :: make_room => linkage_make_room
+      procedure :: make_room => linkage_make_room, place_bodies => linkage_place_bodies
+      procedure :: deck_state => linkage_deck_state, take_state => linkage_take_state
       procedure :: move => linkage_move, set_motion => linkage_set_motion
       procedure :: set_acceleration => linkage_set_acceleration, set_state => linkage_set_state
       procedure :: evaluate_rows => linkage_evaluate_rows, find_accelerations => linkage_find_accelerations
@@ -62,38 +67,83 @@ contains
       associate (solution => self%solution, n => self%rows%n, n_body => self%bodies%n)
          solution%row_weight = merge(1.0_wp, 1.0_wp/self%scales%length, self%rows%is_angle)
          allocate (solution%phi_dot(n), solution%b(n), solution%lambda(n), source=0.0_wp)
-         allocate (solution%a(3, 0:n_body), self%rest(3, 0:n_body), source=0.0_wp)
+         allocate (solution%a(self%coordinates%n_v, 0:n_body), self%rest(self%coordinates%n_v, 0:n_body), source=0.0_wp)
+         self%n_position = self%coordinates%n_q*self%rows%n_unknown + self%reduced%guided%n
+         self%n_rate = self%coordinates%n_v*self%rows%n_unknown + self%reduced%guided%n
       end associate
    end subroutine linkage_make_room
 
    !> Motion of all bodies at a state.
    subroutine linkage_set_motion(self, t, y)
-      class(linkage_t), intent(inout) :: self       !! the linkage
-      real(wp), intent(in) :: t                     !! time [s]
-      real(wp), intent(in) :: y(2*self%n_position)  !! (2 positions) coordinates and rates, the first of a state [any]
+      class(linkage_t), intent(inout) :: self                   !! the linkage
+      real(wp), intent(in) :: t                                 !! time [s]
+      real(wp), intent(in) :: y(self%n_position + self%n_rate)  !! (positions + rates) the first of a state [any]
 
       call self%move(self%piece%inside(t), y)
    end subroutine linkage_set_motion
 
    !> Motion of all bodies at a state and a time in the smooth stretch.
    subroutine linkage_move(self, t, y)
-      class(linkage_t), intent(inout) :: self       !! the linkage
-      real(wp), intent(in) :: t                     !! time, in the smooth stretch [s]
-      real(wp), intent(in) :: y(2*self%n_position)  !! (2 positions) coordinates and rates, the first of a state [any]
+      class(linkage_t), intent(inout) :: self                   !! the linkage
+      real(wp), intent(in) :: t                                 !! time, in the smooth stretch [s]
+      real(wp), intent(in) :: y(self%n_position + self%n_rate)  !! (positions + rates) the first of a state [any]
 
       if (self%reduced%known%n > 0) call move_known(self%reduced%known, self%joints, t, self%motion)
-      associate (n => 3*self%rows%n_unknown, nq => self%n_position)
-         if (n > 0) call set_some_motion(self%rows%n_unknown, self%rows%unknown, y, y(nq + 1:nq + n), self%motion)
-         if (self%reduced%guided%n > 0) call move_guided(self%reduced%guided, y(n + 1:nq), y(nq + n + 1:2*nq), self%motion)
+      associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
+         if (n > 0) call self%coordinates%move(n, self%rows%unknown, y, y(nq + 1:), self%motion)
+         if (guided%n > 0) call move_guided(guided, y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:), self%motion)
       end associate
    end subroutine linkage_move
+
+   !> Coordinates and rates of all bodies as the deck gives them.
+   subroutine linkage_deck_state(self, q, v)
+      class(linkage_t), intent(in) :: self             !! the linkage
+      real(wp), allocatable, intent(out) :: q(:)       !! (n_q bodies) coordinates [any]
+      real(wp), allocatable, intent(out) :: v(:)       !! (n_v bodies) rates [any]
+
+      allocate (q(self%coordinates%n_q*self%bodies%n), v(self%coordinates%n_v*self%bodies%n), source=0.0_wp)
+      call self%coordinates%read_start(self%bodies, q, v)
+   end subroutine linkage_deck_state
+
+   !> Motion of all bodies, known and guided ones included, from coordinates and rates of all: that of no time.
+   subroutine linkage_place_bodies(self, q, v)
+      class(linkage_t), intent(inout) :: self        !! the linkage
+      real(wp), intent(in), contiguous :: q(:)       !! (n_q bodies) coordinates [any]
+      real(wp), intent(in), contiguous :: v(:)       !! (n_v bodies) rates [any]
+
+      integer :: k
+
+      call self%coordinates%move(self%bodies%n, [(k, k=1, self%bodies%n)], q, v, self%motion)
+      self%reduced%known%t = -huge(1.0_wp)
+   end subroutine linkage_place_bodies
+
+   !> The state that coordinates and rates of all bodies are. Joints of guided bodies are fulfilled.
+   subroutine linkage_take_state(self, q, v, y)
+      class(linkage_t), intent(inout) :: self          !! the linkage; its motion is that of the state
+      real(wp), intent(in), contiguous :: q(:)         !! (n_q bodies) coordinates [any]
+      real(wp), intent(in), contiguous :: v(:)         !! (n_v bodies) rates [any]
+      real(wp), intent(inout), contiguous :: y(:)      !! (positions + rates or more) state, the first of it is set [any]
+
+      integer :: body, k
+
+      call self%place_bodies(q, v)
+      associate (n_q => self%coordinates%n_q, n_v => self%coordinates%n_v, nq => self%n_position, guided => self%reduced%guided)
+         do k = 1, self%rows%n_unknown
+            body = self%rows%unknown(k)
+            y(n_q*(k - 1) + 1:n_q*k) = q(n_q*(body - 1) + 1:n_q*body)
+            y(nq + n_v*(k - 1) + 1:nq + n_v*k) = v(n_v*(body - 1) + 1:n_v*body)
+         end do
+         if (guided%n == 0) return
+         call guided_coordinates(guided, self%motion, y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:))
+      end associate
+   end subroutine linkage_take_state
 
    !> Motion of all bodies, with accelerations, from a state and its derivative.
    subroutine linkage_set_state(self, t, y, ydot)
       class(linkage_t), intent(inout) :: self        !! the linkage
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: y(:)       !! (2 positions or more) state [any]
-      real(wp), intent(in), contiguous :: ydot(:)    !! (2 positions or more) its derivative [any]
+      real(wp), intent(in), contiguous :: y(:)       !! (positions + rates or more) state [any]
+      real(wp), intent(in), contiguous :: ydot(:)    !! (positions + rates or more) its derivative [any]
 
       call self%set_motion(t, y)
       call self%set_acceleration(ydot)
@@ -102,11 +152,11 @@ contains
    !> Accelerations of the unknown bodies from the derivative of a state.
    subroutine linkage_set_acceleration(self, ydot)
       class(linkage_t), intent(inout) :: self        !! the linkage, its motion set
-      real(wp), intent(in), contiguous :: ydot(:)    !! (2 positions or more) derivative of a state [any]
+      real(wp), intent(in), contiguous :: ydot(:)    !! (positions + rates or more) derivative of a state [any]
 
-      associate (n => 3*self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
-         call set_some_acceleration(self%rows%n_unknown, self%rows%unknown, ydot(nq + 1:nq + n), self%motion)
-         if (guided%n > 0) call set_guided_acceleration(guided, ydot(nq + n + 1:2*nq), self%motion)
+      associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
+         call self%coordinates%accelerate(n, self%rows%unknown, ydot(nq + 1:), self%motion)
+         if (guided%n > 0) call set_guided_acceleration(guided, ydot(nq + self%n_rate - guided%n + 1:), self%motion)
       end associate
    end subroutine linkage_set_acceleration
 
@@ -136,7 +186,7 @@ contains
    !> Accelerations and multipliers of the rows, as they were evaluated.
    subroutine linkage_find_accelerations(self, g, must_agree, with_guided, status)
       class(linkage_t), intent(inout) :: self        !! the linkage, rows evaluated
-      real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
       logical, intent(in) :: must_agree              !! whether a contradiction counts: that of a correction is round-off
       logical, intent(in) :: with_guided             !! whether those of guided bodies are wanted too
       integer, intent(out) :: status                 !! 0: found
@@ -158,19 +208,25 @@ contains
       call self%find_accelerations(self%rest, .false., .false., status)
    end subroutine linkage_solve_rows
 
-   !> Add what `solve_rows` found to the coordinates of a state, or to their rates.
-   subroutine linkage_add_change(self, place, y)
+   !> Add what `solve_rows` found, or what else is in `solution%a`, to the coordinates of a state, or to the rates.
+   subroutine linkage_add_change(self, to_rates, y)
       class(linkage_t), intent(in) :: self          !! the linkage, rows solved
-      integer, intent(in) :: place                  !! 0: coordinates; n_position: rates
-      real(wp), intent(inout), contiguous :: y(:)   !! (2 positions or more) coordinates and rates [any]
+      logical, intent(in) :: to_rates               !! to the rates, not the coordinates
+      real(wp), intent(inout), contiguous :: y(:)   !! (positions + rates or more) state [any]
 
       integer :: k
 
-      do k = 1, self%rows%n_unknown
-         associate (part => y(place + 3*k - 2:place + 3*k))
-            part = part + self%solution%a(:, self%rows%unknown(k))
-         end associate
-      end do
+      associate (n_q => self%coordinates%n_q, n_v => self%coordinates%n_v)
+         do k = 1, self%rows%n_unknown
+            associate (change => self%solution%a(:, self%rows%unknown(k)), before => self%n_position + n_v*(k - 1))
+               if (to_rates) then
+                  y(before + 1:before + n_v) = y(before + 1:before + n_v) + change
+               else
+                  call self%coordinates%add_change(1, change, y(n_q*(k - 1) + 1:))
+               end if
+            end associate
+         end do
+      end associate
    end subroutine linkage_add_change
 
    !> Greatest scaled violation of the solved rows, as they were evaluated.
@@ -187,7 +243,7 @@ contains
    subroutine linkage_find_reactions(self, t, g)
       class(linkage_t), intent(inout) :: self        !! the linkage
       real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: g(:, 0:)   !! (3, 0:bodies) loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
 
       integer :: k
 
@@ -211,7 +267,7 @@ contains
       subroutine copy(body)
          integer, intent(in) :: body  !! the body
 
-         self%solution%a(:, body) = [self%motion%a(1, body), self%motion%a(2, body), self%motion%alpha(3, body)]
+         call self%coordinates%find_acceleration(self%motion, body, self%solution%a(:, body))
       end subroutine copy
 
    end subroutine linkage_find_reactions

@@ -7,7 +7,7 @@ module motion
    implicit none (type, external)
    private
    public :: cross, loads_t, motion_t, new_loads, new_motion, point_position, point_velocity
-   public :: apply_force, set_planar_motion, set_some_acceleration, set_some_motion
+   public :: apply_force
 
    !> Kinematic state of all bodies.
    type :: motion_t
@@ -50,73 +50,6 @@ contains
 
       allocate (loads%force(3, 0:n), loads%moment(3, 0:n), source=0.0_wp)
    end subroutine new_loads
-
-   !> Positions, rotations and velocities of all planar bodies from their coordinates and rates.
-   pure subroutine set_planar_motion(n, q, v, motion)
-      integer, intent(in) :: n                  !! number of bodies
-      real(wp), intent(in) :: q(3, n)           !! (3, n) x, y, angle of each body [m, m, rad]
-      real(wp), intent(in) :: v(3, n)           !! (3, n) their rates [m/s, m/s, rad/s]
-      type(motion_t), intent(inout) :: motion   !! the motion
-
-      integer :: k
-
-      call set_some_motion(n, [(k, k=1, n)], q, v, motion)
-   end subroutine set_planar_motion
-
-   !> The same for some of the bodies.
-   pure subroutine set_some_motion(n, body, q, v, motion)
-      integer, intent(in) :: n                  !! how many
-      integer, intent(in) :: body(n)            !! (n) which bodies
-      real(wp), intent(in) :: q(3, n)           !! (3, n) x, y, angle of each of them [m, m, rad]
-      real(wp), intent(in) :: v(3, n)           !! (3, n) their rates [m/s, m/s, rad/s]
-      type(motion_t), intent(inout) :: motion   !! the motion
-
-      call fill_planar(n, body, ubound(motion%angle, 1), q, v, motion%r, motion%rot, motion%v, motion%omega, motion%angle)
-   end subroutine set_some_motion
-
-   !> The same on plain arrays.
-   pure subroutine fill_planar(n, body, n_body, q, v, r, rot, velocity, omega, angle)
-      integer, intent(in) :: n                          !! how many bodies
-      integer, intent(in) :: body(n)                    !! (n) which bodies
-      integer, intent(in) :: n_body                     !! number of bodies
-      real(wp), intent(in) :: q(3, n)                   !! (3, n) x, y, angle of each of them [m, m, rad]
-      real(wp), intent(in) :: v(3, n)                   !! (3, n) their rates [m/s, m/s, rad/s]
-      real(wp), intent(inout) :: r(3, 0:n_body)         !! (3, 0:bodies) centres of mass [m]
-      real(wp), intent(inout) :: rot(3, 3, 0:n_body)    !! (3, 3, 0:bodies) body frames to world frame [1]
-      real(wp), intent(inout) :: velocity(3, 0:n_body)  !! (3, 0:bodies) velocities [m/s]
-      real(wp), intent(inout) :: omega(3, 0:n_body)     !! (3, 0:bodies) angular velocities [rad/s]
-      real(wp), intent(inout) :: angle(0:n_body)        !! (0:bodies) angles [rad]
-
-      real(wp) :: c, s
-      integer :: b, k
-
-      do k = 1, n
-         b = body(k)
-         c = cos(q(3, k))
-         s = sin(q(3, k))
-         r(1, b) = q(1, k)
-         r(2, b) = q(2, k)
-         rot(1, 1, b) = c
-         rot(2, 1, b) = s
-         rot(1, 2, b) = -s
-         rot(2, 2, b) = c
-         velocity(1, b) = v(1, k)
-         velocity(2, b) = v(2, k)
-         omega(3, b) = v(3, k)
-         angle(b) = q(3, k)
-      end do
-   end subroutine fill_planar
-
-   !> Accelerations of some planar bodies from the second derivatives of their coordinates.
-   pure subroutine set_some_acceleration(n, body, a, motion)
-      integer, intent(in) :: n                  !! how many bodies
-      integer, intent(in) :: body(n)            !! (n) which bodies
-      real(wp), intent(in) :: a(3, n)           !! (3, n) second derivatives of x, y, angle [m/s^2, m/s^2, rad/s^2]
-      type(motion_t), intent(inout) :: motion   !! the motion
-
-      motion%a(1:2, body) = a(1:2, :)
-      motion%alpha(3, body) = a(3, :)
-   end subroutine set_some_acceleration
 
    !> a x b.
    pure function cross(a, b) result(c)

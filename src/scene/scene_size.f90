@@ -4,7 +4,7 @@ module scene_size
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: is_large, size_of_bodies
+   public :: extent_of_scene, is_large, size_of_bodies
 
    integer, parameter :: most_dense = 50  !! bodies up to which implicit methods keep full matrices
 
@@ -23,6 +23,34 @@ contains
       end do
       if (length <= 0.0_wp) length = maxval(sqrt(scene%bodies%inertia/scene%bodies%mass))
    end function size_of_bodies
+
+   !> Size of a scene where the deck puts it: the diagonal of the box around all centres of mass and points; 0: a single place.
+   pure real(wp) function extent_of_scene(scene) result(length)
+      type(scene_t), intent(in) :: scene    !! the scene
+
+      real(wp) :: greatest(2), least(2), place(2)
+      integer :: k
+
+      greatest = -huge(1.0_wp)
+      least = huge(1.0_wp)
+      do k = 1, scene%bodies%n
+         greatest = max(greatest, scene%bodies%r(1:2, k))
+         least = min(least, scene%bodies%r(1:2, k))
+      end do
+      do k = 1, scene%points%n
+         associate (s => scene%points%s(1:2, k), body => scene%points%body(k))
+            place = s
+            if (body > 0) then
+               associate (angle => scene%bodies%angle(body))
+                  place = scene%bodies%r(1:2, body) + [cos(angle)*s(1) - sin(angle)*s(2), sin(angle)*s(1) + cos(angle)*s(2)]
+               end associate
+            end if
+         end associate
+         greatest = max(greatest, place)
+         least = min(least, place)
+      end do
+      length = norm2(greatest - least)
+   end function extent_of_scene
 
    !> Whether implicit methods keep their matrices sparse: a full one has (6 n)^2 entries for n bodies, each found by a difference.
    pure logical function is_large(scene)

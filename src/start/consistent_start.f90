@@ -13,7 +13,6 @@ module consistent_start
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use lapack, only: dgelsd, dgeqp3, dtrtrs
-   use motion, only: set_planar_motion
    use linkage, only: linkage_t
    use sparse_start, only: new_sparse_start, sparse_start_t
    use text, only: real_text, to_text
@@ -48,8 +47,8 @@ contains
    !> Make positions and velocities consistent with the constraints at t = 0.
    subroutine assemble(linkage, q, v, report, error, is_sparse)
       type(linkage_t), intent(inout) :: linkage          !! all joints ideal
-      real(wp), intent(inout) :: q(:)                    !! (3 bodies) coordinates [m, m, rad]
-      real(wp), intent(inout) :: v(:)                    !! (3 bodies) their rates [m/s, m/s, rad/s]
+      real(wp), intent(inout) :: q(:)                    !! (n_q bodies) coordinates [any]
+      real(wp), intent(inout) :: v(:)                    !! (n_v bodies) their rates [m/s or rad/s]
       type(assembly_t), intent(out) :: report            !! how it went
       type(error_t), allocatable, intent(out) :: error   !! cannot be assembled, names the worst joint
       logical, intent(in), optional :: is_sparse         !! whether matrices are sparse; absent: where there are many rows
@@ -60,7 +59,7 @@ contains
       real(wp) :: before, now
       integer :: k, n
 
-      n = size(q)
+      n = size(v)
       allocate (report%dependent(0), report%shared(0))
       if (linkage%rows%n == 0) return
       allocate (correction(n), right(linkage%rows%n))
@@ -77,12 +76,13 @@ contains
          if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
          before = now
          call correct(-linkage%rows%phi)
-         q = q + limit_step(correction)
+         call linkage%coordinates%add_change(linkage%bodies%n, limit_step(linkage, correction), q)
          report%corrections = k
       end do
       call evaluate_rows(linkage, 0.0_wp, q, v)
       report%residual = maxval(abs(linkage%rows%phi))
-      report%moved = maxval(abs(q - q_given)*coordinate_scale(linkage, n))
+      call linkage%coordinates%difference(linkage%bodies%n, q_given, q, correction)
+      report%moved = maxval(abs(correction)*coordinate_scale(linkage))
       if (.not. worst_violation(linkage) <= closed) then
          call position_error(linkage, error)
          return
@@ -96,11 +96,11 @@ contains
          call correct(-right)
          v = v + correction
       end do
-      correction = merge(abs(v - v_given)*coordinate_scale(linkage, n), 0.0_wp, ease <= 1.0_wp)
+      correction = merge(abs(v - v_given)*coordinate_scale(linkage), 0.0_wp, ease <= 1.0_wp)
       report%rate_changed = maxval(correction)
-      report%changed_body = (maxloc(correction, dim=1) + 2)/3
+      report%changed_body = (maxloc(correction, dim=1) - 1)/linkage%coordinates%n_v + 1
       call rates(linkage, v, right)
-      if (maxval(abs(right)*linkage%solution%row_weight) > agreed*(maxval(abs(v)*coordinate_scale(linkage, n)) &
+      if (maxval(abs(right)*linkage%solution%row_weight) > agreed*(maxval(abs(v)*coordinate_scale(linkage)) &
                                                           + maxval(abs(linkage%rows%phi_t)*linkage%solution%row_weight))) then
          call velocity_error(linkage, right, error)
       end if
@@ -131,26 +131,26 @@ contains
 
    !> Squares of how much each coordinate may change, for lengths in sizes of the bodies; nothing for the ground.
    pure function weights(linkage, ease) result(weight)
-      type(linkage_t), intent(in) :: linkage  !! the bodies and their rows
-      real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each coordinate changes [1]
-      real(wp) :: weight(3, 0:linkage%bodies%n)        !! (3, 0:bodies) weights [m^2, m^2, 1]
+      type(linkage_t), intent(in) :: linkage                           !! the bodies and their rows
+      real(wp), intent(in) :: ease(:)                                  !! (n_v bodies) how easily each coordinate changes [1]
+      real(wp) :: weight(linkage%coordinates%n_v, 0:linkage%bodies%n)  !! (n_v, 0:bodies) weights [m^2 or 1]
 
-      weight(:, 0) = 0.0_wp
-      weight(:, 1:) = reshape(ease**2, [3, linkage%bodies%n])
-      weight(1:2, :) = weight(1:2, :)*linkage%scales%length**2
+      associate (coordinates => linkage%coordinates, n => linkage%bodies%n)
+         weight(:, 0) = 0.0_wp
+         weight(:, 1:) = reshape(ease**2*coordinates%scales(linkage%scales%length**2, n), [coordinates%n_v, n])
+      end associate
    end function weights
 
    !> Rows at a state, without accelerations.
    subroutine evaluate_rows(linkage, t, q, v)
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
       real(wp), intent(in) :: t                        !! time [s]
-      real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
-      real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
+      real(wp), intent(in) :: q(:)                     !! (n_q bodies) coordinates [any]
+      real(wp), intent(in) :: v(:)                     !! (n_v bodies) their rates [m/s or rad/s]
 
       integer :: k
 
-      call set_planar_motion(linkage%bodies%n, q, v, linkage%motion)
-      linkage%reduced%known%t = -huge(1.0_wp)  ! their motion is no longer that of any time
+      call linkage%place_bodies(q, v)
       do k = 1, size(linkage%joints)
          call linkage%joints(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
       end do
@@ -162,29 +162,29 @@ contains
    !> Rates of the violations, Phi_q v + Phi_t.
    subroutine rates(linkage, v, right)
       type(linkage_t), intent(in) :: linkage        !! the bodies and their rows, rows evaluated
-      real(wp), intent(in) :: v(:)                  !! (3 bodies) rates of the coordinates [m/s, m/s, rad/s]
+      real(wp), intent(in) :: v(:)                  !! (n_v bodies) rates of the coordinates [m/s or rad/s]
       real(wp), intent(out) :: right(:)             !! (rows) rates of the violations [m/s or rad/s]
 
       integer :: body, row, side
 
-      do row = 1, linkage%rows%n
-         right(row) = linkage%rows%phi_t(row)
-         do side = 1, 2
-            body = linkage%rows%body(side, row)
-            if (body == 0) cycle
-            right(row) = right(row) + dot_product(linkage%rows%jac(3*side - 2:3*side, row), v(3*body - 2:3*body))
+      associate (rows => linkage%rows, n_v => linkage%coordinates%n_v)
+         do row = 1, rows%n
+            right(row) = rows%phi_t(row)
+            do side = 1, 2
+               body = rows%body(side, row)
+               if (body == 0) cycle
+               right(row) = right(row) + dot_product(rows%jac(n_v*(side - 1) + 1:n_v*side, row), v(n_v*(body - 1) + 1:n_v*body))
+            end do
          end do
-      end do
+      end associate
    end subroutine rates
 
    !> One for lengths, the size of the bodies for angles.
-   function coordinate_scale(linkage, n) result(scale)
-      type(linkage_t), intent(in) :: linkage        !! the bodies and their rows
-      integer, intent(in) :: n                      !! number of coordinates
-      real(wp) :: scale(n)                          !! (n) scales [1 or m]
+   function coordinate_scale(linkage) result(scale)
+      type(linkage_t), intent(in) :: linkage                         !! the bodies and their rows
+      real(wp) :: scale(linkage%coordinates%n_v*linkage%bodies%n)    !! (n_v bodies) scales [1 or m]
 
-      scale = 1.0_wp
-      scale(3:n:3) = linkage%scales%length
+      scale = linkage%coordinates%change_scales(linkage%scales%length, linkage%bodies%n)
    end function coordinate_scale
 
    !> Greatest scaled violation.
@@ -197,31 +197,32 @@ contains
    !> The scaled Jacobian: rows in sizes or radians, columns per size or radian.
    subroutine scaled_jacobian(linkage, jac)
       type(linkage_t), intent(in) :: linkage           !! the system, rows evaluated
-      real(wp), allocatable, intent(out) :: jac(:, :)  !! (rows, 3 bodies) scaled Jacobian [1]
+      real(wp), allocatable, intent(out) :: jac(:, :)  !! (rows, n_v bodies) scaled Jacobian [1]
 
-      real(wp) :: column_scale(3)
-      real(wp) :: scale(linkage%rows%n)
+      real(wp) :: column_scale(linkage%coordinates%n_v)
       integer :: body, row, side
 
-      allocate (jac(linkage%rows%n, 3*linkage%bodies%n), source=0.0_wp)
-      scale = linkage%solution%row_weight
-      column_scale = [linkage%scales%length, linkage%scales%length, 1.0_wp]
-      do row = 1, linkage%rows%n
-         do side = 1, 2
-            body = linkage%rows%body(side, row)
-            if (body == 0) cycle
-            jac(row, 3*body - 2:3*body) = jac(row, 3*body - 2:3*body) &
-                                          + linkage%rows%jac(3*side - 2:3*side, row)*scale(row)*column_scale
+      associate (rows => linkage%rows, n_v => linkage%coordinates%n_v)
+         allocate (jac(rows%n, n_v*linkage%bodies%n), source=0.0_wp)
+         column_scale = linkage%coordinates%scales(linkage%scales%length, 1)
+         do row = 1, rows%n
+            do side = 1, 2
+               body = rows%body(side, row)
+               if (body == 0) cycle
+               associate (part => jac(row, n_v*(body - 1) + 1:n_v*body))
+                  part = part + rows%jac(n_v*(side - 1) + 1:n_v*side, row)*linkage%solution%row_weight(row)*column_scale
+               end associate
+            end do
          end do
-      end do
+      end associate
    end subroutine scaled_jacobian
 
    !> Least change x of the coordinates (or rates) with Phi_q x = right, in the scaled norm of x / ease.
    subroutine least_correction(linkage, right, ease, x, rank, tolerance)
       type(linkage_t), intent(in) :: linkage        !! the bodies and their rows, rows evaluated
       real(wp), intent(in) :: right(:)              !! (rows) what the rows should change by [m or rad, or rates]
-      real(wp), intent(in) :: ease(:)               !! (3 bodies) how easily each of them changes [1]
-      real(wp), intent(out) :: x(:)                 !! (3 bodies) change [m, m, rad, or rates]
+      real(wp), intent(in) :: ease(:)               !! (n_v bodies) how easily each of them changes [1]
+      real(wp), intent(out) :: x(:)                 !! (n_v bodies) change [m or rad, or rates]
       integer, intent(out) :: rank                  !! independent rows
       real(wp), intent(in), optional :: tolerance   !! least ratio of singular values of theirs, if another than usual [1]
 
@@ -246,21 +247,18 @@ contains
       deallocate (work)
       allocate (work(length), source=0.0_wp)
       call dgelsd(m, n, 1, jac, m, b, max(m, n), s, least, rank, work, size(work), iwork, info)
-      x = b(1:n, 1)*ease
-      x(1:n:3) = x(1:n:3)*linkage%scales%length
-      x(2:n:3) = x(2:n:3)*linkage%scales%length
+      x = b(1:n, 1)*ease*linkage%coordinates%scales(linkage%scales%length, linkage%bodies%n)
    end subroutine least_correction
 
    !> A correction cut so that no body turns by more than a third of a radian.
-   pure function limit_step(x) result(limited)
-      real(wp), intent(in) :: x(:)                  !! (3 bodies) correction [m, m, rad]
-      real(wp) :: limited(size(x))                  !! (3 bodies) the same or shorter [m, m, rad]
+   pure function limit_step(linkage, x) result(limited)
+      type(linkage_t), intent(in) :: linkage        !! the bodies and their rows
+      real(wp), intent(in), contiguous :: x(:)      !! (n_v bodies) correction [m or rad]
+      real(wp) :: limited(size(x))                  !! (n_v bodies) the same or shorter [m or rad]
 
       real(wp), parameter :: longest_turn = 1.0_wp/3.0_wp  ! of a body in one correction [rad]
-      real(wp) :: turn
 
-      turn = maxval(abs(x(3::3)))
-      limited = x*min(1.0_wp, longest_turn/max(turn, longest_turn))
+      limited = x*min(1.0_wp, longest_turn/max(linkage%coordinates%greatest_turn(linkage%bodies%n, x), longest_turn))
    end function limit_step
 
    !> Rows that depend on others at an assembled position, and all rows whose multipliers are therefore not unique: those that
@@ -268,8 +266,8 @@ contains
    !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
    subroutine find_dependent(linkage, q, v, report, is_sparse)
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
-      real(wp), intent(in) :: q(:)                     !! (3 bodies) coordinates [m, m, rad]
-      real(wp), intent(in) :: v(:)                     !! (3 bodies) their rates [m/s, m/s, rad/s]
+      real(wp), intent(in) :: q(:)                     !! (n_q bodies) coordinates [any]
+      real(wp), intent(in) :: v(:)                     !! (n_v bodies) their rates [m/s or rad/s]
       type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
       logical, intent(in), optional :: is_sparse       !! whether matrices are sparse; absent: where there are many rows
 
@@ -285,7 +283,7 @@ contains
       call evaluate_rows(linkage, 0.0_wp, q, v)
       if (wants_sparse(linkage, is_sparse)) then
          call new_sparse_start(linkage%bodies%n, linkage%rows, sparse)
-         call sparse%find_dependent(linkage%rows%jac, weights(linkage, spread(1.0_wp, 1, size(q))), &
+         call sparse%find_dependent(linkage%rows%jac, weights(linkage, spread(1.0_wp, 1, size(v))), &
                                     linkage%solution%row_weight, share, &
                                     report%dependent, report%shared)
          report%rank = linkage%rows%n - size(report%dependent)

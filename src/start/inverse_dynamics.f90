@@ -11,7 +11,6 @@ module inverse_dynamics
    use consistent_start, only: rank_tolerance, scaled_jacobian
    use kinds, only: wp
    use lapack, only: dgelsd
-   use motion, only: set_some_acceleration
    use linkage, only: linkage_t
    implicit none (type, external)
    private
@@ -22,8 +21,8 @@ contains
    !> Multipliers that go with accelerations, and what stays unbalanced. The motion takes the accelerations.
    subroutine find_reactions(linkage, g, a, unbalanced)
       type(linkage_t), intent(inout) :: linkage  !! the linkage, rows evaluated; lambda is set
-      real(wp), intent(in) :: g(:, 0:)           !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
-      real(wp), intent(in), contiguous :: a(:)   !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(in) :: g(:, 0:)           !! (n_v, 0:bodies) loads on the rates [N or N.m]
+      real(wp), intent(in), contiguous :: a(:)   !! (n_v bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(out) :: unbalanced        !! norm of g - M a - Phi_q^T lambda, forces times the size [N.m]
 
       real(wp), allocatable :: b(:, :), jac(:, :), rest(:), right(:), s(:), transposed(:, :), work(:)
@@ -32,12 +31,9 @@ contains
 
       m = linkage%rows%n
       n = size(a)
-      call set_some_acceleration(linkage%bodies%n, [(k, k=1, linkage%bodies%n)], a, linkage%motion)
-      allocate (right(n), source=0.0_wp)
-      do k = 1, linkage%bodies%n
-         right(3*k - 2:3*k) = g(:, k) - a(3*k - 2:3*k)*linkage%mass(:, k)
-         right(3*k - 2:3*k - 1) = right(3*k - 2:3*k - 1)*linkage%scales%length
-      end do
+      call linkage%coordinates%accelerate(linkage%bodies%n, [(k, k=1, linkage%bodies%n)], a, linkage%motion)
+      right = (reshape(g(:, 1:), [n]) - a*reshape(linkage%mass, [n]))*linkage%coordinates%scales(linkage%scales%length, &
+                                                                                                 linkage%bodies%n)
       unbalanced = norm2(right)
       if (m == 0) return
       call scaled_jacobian(linkage, jac)

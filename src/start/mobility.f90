@@ -41,10 +41,10 @@ contains
 
       real(wp), allocatable :: free(:, :), jac(:, :), joints(:, :), left(:, :)
       integer, allocatable :: drivers(:), others(:)
-      integer :: k, m, n, rank
+      integer :: k, m, n, n_v, rank
 
       m = linkage%rows%n
-      n = 3*linkage%bodies%n
+      n = linkage%coordinates%n_v*linkage%bodies%n
       call mark_drivers(linkage, mobility%is_driver)
       mobility%n_driver = count(mobility%is_driver)
       drivers = pack([(k, k=1, m)], mobility%is_driver)
@@ -58,8 +58,9 @@ contains
       call split_space(jac, mobility%rank, left, free)
       mobility%n_left = n - mobility%rank
       allocate (mobility%freedom(linkage%bodies%n), mobility%weakest(m), source=0.0_wp)
+      n_v = linkage%coordinates%n_v
       do k = 1, linkage%bodies%n
-         if (mobility%n_left > 0) mobility%freedom(k) = maxval(norm2(free(3*k - 2:3*k, :), dim=1))
+         if (mobility%n_left > 0) mobility%freedom(k) = maxval(norm2(free(n_v*(k - 1) + 1:n_v*k, :), dim=1))
       end do
       if (mobility%rank > 0) mobility%weakest = left(:, mobility%rank)
    end subroutine find_mobility

@@ -43,16 +43,17 @@ contains
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows, all joints ideal; rows are evaluated
       real(wp), intent(in) :: t                        !! time [s]
       type(newton_t), intent(inout) :: newton          !! controls and cost
-      real(wp), intent(inout) :: q(:)                  !! (3 bodies) guess, then positions [m, m, rad]
+      real(wp), intent(inout) :: q(:)                  !! (n_q bodies) guess, then positions [any]
       integer, intent(out) :: outcome                  !! one of the above
 
-      real(wp) :: before, correction(size(q)), ease(size(q)), now, rest(size(q))
+      real(wp), dimension(linkage%coordinates%n_v*linkage%bodies%n) :: correction, ease, rest
+      real(wp) :: before, now
       integer :: k, rank
 
       ease = 1.0_wp
       rest = 0.0_wp
       before = huge(1.0_wp)
-      rank = size(q)
+      rank = size(rest)
       outcome = solved
       do k = 0, newton%most
          call evaluate_rows(linkage, t, q, rest)
@@ -66,9 +67,9 @@ contains
          before = now
          call least_correction(linkage, -linkage%rows%phi, ease, correction, rank)
          newton%n_solved = newton%n_solved + 1_i8
-         q = q + limit_step(correction)
+         call linkage%coordinates%add_change(linkage%bodies%n, limit_step(linkage, correction), q)
       end do
-      if (rank < size(q)) outcome = singular
+      if (rank < size(rest)) outcome = singular
       if (now > newton%tolerance) outcome = open_rows
    end subroutine solve_positions
 
@@ -77,9 +78,9 @@ contains
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows; rows, phi_dot and motion are set
       real(wp), intent(in) :: t                        !! time [s]
       type(newton_t), intent(inout) :: newton          !! cost
-      real(wp), intent(in) :: q(:)                     !! (3 bodies) positions [m, m, rad]
-      real(wp), intent(out) :: v(:)                    !! (3 bodies) velocities [m/s, m/s, rad/s]
-      real(wp), intent(out) :: a(:)                    !! (3 bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
+      real(wp), intent(out) :: v(:)                    !! (n_v bodies) velocities [m/s or rad/s]
+      real(wp), intent(out) :: a(:)                    !! (n_v bodies) accelerations [m/s^2 or rad/s^2]
       integer, intent(out) :: outcome                  !! one of the above
 
       real(wp) :: left(linkage%rows%n)
@@ -103,7 +104,7 @@ contains
       type(linkage_t), intent(in) :: linkage           !! the bodies and their rows, rows evaluated
       type(newton_t), intent(inout) :: newton          !! cost
       real(wp), intent(in) :: right(:)                 !! (rows) right-hand side [rates of the rows]
-      real(wp), intent(inout) :: x(:)                  !! (3 bodies) zero, then the solution [rates of the coordinates]
+      real(wp), intent(inout) :: x(:)                  !! (n_v bodies) zero, then the solution [rates of the coordinates]
       real(wp), intent(out) :: left(:)                 !! (rows) what is left of the right-hand side [rates of the rows]
       integer, intent(out) :: outcome                  !! one of the above
 

@@ -22,7 +22,7 @@ module grip_forces
       real(wp), allocatable :: root(:)           !! (n_slip) roots of the normal forces [N^0.5]
       real(wp), allocatable :: eigenvalue(:)     !! (n_slip) of the scaled matrix [N/kg]
       real(wp), allocatable :: work(:)           !! (any) scratch [any]
-      real(wp), allocatable :: unit(:, :)        !! (3, 0:bodies) loads of a unit force [1, 1, m]
+      real(wp), allocatable :: unit(:, :)        !! (n_v, 0:bodies) loads of a unit force [1 or m]
       real(wp), allocatable :: b(:)              !! (rows) right-hand side of the rows, kept [m/s^2 or rad/s^2]
       real(wp), allocatable :: ydot(:)           !! (n) scratch derivative [any]
       real(wp), allocatable :: y(:)              !! (n) scratch state [any]
@@ -31,10 +31,10 @@ module grip_forces
 contains
 
    !> Room for contacts that may stick.
-   subroutine new_grip_forces(n_slip, n_bristle, n_body, n_row, n, grips)
+   subroutine new_grip_forces(n_slip, n_bristle, a, n_row, n, grips)
       integer, intent(in) :: n_slip               !! contacts that may stick
       integer, intent(in) :: n_bristle            !! contacts with bristles
-      integer, intent(in) :: n_body               !! bodies
+      real(wp), intent(in) :: a(:, 0:)            !! (n_v, 0:bodies) accelerations, for the shape of loads [any]
       integer, intent(in) :: n_row                !! rows
       integer, intent(in) :: n                    !! entries of the state
       type(grip_forces_t), intent(out) :: grips   !! room
@@ -46,7 +46,7 @@ contains
       allocate (grips%is_fixed(n_slip), source=.false.)
       allocate (grips%matrix(n_slip, n_slip), grips%mobility(n_slip), grips%left(n_slip), grips%force(n_slip), &
                 grips%root(n_slip), grips%eigenvalue(n_slip), &
-                grips%work(34*n_slip), grips%unit(3, 0:n_body), grips%b(n_row), grips%y(n), &
+                grips%work(34*n_slip), grips%unit(size(a, 1), 0:ubound(a, 2)), grips%b(n_row), grips%y(n), &
                 grips%ydot(n), source=0.0_wp)
    end subroutine new_grip_forces
 

@@ -5,7 +5,7 @@ module loading
    use motion, only: loads_t
    implicit none (type, external)
    private
-   public :: loading_t
+   public :: loading_t, start_loads
 
    !> Applied loads.
    type :: loading_t
@@ -14,8 +14,25 @@ module loading
       type(force_slot_t), allocatable :: forces(:)   !! force elements, one set per kind
       ! of the last evaluation
       type(loads_t) :: loads                         !! applied and contact loads
-      real(wp), allocatable :: g(:, :)               !! (3, 0:bodies) loads on the coordinates [N, N, N.m]
+      real(wp), allocatable :: g(:, :)               !! (n_v, 0:bodies) loads on the rates [N or N.m]
       real(wp) :: power = 0.0_wp                     !! power of applied loads [W]
    end type loading_t
+
+contains
+
+   !> Loads of gravity.
+   pure subroutine start_loads(n, weight, force, moment)
+      integer, intent(in) :: n                      !! number of bodies
+      real(wp), intent(in) :: weight(3, 0:n)        !! (3, 0:n) force of gravity [N]
+      real(wp), intent(out) :: force(3, 0:n)        !! (3, 0:n) forces [N]
+      real(wp), intent(out) :: moment(3, 0:n)       !! (3, 0:n) moments about the centres of mass [N.m]
+
+      integer :: k
+
+      do k = 0, n
+         force(:, k) = weight(:, k)
+         moment(:, k) = 0.0_wp
+      end do
+   end subroutine start_loads
 
 end module loading

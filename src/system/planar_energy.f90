@@ -68,16 +68,12 @@ contains
       class(planar_system_t), intent(in) :: system     !! the system, its motion set
       type(energy_t), intent(inout) :: energy          !! energies
 
-      real(wp) :: m
       integer :: k
 
-      associate (motion => system%linkage%motion)
+      associate (motion => system%linkage%motion, mass => system%linkage%mass, gravity => system%loading%gravity)
          do k = 1, system%linkage%bodies%n
-            m = system%linkage%bodies%mass(k)
-            energy%kinetic = energy%kinetic + 0.5_wp*(m*(motion%v(1, k)**2 + motion%v(2, k)**2) &
-                                                      + system%linkage%bodies%inertia(k)*motion%omega(3, k)**2)
-            energy%potential = energy%potential - m*(system%loading%gravity(1)*motion%r(1, k) &
-                                                     + system%loading%gravity(2)*motion%r(2, k))
+            energy%kinetic = energy%kinetic + system%linkage%coordinates%kinetic_energy(mass(:, k), motion, k)
+            energy%potential = energy%potential - system%linkage%bodies%mass(k)*dot_product(gravity, motion%r(:, k))
          end do
       end associate
       do k = 1, size(system%loading%forces)

@@ -17,6 +17,7 @@
 submodule(planar_system) planar_friction
    use clearance_set, only: loss_friction
    use contact_grip, only: sticks
+   use coordinates, only: most_rates
    use friction_law, only: memory_bristle, memory_slip
    use floors, only: least_mobility, no_acceleration, settling
    use grip_forces, only: solve_grips
@@ -96,27 +97,20 @@ contains
       integer, intent(in) :: k                     !! contact of the set
       logical, intent(in) :: with_known            !! with those of bodies whose motion is known
 
-      real(wp) :: linear(2), turning
-      integer :: body, item, side
+      real(wp) :: acceleration(most_rates), row(most_rates)
+      integer :: body, side
 
       a = 0.0_wp
-      associate (set => self%clearances(slot)%set, tangent => self%clearances(slot)%set%grip%tangent(k))
-         item = set%item_of(k)
+      associate (set => self%clearances(slot)%set, linkage => self%linkage)
          do side = 1, 2
-            body = set%body(side, item)
+            body = set%body(side, set%item_of(k))
             if (body == 0) cycle
-            if (self%linkage%reduced%is_known(body)) then
-               if (.not. with_known) cycle
-               linear = self%linkage%motion%a(1:2, body)
-               turning = self%linkage%motion%alpha(3, body)
-            else
-               linear = self%linkage%solution%a(1:2, body)
-               turning = self%linkage%solution%a(3, body)
-            end if
-            if (side == 1) then
-               a = a - (dot_product(tangent%t, linear) + turning*moment_of(tangent%arm_i, tangent%t))
-            else
-               a = a + (dot_product(tangent%t, linear) + turning*moment_of(tangent%arm_j, tangent%t))
+            call sliding_row(self, slot, k, side, row)
+            if (.not. linkage%reduced%is_known(body)) then
+               a = a + dot_product(row(:linkage%coordinates%n_v), linkage%solution%a(:, body))
+            else if (with_known) then
+               call linkage%coordinates%find_acceleration(linkage%motion, body, acceleration)
+               a = a + dot_product(row(:linkage%coordinates%n_v), acceleration(:linkage%coordinates%n_v))
             end if
          end do
       end associate
@@ -127,48 +121,59 @@ contains
       class(planar_system_t), intent(in) :: self   !! the system
       integer, intent(in) :: c                     !! place on the list of contacts that stick
 
-      integer :: i, j, item
+      real(wp) :: row(most_rates)
+      integer :: body, side
 
-      associate (set => self%clearances(self%grips%slot(c))%set)
-         associate (tangent => set%grip%tangent(self%grips%contact(c)))
-            item = set%item_of(self%grips%contact(c))
-            i = set%body(1, item)
-            j = set%body(2, item)
-            mobility = self%linkage%inverse_mass(1, i) + self%linkage%inverse_mass(3, i)*moment_of(tangent%arm_i, tangent%t)**2 &
-                       + self%linkage%inverse_mass(1, j) + self%linkage%inverse_mass(3, j)*moment_of(tangent%arm_j, tangent%t)**2
+      mobility = 0.0_wp
+      associate (slot => self%grips%slot(c), k => self%grips%contact(c))
+         associate (set => self%clearances(slot)%set)
+            do side = 1, 2
+               body = set%body(side, set%item_of(k))
+               call sliding_row(self, slot, k, side, row)
+               mobility = mobility + sum(self%linkage%inverse_mass(:, body)*row(:self%linkage%coordinates%n_v)**2)
+            end do
          end associate
       end associate
    end function mobility_of
 
-   !> Add the pair of tangential forces of a contact on the list to loads on the coordinates.
+   !> Add the pair of tangential forces of a contact on the list to loads on the rates.
    pure subroutine add_pair(self, c, force, g)
       class(planar_system_t), intent(in) :: self   !! the system
       integer, intent(in) :: c                     !! place on the list of contacts that stick
       real(wp), intent(in) :: force                !! on body j along t [N]
-      real(wp), intent(inout) :: g(:, 0:)          !! (3, 0:bodies) loads [N, N, N.m]
+      real(wp), intent(inout) :: g(:, 0:)          !! (n_v, 0:bodies) loads [N or N.m]
 
-      integer :: i, item, j
+      real(wp) :: row(most_rates)
+      integer :: body, side
 
-      associate (set => self%clearances(self%grips%slot(c))%set)
-         associate (tangent => set%grip%tangent(self%grips%contact(c)))
-            item = set%item_of(self%grips%contact(c))
-            i = set%body(1, item)
-            j = set%body(2, item)
-            g(1:2, i) = g(1:2, i) - force*tangent%t
-            g(1:2, j) = g(1:2, j) + force*tangent%t
-            g(3, i) = g(3, i) - force*moment_of(tangent%arm_i, tangent%t)
-            g(3, j) = g(3, j) + force*moment_of(tangent%arm_j, tangent%t)
+      associate (slot => self%grips%slot(c), k => self%grips%contact(c))
+         associate (set => self%clearances(slot)%set)
+            do side = 1, 2
+               body = set%body(side, set%item_of(k))
+               call sliding_row(self, slot, k, side, row)
+               g(:, body) = g(:, body) + force*row(:size(g, 1))
+            end do
          end associate
       end associate
    end subroutine add_pair
 
-   !> Moment of a unit force.
-   pure real(wp) function moment_of(arm, direction) result(moment)
-      real(wp), intent(in) :: arm(2)         !! (2) to where it acts [m]
-      real(wp), intent(in) :: direction(2)   !! (2) its direction [1]
+   !> What the rates of one of its bodies add to the sliding velocity of a contact, of j relative to i.
+   pure subroutine sliding_row(self, slot, k, side, row)
+      class(planar_system_t), intent(in) :: self   !! the system
+      integer, intent(in) :: slot                  !! set of the contact
+      integer, intent(in) :: k                     !! contact of the set
+      integer, intent(in) :: side                  !! 1: body i, 2: body j
+      real(wp), intent(out) :: row(most_rates)     !! (most_rates) the row, its first n_v entries [1 or m]
 
-      moment = arm(1)*direction(2) - arm(2)*direction(1)
-   end function moment_of
+      associate (tangent => self%clearances(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates)
+         if (side == 1) then
+            call coordinates%along(tangent%t, tangent%arm_i, row(:coordinates%n_v))
+            row(:coordinates%n_v) = -row(:coordinates%n_v)
+         else
+            call coordinates%along(tangent%t, tangent%arm_j, row(:coordinates%n_v))
+         end if
+      end associate
+   end subroutine sliding_row
 
    !> Deflections of bristles from a state into the contacts.
    module procedure planar_take_bristles
@@ -177,7 +182,7 @@ contains
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = 2*self%n_position + set%grip%first_bristle
+            place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
             set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
          end associate
       end do
@@ -190,7 +195,7 @@ contains
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = 2*self%n_position + set%grip%first_bristle
+            place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
             ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
          end associate
       end do
@@ -203,7 +208,7 @@ contains
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = 2*self%n_position + set%grip%first_bristle
+            place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
             scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
          end associate
       end do

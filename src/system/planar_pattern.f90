@@ -1,5 +1,5 @@
 !> Where the residual of `planar_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
-!> contacts with. All bodies have their three coordinates, and contacts no states of their own.
+!> contacts with. All bodies have all their coordinates, as many as rates, and contacts no states of their own.
 submodule(planar_system) planar_pattern
    implicit none (type, external)
 
@@ -15,9 +15,10 @@ contains
    !> Column by column: coordinates, rates, quadratures, both sets of multipliers.
    module procedure planar_dae_pattern
       type(couplings_t) :: near
-      integer :: body, first, i, k, level, m, n, n_entry, pass, place(0:self%linkage%bodies%n)
+      integer :: body, first, i, k, level, m, n, n_entry, n_v, pass, place(0:self%linkage%bodies%n)
 
       n = self%linkage%rows%n_unknown
+      n_v = self%linkage%coordinates%n_v
       m = self%n_row
       place = 0
       place(self%linkage%rows%unknown) = [(k, k=1, n)]
@@ -28,13 +29,13 @@ contains
          do level = 0, 1  ! coordinates, rates
             do k = 1, n
                body = self%linkage%rows%unknown(k)
-               do i = 1, 3
-                  column(3*n*level + 3*(k - 1) + i) = n_entry
-                  call add_three(3*(k - 1))
-                  call add_three(3*n + 3*(k - 1))
+               do i = 1, n_v
+                  column(n_v*n*level + n_v*(k - 1) + i) = n_entry
+                  call add_body(n_v*(k - 1))
+                  call add_body(n_v*n + n_v*(k - 1))
                   do first = near%last(body - 1) + 1, near%last(body)
-                     if (near%by_joint(first) .and. level == 0) call add_three(3*(place(near%other(first)) - 1))
-                     call add_three(3*n + 3*(place(near%other(first)) - 1))
+                     if (near%by_joint(first) .and. level == 0) call add_body(n_v*(place(near%other(first)) - 1))
+                     call add_body(n_v*n + n_v*(place(near%other(first)) - 1))
                   end do
                   do first = self%linkage%rows%last_side(body - 1) + 1, self%linkage%rows%last_side(body)
                      call add_entry(self%n + self%linkage%rows%side(1, first) - 1)
@@ -43,7 +44,7 @@ contains
                end do
             end do
          end do
-         do i = 6*n + 1, self%n
+         do i = 2*n_v*n + 1, self%n
             column(i) = n_entry
             call add_entry(i - 1)
          end do
@@ -52,7 +53,7 @@ contains
                column(self%n + merge(0, m, level == 1) + i) = n_entry
                do k = 1, 2
                   body = place(self%linkage%rows%body(k, i))
-                  if (body > 0) call add_three(3*n*level + 3*(body - 1))
+                  if (body > 0) call add_body(n_v*n*level + n_v*(body - 1))
                end do
             end do
          end do
@@ -70,16 +71,16 @@ contains
          if (pass == 2) row(n_entry) = number
       end subroutine add_entry
 
-      !> Entries for the three coordinates or rates of a body.
-      subroutine add_three(before)
+      !> Entries for the coordinates or rates of a body.
+      subroutine add_body(before)
          integer, intent(in) :: before  !! rows before them
 
          integer :: j
 
-         do j = 0, 2
+         do j = 0, n_v - 1
             call add_entry(before + j)
          end do
-      end subroutine add_three
+      end subroutine add_body
 
    end procedure planar_dae_pattern
 
@@ -88,15 +89,17 @@ contains
       integer :: body, i, k, n
 
       n = 0
-      do i = 1, self%n_row
-         do k = 1, 2
-            body = self%linkage%rows%body(k, i)
-            if (body == 0) cycle
-            if (self%linkage%reduced%is_known(body)) cycle
-            values(n + 1:n + 3) = self%linkage%inverse_mass(:, body)*self%linkage%rows%jac(3*k - 2:3*k, i)
-            n = n + 3
+      associate (rows => self%linkage%rows, n_v => self%linkage%coordinates%n_v)
+         do i = 1, self%n_row
+            do k = 1, 2
+               body = rows%body(k, i)
+               if (body == 0) cycle
+               if (self%linkage%reduced%is_known(body)) cycle
+               values(n + 1:n + n_v) = self%linkage%inverse_mass(:, body)*rows%jac(n_v*(k - 1) + 1:n_v*k, i)
+               n = n + n_v
+            end do
          end do
-      end do
+      end associate
    end procedure planar_dae_spread
 
    !> Which bodies depend on which: pairs that joints, forces and contacts name, each in both directions and once.

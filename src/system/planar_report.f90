@@ -50,7 +50,7 @@ contains
       type(kind_info_t) :: contact_info, info, joint_info
       integer :: c, i, k
 
-      catalogue%n_coordinates = 2
+      catalogue%n_coordinates = system%linkage%coordinates%n_axis
       info = bodies_info()
       do k = 1, system%linkage%bodies%n
          call catalogue%add_item(room_bodies, system%linkage%bodies%names(k)%s, info=info)
@@ -189,7 +189,7 @@ contains
          associate (group => catalogue%groups(k))
             select case (group%room)
             case (room_bodies)
-               call report_bodies(system, group%channel%name, group%data)
+               call system%linkage%coordinates%report(group%channel%name, system%linkage%motion, group%data)
             case (room_joints)
                call report_joints(system, .false., group%channel%name, items_with(catalogue, k), group%data)
             case (room_drivers)
@@ -204,30 +204,6 @@ contains
          end associate
       end do
    end subroutine fill_catalogue
-
-   !> Values of a channel of the bodies.
-   subroutine report_bodies(system, channel, values)
-      class(planar_system_t), intent(in) :: system  !! the system
-      character(*), intent(in) :: channel           !! the channel
-      real(wp), intent(inout) :: values(:, :)       !! (components, bodies) values [any]
-
-      associate (motion => system%linkage%motion, n => system%linkage%bodies%n)
-         select case (channel)
-         case ("position")
-            values = motion%r(1:2, 1:n)
-         case ("velocity")
-            values = motion%v(1:2, 1:n)
-         case ("acceleration")
-            values = motion%a(1:2, 1:n)
-         case ("angle")
-            values(1, :) = motion%angle(1:n)
-         case ("angular_velocity")
-            values(1, :) = motion%omega(3, 1:n)
-         case ("angular_acceleration")
-            values(1, :) = motion%alpha(3, 1:n)
-         end select
-      end associate
-   end subroutine report_bodies
 
    !> Which items of a group's room have its channel.
    pure function items_with(catalogue, group) result(has)
@@ -251,7 +227,7 @@ contains
       logical, intent(in) :: has(:)                 !! (items) whether each item has the channel
       real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
 
-      real(wp) :: force(2), moment, rate, value
+      real(wp) :: force(3), moment(3), rate, value
       integer :: column, i, k, row
       logical :: is_known
 
@@ -270,11 +246,11 @@ contains
                         ! along its coordinate, on the body of j
                         values(1, column) = -system%linkage%solution%lambda(row)
                      else
-                        values(:, column) = force
+                        values(:, column) = force(:size(values, 1))
                      end if
                   case ("moment")
                      call reaction_on_i(system, set, i, force, moment)
-                     values(1, column) = merge(-moment, moment, is_driver)
+                     values(1, column) = merge(-moment(3), moment(3), is_driver)
                   case ("violation")
                      values(1, column) = norm2(system%linkage%rows%phi(row:last))
                   case ("violation_rate")
@@ -299,22 +275,20 @@ contains
       class(planar_system_t), intent(in) :: system  !! the system
       class(joint_set_t), intent(in) :: set         !! the joint's set
       integer, intent(in) :: item                   !! item of the set
-      real(wp), intent(out) :: force(2)             !! (2) force on body i, world frame [N]
-      real(wp), intent(out) :: moment               !! moment on body i about the reaction point [N.m]
+      real(wp), intent(out) :: force(3)             !! (3) force on body i, world frame [N]
+      real(wp), intent(out) :: moment(3)            !! (3) moment on body i about the reaction point [N.m]
 
-      real(wp) :: about_centre, arm(3), couple(3)
-      integer :: k, row
+      real(wp) :: load(system%linkage%coordinates%n_v)
+      integer :: body, k, row
 
-      force = 0.0_wp
-      about_centre = 0.0_wp
+      load = 0.0_wp
+      body = set%body(1, item)
       do k = 1, set%n_row_item
          row = set%first_row + (item - 1)*set%n_row_item + k
-         force = force - system%linkage%rows%jac(1:2, row)*system%linkage%solution%lambda(row)
-         about_centre = about_centre - system%linkage%rows%jac(3, row)*system%linkage%solution%lambda(row)
+         load = load - system%linkage%rows%jac(:size(load), row)*system%linkage%solution%lambda(row)
       end do
-      arm = set%reaction_point(item, system%linkage%motion) - system%linkage%motion%r(:, set%body(1, item))
-      couple = cross(arm, [force, 0.0_wp])
-      moment = about_centre - couple(3)
+      call system%linkage%coordinates%split_load(load, system%linkage%motion, body, force, moment)
+      moment = moment - cross(set%reaction_point(item, system%linkage%motion) - system%linkage%motion%r(:, body), force)
    end subroutine reaction_on_i
 
    !> Values of a channel of the joints with clearance, loose ones first, then those taken as ideal.
@@ -323,7 +297,7 @@ contains
       character(*), intent(in) :: channel           !! the channel
       real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
 
-      real(wp) :: force(2), moment
+      real(wp) :: force(3), moment(3)
       integer :: i, k, n
 
       do k = 1, size(system%clearances)
@@ -336,7 +310,7 @@ contains
             select case (channel)
             case ("force")
                call reaction_on_i(system, system%linkage%ideal(k)%set, i, force, moment)
-               values(:, n) = -force
+               values(:, n) = -force(:size(values, 1))
             case ("eccentricity")
                values(:, n) = 0.0_wp
             end select

@@ -6,6 +6,7 @@
 !> start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start lead; one millionth of 1/end, so that what
 !> never moves has one too. Where a load jumps, the accelerations lead anew.
 submodule(planar_system) planar_scales
+   use coordinates, only: most_rates
    use floors, only: idle_part, late, remembered, shortest_difference
    implicit none (type, external)
 
@@ -24,23 +25,25 @@ contains
    module procedure planar_weights
       real(wp), parameter :: touching = 0.1_wp  ! scales during contact [1]
       real(wp) :: rate, swing
-      integer :: k, n, nq
+      integer :: i, k, n
 
-      nq = self%n_position
-      n = 3*self%linkage%rows%n_unknown
-      rate = max(rate_of(self, y), remembered*self%linkage%scales%pace, self%linkage%scales%late_rate)
-      do k = 1, self%linkage%reduced%guided%n
-         scale(n + k) = merge(1.0_wp, self%linkage%scales%length, k <= self%linkage%reduced%guided%n_turning)
-      end do
-      scale(nq + n + 1:2*nq) = scale(n + 1:nq)*rate
-      do k = 1, n, 3
-         scale(k) = self%linkage%scales%length
-         scale(k + 1) = self%linkage%scales%length
-         scale(k + 2) = 1.0_wp
-         scale(nq + k) = self%linkage%scales%length*rate
-         scale(nq + k + 1) = self%linkage%scales%length*rate
-         scale(nq + k + 2) = rate
-      end do
+      associate (linkage => self%linkage, n_unknown => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
+                 nq => self%linkage%n_position, length => self%linkage%scales%length)
+         n = linkage%n_rate
+         rate = max(rate_of(self, y), remembered*linkage%scales%pace, linkage%scales%late_rate)
+         call linkage%coordinates%weigh_positions(length, n_unknown, scale)
+         associate (n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
+            do k = 1, n_unknown
+               do i = 1, n_v
+                  scale(nq + n_v*(k - 1) + i) = merge(1.0_wp, length, is_turn(i))*rate
+               end do
+            end do
+         end associate
+         do k = 1, guided%n
+            scale(nq - guided%n + k) = merge(1.0_wp, length, k <= guided%n_turning)
+            scale(nq + n - guided%n + k) = scale(nq - guided%n + k)*rate
+         end do
+      end associate
       if (self%grips%n_bristle > 0) call self%bristle_weights(scale)
       swing = -1.0_wp
       do k = 1, size(self%clearances)
@@ -49,31 +52,31 @@ contains
       end do
       if (swing < 0.0_wp) return
       rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%linkage%scales%tolerance*rate))
-      scale(:nq) = touching*scale(:nq)
-      scale(nq + 1:2*nq) = touching*rate*scale(nq + 1:2*nq)
+      associate (nq => self%linkage%n_position)
+         scale(:nq) = touching*scale(:nq)
+         scale(nq + 1:nq + n) = touching*rate*scale(nq + 1:nq + n)
+      end associate
    end procedure planar_weights
 
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
       class(planar_system_t), intent(in) :: self  !! the system
-      real(wp), intent(in) :: y(:)                !! (n) state [any]
+      real(wp), intent(in), contiguous :: y(:)    !! (n) state [any]
 
-      integer :: body, k, n, nq
+      integer :: k
 
-      nq = self%n_position
-      n = 3*self%linkage%rows%n_unknown
-      rate = 0.0_wp
-      do k = nq + 1, nq + n, 3
-         rate = max(rate, abs(y(k))/self%linkage%scales%length, abs(y(k + 1))/self%linkage%scales%length, abs(y(k + 2)))
-      end do
-      do k = 1, self%linkage%reduced%known%n
-         body = self%linkage%reduced%known%item(k)%body
-         rate = max(rate, maxval(abs(self%linkage%motion%v(1:2, body)))/self%linkage%scales%length, &
-                    abs(self%linkage%motion%omega(3, body)))
-      end do
-      do k = 1, self%linkage%reduced%guided%n
-         rate = max(rate, abs(y(nq + n + k))/merge(1.0_wp, self%linkage%scales%length, k <= self%linkage%reduced%guided%n_turning))
-      end do
+      associate (linkage => self%linkage, coordinates => self%linkage%coordinates, length => self%linkage%scales%length, &
+                 known => self%linkage%reduced%known, guided => self%linkage%reduced%guided)
+         associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
+            rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
+            do k = 1, known%n
+               rate = max(rate, coordinates%rate_of(linkage%motion, known%item(k)%body, length))
+            end do
+            do k = 1, guided%n
+               rate = max(rate, abs(y(last + k))/merge(1.0_wp, length, k <= guided%n_turning))
+            end do
+         end associate
+      end associate
    end function rate_of
 
    !> Raise the pace to that of a state.
@@ -84,26 +87,24 @@ contains
 
    !> The rate to which accelerations lead, sqrt(|a|/L) and sqrt(|alpha|); of bodies whose motion is known they are not looked at.
    pure real(wp) function rate_to_come(self, ydot) result(rate)
-      class(planar_system_t), intent(in) :: self  !! the system
-      real(wp), intent(in) :: ydot(:)             !! (n) derivative of a state, or what it jumps by [any]
+      class(planar_system_t), intent(in) :: self   !! the system
+      real(wp), intent(in), contiguous :: ydot(:)  !! (n) derivative of a state, or what it jumps by [any]
 
-      integer :: k, n, nq
+      integer :: k
 
-      nq = self%n_position
-      n = 3*self%linkage%rows%n_unknown
-      rate = 0.0_wp
-      do k = nq + 1, nq + n, 3
-         rate = max(rate, sqrt(maxval(abs(ydot(k:k + 1)))/self%linkage%scales%length), sqrt(abs(ydot(k + 2))))
-      end do
-      do k = 1, self%linkage%reduced%guided%n
-         rate = max(rate, sqrt(abs(ydot(nq + n + k))/merge(1.0_wp, self%linkage%scales%length, &
-                    k <= self%linkage%reduced%guided%n_turning)))
-      end do
+      associate (linkage => self%linkage, length => self%linkage%scales%length, guided => self%linkage%reduced%guided)
+         associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
+            rate = sqrt(linkage%coordinates%greatest_rate(linkage%rows%n_unknown, ydot(nq + 1:), length))
+            do k = 1, guided%n
+               rate = max(rate, sqrt(abs(ydot(last + k))/merge(1.0_wp, length, k <= guided%n_turning)))
+            end do
+         end associate
+      end associate
    end function rate_to_come
 
    !> The pace at the start.
    module procedure planar_begin_pace
-      real(wp) :: delta(self%n_contact), rate(self%n_contact), ydot(size(y))
+      real(wp) :: acceleration(most_rates), delta(self%n_contact), rate(self%n_contact), ydot(size(y))
       integer(i8) :: n_evaluations, n_factorisations
       integer :: i, k, status
 
@@ -128,12 +129,12 @@ contains
       if (status /= 0) ydot = 0.0_wp
       call self%follow_pace(y, ydot)
       if (status /= 0) return
-      do k = 1, self%linkage%reduced%known%n
-         associate (body => self%linkage%reduced%known%item(k)%body, motion => self%linkage%motion)
-            self%linkage%scales%pace = max(self%linkage%scales%pace, sqrt(maxval(abs(motion%a(1:2, &
-                                           body)))/self%linkage%scales%length), sqrt(abs(motion%alpha(3, body))))
-         end associate
-      end do
+      associate (linkage => self%linkage, coordinates => self%linkage%coordinates, scales => self%linkage%scales)
+         do k = 1, linkage%reduced%known%n
+            call coordinates%find_acceleration(linkage%motion, linkage%reduced%known%item(k)%body, acceleration)
+            scales%pace = max(scales%pace, sqrt(coordinates%greatest_rate(1, acceleration, scales%length)))
+         end do
+      end associate
    end procedure planar_begin_pace
 
    !> Part of the step in hand, but more than time is rounded by.

@@ -20,8 +20,7 @@ module planar_system
    use hold, only: hold_t
    use kinds, only: i8, wp
    use linkage, only: linkage_t
-   use loading, only: loading_t
-   use planar_kernels, only: planar_loads, start_loads, state_rates
+   use loading, only: loading_t, start_loads
    implicit none (type, external)
    private
    public :: planar_system_t
@@ -47,7 +46,7 @@ module planar_system
       logical :: with_ledger = .true.                       !! whether the ledger is kept
       logical :: with_energies = .true.                     !! whether energies are reported, with or without a ledger
       integer(i8) :: n_evaluations = 0                      !! evaluations made
-      real(wp), allocatable, private :: held(:)             !! (2 positions) state corrected for an evaluation [any]
+      real(wp), allocatable, private :: held(:)             !! (positions + rates) state corrected for an evaluation [any]
    contains
       procedure :: evaluate => planar_evaluate, dae_residual => planar_dae_residual
       procedure :: dae_pattern => planar_dae_pattern, dae_spread => planar_dae_spread, weights => planar_weights
@@ -188,7 +187,7 @@ module planar_system
       module subroutine planar_dae_spread(self, values)
          implicit none (type, external)
          class(planar_system_t), intent(in) :: self   !! the system
-         real(wp), intent(out) :: values(:)           !! (3 for each side of an unknown body) in the order of the pattern [any]
+         real(wp), intent(out) :: values(:)           !! (n_v for each side of an unknown body) in the order of the pattern [any]
       end subroutine planar_dae_spread
 
       !> Powers of the ledger.
@@ -278,7 +277,7 @@ contains
       self%n_evaluations = self%n_evaluations + 1
       if (self%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
-         self%held = y(:2*self%n_position)
+         self%held = y(:size(self%held))
          call self%way%correct_stage(self%linkage, t, self%held, status)
          if (status /= 0) return
          call self%linkage%move(inside, self%held)
@@ -292,19 +291,19 @@ contains
          if (status == 0 .and. self%grips%n_slip > 0) call self%stick(status)
          if (status /= 0) return
       end if
-      associate (linkage => self%linkage, rows => self%linkage%rows, guided => self%linkage%reduced%guided, nq => self%n_position)
-         associate (n => 3*rows%n_unknown)
-            if (n > 0) then
-               call state_rates(rows%n_unknown, rows%unknown, linkage%bodies%n, linkage%motion%v, linkage%motion%omega, &
-                                linkage%solution%a, ydot, ydot(nq + 1:), status)
-               if (status /= 0) return
-            end if
-            if (guided%n > 0) then
-               call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(nq + n + 1:), &
-                                 ydot(n + 1:), ydot(nq + n + 1:), status)
-               if (self%with_ledger) call set_guided_acceleration(guided, ydot(nq + n + 1:), linkage%motion)
-            end if
-         end associate
+      associate (linkage => self%linkage, n => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
+                 nq => self%linkage%n_position)
+         if (n > 0) then
+            call linkage%coordinates%rates(n, linkage%rows%unknown, linkage%motion, linkage%solution%a, ydot, ydot(nq + 1:), status)
+            if (status /= 0) return
+         end if
+         if (guided%n > 0) then
+            associate (last => nq + linkage%n_rate - guided%n)
+               call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(last + 1:), &
+                                 ydot(nq - guided%n + 1:), ydot(last + 1:), status)
+               if (self%with_ledger) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
+            end associate
+         end if
       end associate
       if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
       if (self%with_ledger) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
@@ -318,7 +317,7 @@ contains
       call move_alloc(way, self%way)
       self%holds = self%way%at_steps
       self%follows_step = self%way%follows_step
-      allocate (self%held(merge(2*self%n_position, 0, self%way%at_stages)), source=0.0_wp)
+      allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
    end subroutine planar_take_way
 
    !> The length of the step that begins, for gains that follow it.
@@ -361,7 +360,7 @@ contains
          do k = 1, size(self%clearances)
             call self%clearances(k)%set%evaluate(motion, loading%loads, self%losses)
          end do
-         call planar_loads(n_body, loading%loads%force, loading%loads%moment, loading%g)
+         call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
       end associate
    end subroutine planar_evaluate_loads
 

@@ -18,7 +18,8 @@ module clearance_bench
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use law_fixture, only: tame
-   use motion, only: loads_t, motion_t, new_loads, new_motion, set_planar_motion, set_some_acceleration
+   use motion, only: loads_t, motion_t, new_loads, new_motion
+   use planar_coordinates, only: new_planar_coordinates, planar_coordinates_t, set_planar_motion
    use normal_law, only: n_law_parameter, normal_law_t
    use text, only: split_blank, text_t
    implicit none (type, external)
@@ -310,10 +311,12 @@ contains
       type(bench_t), intent(inout) :: bench  !! the set
       real(wp), intent(in) :: t              !! time [s]
 
+      type(planar_coordinates_t) :: coordinates
       integer :: k
 
       call set_planar_motion(n_body, bench%q + t*(bench%v + 0.5_wp*t*bench%a), bench%v + t*bench%a, bench%motion)
-      call set_some_acceleration(n_body, [(k, k=1, n_body)], bench%a, bench%motion)
+      coordinates = new_planar_coordinates()
+      call coordinates%accelerate(n_body, [(k, k=1, n_body)], bench%a, bench%motion)
    end subroutine move_to
 
    !> Penetrations and rates after a time; those of other sets are left at -1.

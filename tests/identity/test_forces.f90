@@ -13,7 +13,8 @@ module test_forces
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, pi, wp
-   use motion, only: loads_t, motion_t, new_loads, new_motion, point_position, set_planar_motion
+   use motion, only: loads_t, motion_t, new_loads, new_motion, point_position
+   use planar_coordinates, only: set_planar_motion
    use text, only: to_text
    implicit none (type, external)
    private

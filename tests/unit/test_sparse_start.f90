@@ -12,7 +12,6 @@ module test_sparse_start
    use read_scene, only: scene_from_deck
    use scene, only: scene_t
    use scene_fixture, only: nl, read_scene_text
-   use start_state, only: deck_positions
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -104,7 +103,7 @@ contains
 
       if (allocated(error)) return
       call new_system(scene, levels_ideal, system, is_for_start=.true.)
-      call deck_positions(scene, q, v)
+      call system%linkage%deck_state(q, v)
       random%state = 17_i8
       do k = 1, size(q)
          q(k) = q(k) + disturbance*random%between(-1.0_wp, 1.0_wp)*merge(1.0_wp, system%linkage%scales%length, modulo(k, 3) == 0)
@@ -192,7 +191,7 @@ contains
       call compare("two rods", scene, 0.0_wp, 0, error)
       if (allocated(error)) return
       call new_system(scene, levels_ideal, system, is_for_start=.true.)
-      call deck_positions(scene, q, v)
+      call system%linkage%deck_state(q, v)
       call assemble(system%linkage, q, v, report, error, is_sparse=.true.)
       if (allocated(error)) return
       call check_close(error, v(1:3), [0.0_wp, 1.5_wp, 3.0_wp], 1.0e-7_wp, "velocities of the first rod")
@@ -234,7 +233,7 @@ contains
       if (allocated(error)) return
       do k = 1, 2
          call new_system(scene, levels_ideal, system, is_for_start=.true.)
-         call deck_positions(scene, q, v)
+         call system%linkage%deck_state(q, v)
          call assemble(system%linkage, q, v, report, refusal, is_sparse=k == 2)
          call check_true(error, allocated(refusal), "refused")
          if (allocated(error)) return
