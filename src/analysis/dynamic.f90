@@ -17,6 +17,7 @@ module dynamic
    use slip_watch, only: decide_next, note_jumps
    use stop_condition, only: stop_t
    use time_plan, only: time_plan_t
+   use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
    public :: run_dynamic
@@ -47,6 +48,7 @@ module dynamic
       real(wp) :: t_event = 0.0_wp               !! time of the last event [s]
       integer :: n_idle = 0                      !! events since the last time that time passed
       type(instants_t) :: instants               !! when functions of time are not smooth
+      type(velocity_jumps_t) :: jumps            !! drivers whose velocity jumps there
    end type run_t
 
 contains
@@ -107,6 +109,7 @@ contains
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
       if (.not. allocated(error)) call audit(run%summary, limits, error)
       call warn_of_errors(system, run%worst, run%worst_row, run%lost, run%summary)
+      call run%jumps%warn(system, run%summary%warnings)
       call run%guards%warn(system, run%summary%warnings)
       run%summary%status = status_complete
       run%summary%message = ""
@@ -317,7 +320,13 @@ contains
       if (allocated(error)) return
       method%g = method%g1
       before = method%step%f1
+      call run%jumps%before_instant(system, method)
       call run%instants%pass(system%linkage%piece)
+      call run%jumps%after_instant(system, method, status)
+      if (status /= 0) then
+         call describe_failure(system, method, advance_failed_evaluation, error)
+         return
+      end if
       call decide_slips(system, method%t, method%step%y1, recorder, run, error)
       if (allocated(error)) return
       call method%restart(system, 0.0_wp, status)
