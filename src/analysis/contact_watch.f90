@@ -5,6 +5,7 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
    use integrator, only: integrator_t, onset_located
@@ -59,7 +60,7 @@ contains
       allocate (watch%g(system%n_contact), watch%g_rate(system%n_contact), source=0.0_wp)
    end subroutine new_contact_watch
 
-   !> Look for maxima of force and penetration within the last step.
+   !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
    subroutine after_step(self, system, method)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(planar_system_t), intent(inout) :: system    !! the system
@@ -92,6 +93,10 @@ contains
             if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
             call keep_depth(system, k, i, max(deepest, penetration%value))
             call keep_force(self, system, method, k, i, peak, force%value)
+            if (system%with_ledger) then
+               call follow_cut_off(system%clearances(k)%set, i, penetration%value, force%value, &
+                                   method%step%y1(loss_place(system, number)))
+            end if
             self%force(number) = force
             self%penetration(number) = penetration
          end do
@@ -240,7 +245,7 @@ contains
       type(event_t), intent(out) :: row                 !! what there is to tell
       real(wp), intent(out) :: step_hint                !! step that suits what begins; 0: as before [s]
 
-      real(wp) :: lost, rate, stored
+      real(wp) :: loss, lost, rate, stored
       integer :: i, k, z
       type(trend_t) :: force, penetration
 
@@ -265,11 +270,16 @@ contains
          self%owes_row(number) = .false.
          self%told(number) = 0.0_wp
          if (is_over) then
-            call set%end_contact(i, method%t, -rate, loss_of(system, method%step%y1, number), .true., row)
+            loss = loss_of(system, method%step%y1, k, i)
+            if (system%with_ledger) then
+               z = loss_place(system, number)
+               method%step%y1(z) = lost_by_damping(set, i, system%linkage%motion, method%step%y1(z))
+            end if
+            call set%end_contact(i, method%t, -rate, loss, .true., row)
             step_hint = 0.0_wp
          else
             rate = max(rate, 0.0_wp)
-            call set%begin_contact(i, method%t, rate, loss_of(system, method%step%y1, number))
+            call set%begin_contact(i, method%t, rate, loss_of(system, method%step%y1, k, i))
             call set%note_swing(i, penetration%value)
             step_hint = step_in_contact()
          end if
@@ -303,15 +313,15 @@ contains
       logical, intent(out) :: is_open                   !! there was one: `row` tells of it
       type(event_t), intent(out) :: row                 !! the contact
 
-      integer :: i, k, number
+      integer :: i, k
 
       is_open = .false.
+      call system%linkage%set_motion(method%t, method%step%y1)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
             do i = 1, set%n_contact
-               number = set%first_contact + i
                if (.not. set%contact(i)%is_touching) cycle
-               call set%end_contact(i, method%t, 0.0_wp, loss_of(system, method%step%y1, number), .false., row)
+               call set%end_contact(i, method%t, 0.0_wp, loss_of(system, method%step%y1, k, i), .false., row)
                set%contact(i)%is_touching = .false.
                set%n_touching = set%n_touching - 1
                is_open = .true.
@@ -361,18 +371,21 @@ contains
       end do
    end subroutine watch_load
 
-   !> What the ledger has lost in a contact; NaN without a ledger.
-   real(wp) function loss_of(system, y, number) result(loss)
-      type(planar_system_t), intent(in) :: system  !! the system
+   !> What the ledger has lost in a contact at the present motion; NaN without a ledger.
+   real(wp) function loss_of(system, y, slot, item) result(loss)
+      type(planar_system_t), intent(in) :: system  !! the system, its motion that of the state
       real(wp), intent(in) :: y(:)                 !! (n) state [any]
-      integer, intent(in) :: number                !! number of the contact
+      integer, intent(in) :: slot                  !! set of the contact
+      integer, intent(in) :: item                  !! contact of the set
 
       integer :: z
 
       loss = not_a_number()
       if (.not. system%with_ledger) return
-      z = loss_place(system, number)
-      loss = y(z) + y(z + 1)
+      associate (set => system%clearances(slot)%set)
+         z = loss_place(system, set%first_contact + item)
+         loss = lost_by_damping(set, item, system%linkage%motion, y(z)) + y(z + 1)
+      end associate
    end function loss_of
 
    !> Place in the state of what the ledger lost by damping in a contact; what it lost by friction is the next.

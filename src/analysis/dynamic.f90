@@ -17,6 +17,7 @@ module dynamic
    use slip_watch, only: decide_next, note_jumps
    use stop_condition, only: stop_t
    use time_plan, only: time_plan_t
+   use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
    public :: run_dynamic
@@ -47,6 +48,7 @@ module dynamic
       real(wp) :: t_event = 0.0_wp               !! time of the last event [s]
       integer :: n_idle = 0                      !! events since the last time that time passed
       type(instants_t) :: instants               !! when functions of time are not smooth
+      type(velocity_jumps_t) :: jumps            !! drivers whose velocity jumps there
    end type run_t
 
 contains
@@ -107,6 +109,7 @@ contains
       if (.not. system%with_ledger) run%summary%energy_residual_max = not_a_number()
       if (.not. allocated(error)) call audit(run%summary, limits, error)
       call warn_of_errors(system, run%worst, run%worst_row, run%lost, run%summary)
+      call run%jumps%warn(system, run%summary%warnings)
       call run%guards%warn(system, run%summary%warnings)
       run%summary%status = status_complete
       run%summary%message = ""
@@ -150,6 +153,7 @@ contains
       run%balance_0 = energy%balance()
       run%potential_0 = energy%potential
       call look_at_step(system, method, run)
+      call look_at_energy(system, method, run)
       if (system%n_loose > 0) call run%watch%after_restart(system, method)
       call look_for_stop(system, method, run, error)
       if (allocated(error)) return
@@ -169,6 +173,7 @@ contains
             return
          end if
          if (system%n_loose > 0) call run%watch%after_step(system, method)
+         call look_at_energy(system, method, run)
          call run%guards%look(system, method%t)
          call look_for_stop(system, method, run, error)
          if (.not. allocated(error)) call run%sampler%take(system, method, plan, run%watch, run%residual, recorder, error)
@@ -192,13 +197,12 @@ contains
       end if
    end subroutine integrate
 
-   !> Pace, constraint violation and energy balance at the end of a step.
+   !> Pace and constraint violation at the end of a step.
    subroutine look_at_step(system, method, run)
       type(planar_system_t), intent(inout) :: system  !! the system, last evaluated at the end of the step
       class(integrator_t), intent(in) :: method       !! the integrator
       type(run_t), intent(inout) :: run               !! maxima are raised
 
-      type(energy_t) :: energy
       real(wp) :: scaled
       integer :: k
 
@@ -213,6 +217,16 @@ contains
          run%summary%violation_max = max(run%summary%violation_max, abs(system%linkage%rows%phi(k)))
          run%summary%violation_rate_max = max(run%summary%violation_rate_max, abs(system%linkage%solution%phi_dot(k)))
       end do
+   end subroutine look_at_step
+
+   !> Energy balance at the end of a step, after `watch` has looked at it.
+   subroutine look_at_energy(system, method, run)
+      type(planar_system_t), intent(in) :: system     !! the system, its motion that of the end of the step
+      class(integrator_t), intent(in) :: method       !! the integrator
+      type(run_t), intent(inout) :: run               !! maxima are raised
+
+      type(energy_t) :: energy
+
       if (.not. system%with_ledger) return
       energy = energy_of(system, method%step%y1)
       run%residual = energy%balance() - run%balance_0
@@ -221,7 +235,7 @@ contains
       run%summary%energy_max = max(run%summary%energy_max, energy%kinetic + energy%elastic &
                                    + abs(energy%potential - run%potential_0))
       call run%guards%look_at_energy(run%residual, run%summary%energy_max, energy%magnitude())
-   end subroutine look_at_step
+   end subroutine look_at_energy
 
    !> Whether a condition ends the run within the last step.
    subroutine look_for_stop(system, method, run, error)
@@ -306,7 +320,13 @@ contains
       if (allocated(error)) return
       method%g = method%g1
       before = method%step%f1
+      call run%jumps%before_instant(system, method)
       call run%instants%pass(system%linkage%piece)
+      call run%jumps%after_instant(system, method, status)
+      if (status /= 0) then
+         call describe_failure(system, method, advance_failed_evaluation, error)
+         return
+      end if
       call decide_slips(system, method%t, method%step%y1, recorder, run, error)
       if (allocated(error)) return
       call method%restart(system, 0.0_wp, status)
@@ -316,6 +336,7 @@ contains
       end if
       call system%follow_pace(method%step%y1, method%step%f1 - before)
       call look_at_step(system, method, run)  ! a jump of a driver is seen here, before the stabilisation acts
+      call look_at_energy(system, method, run)
       if (run%is_lost) then
          call describe_failure(system, method, constraints_lost, error)
          return

@@ -89,9 +89,9 @@ contains
       end associate
    end subroutine tell
 
-   !> Contacts whose event of friction a jump of a load brought about, as what happened at the end of the last step: `g` holds
-   !> the event functions before the jump, the integrator was begun anew behind it. So do those that slip with no speed to speak
-   !> of: drivers may have come to rest, but for round-off, or may be about to turn.
+   !> Contacts whose event of friction, or whose turn, a jump of a load or of the velocity of a driver brought about, as what
+   !> happened at the end of the last step: `g` holds the event functions before the jump, the integrator was begun anew behind it.
+   !> So do those that slip with no speed to speak of: drivers may have come to rest, but for round-off, or may be about to turn.
    subroutine note_jumps(system, method)
       type(planar_system_t), intent(in) :: system       !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator
@@ -100,6 +100,13 @@ contains
       logical :: is_slow
 
       method%n_happened = 0
+      if (system%first_turn > 0) then
+         do k = system%first_turn + 1, system%first_turn + system%n_contact
+            if (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp) cycle
+            method%n_happened = method%n_happened + 1
+            method%happened(method%n_happened) = k
+         end do
+      end if
       if (system%grips%n_slip == 0) return
       do k = system%n_contact + 1, 2*system%n_contact
          call system%find_contact(k, slot, contact)

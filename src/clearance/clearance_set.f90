@@ -36,6 +36,7 @@ module clearance_set
       integer :: first = 0                                  !! items of earlier sets
       integer :: first_contact = 0                          !! contacts of earlier sets
       logical :: is_round = .false.                         !! the clearance is a radial one
+      logical :: has_faces = .false.                        !! contacts of an item share a face, and what it stores
       logical :: energy_jumps = .false.                     !! stored energy and forces may jump where a contact begins or ends
       type(text_t), allocatable :: names(:)                 !! (n) names
       type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item

@@ -55,7 +55,6 @@ module flat_contacts
       real(wp), allocatable :: point_j(:, :)           !! (2, n_contact) the point A, frame of j [m]
       real(wp), allocatable :: height(:)               !! (n_contact) h: plane from P along the normal, less the radius [m]
       real(wp), allocatable :: radius(:)               !! (n_contact) radius of the circle, 0: a point [m]
-      logical :: has_faces = .false.                   !! contacts of an item share a face: `share_faces` has a say
       type(flat_work_t), allocatable :: work           !! scratch of one evaluation
    contains
       procedure :: make_room

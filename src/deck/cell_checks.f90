@@ -2,8 +2,8 @@
 module cell_checks
    use diagnostics, only: diagnostics_t
    use item, only: location_t
-   use kind_info, only: column_t, no_bound
-   use kinds, only: wp
+   use kind_info, only: column_t, dim_angle, no_bound, same_dimension
+   use kinds, only: eps, wp
    use text, only: join, nearest_word, split_blank, text_t, to_text
    use tokens, only: span, token_t
    implicit none (type, external)
@@ -12,6 +12,7 @@ module cell_checks
 
    real(wp), parameter :: least_magnitude = 1.0e-50_wp   !! of a number that is not zero, SI [any]
    real(wp), parameter :: most_magnitude = 1.0e50_wp     !! of a number, so that products of some of them are finite, SI [any]
+   real(wp), parameter :: most_angle = 1.0e-6_wp/eps     !! of an angle: the next number is 1e-6 rad away [rad]
 
 contains
 
@@ -73,6 +74,11 @@ contains
       if (column%lower <= -no_bound) is_low = .false.
       if (column%upper >= no_bound) is_high = .false.
       if (.not. is_low .and. .not. is_high) then
+         if (abs(x) > most_angle .and. same_dimension(column%dimension, dim_angle)) then
+            call mistakes%add(location, to_text(x)//" rad is out of range "//place, "at most "//to_text(most_angle)// &
+                              " rad of either sign", "the next number is more than 1e-6 rad away: take whole turns off")
+            return
+         end if
          if (.not. (abs(x) > 0.0_wp) .or. (abs(x) >= least_magnitude .and. abs(x) <= most_magnitude)) return
          call mistakes%add(location, to_text(x)//" is out of range "//place, "computed with: 0, and "// &
                            to_text(least_magnitude)//" to "//to_text(most_magnitude)//" of either sign in SI units")

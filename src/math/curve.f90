@@ -18,6 +18,7 @@ module curve
    integer, parameter :: beyond_linear = 3    !! the tangent of the end
    integer, parameter :: beyond_periodic = 4  !! it repeats itself
 
+   real(wp), parameter :: largest = 1.0e50_wp !! place at which it can be evaluated, as of numbers in decks [any]
    real(wp), parameter :: slack = 1.0e-9_wp   !! of the range, still taken as inside [1]
 
    !> A curve; before it is made it is nowhere.
@@ -40,7 +41,8 @@ contains
 
       real(wp) :: f(3)
 
-      call curve_values(curve, u(1), f)
+      f = not_a_number()
+      if (abs(u(1)) <= largest) call curve_values(curve, u(1), f)
       v = jet_chain(u, f(1), f(2), f(3))
    end function jet_of_curve
 

@@ -2,9 +2,10 @@
 !>
 !> The program is in postfix order and works on a stack of jets (value, first and second derivative), so
 !> the derivatives are exact. `compile_expression` of `expression_compile` makes expressions from text.
-!> What does not exist (sqrt(-1), 1/0, exp(1000)) evaluates to NaN; no exception is raised for it.
+!> What does not exist (sqrt(-1), 1/0, exp(1000)) evaluates to NaN, and so does a value or a derivative beyond 1e100, with the
+!> squares of which nothing can be computed; no exception but `overflow` is raised for it.
 module expression
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use curve, only: beyond_hold, beyond_linear, curve_t, jet_of_curve
    use jets, only: jet_acos, jet_asin, jet_atan, jet_atan2, jet_chain, jet_cosh, jet_exp, jet_integer_power, jet_log, &
                  & jet_power, jet_product, jet_quotient, jet_real_power, jet_sinh, jet_sqrt, jet_tan, jet_tanh
@@ -22,6 +23,8 @@ module expression
    integer, parameter :: n_variable = 3   !! variables of an expression at most
 
    integer, parameter :: stack_size = 40  !! deepest stack of an expression
+
+   real(wp), parameter :: largest = 1.0e100_wp  !! of the value of an expression, and of its derivatives [any]
 
    integer, parameter :: op_number = 1         !! push the operand
    integer, parameter :: op_time = 2           !! push the variable whose number is the operand, the first of which is often t
@@ -167,12 +170,18 @@ contains
          case default
             stack(:, top) = of_one(code(k), stack(:, top))
          end select
-         if (ieee_is_nan(stack(1, top))) then
+         if (.not. ieee_is_finite(stack(1, top))) then
             jet = not_a_number()
             return
          end if
+         if (.not. ieee_is_finite(stack(2, top))) stack(2, top) = not_a_number()
+         if (.not. ieee_is_finite(stack(3, top))) stack(3, top) = not_a_number()
       end do
-      jet = stack(:, 1)
+      do k = 1, 3
+         jet(k) = stack(k, 1)
+         if (.not. ieee_is_finite(jet(k))) cycle
+         if (abs(jet(k)) > largest) jet(k) = not_a_number()
+      end do
    end subroutine evaluate_code
 
    !> An operation on two jets.

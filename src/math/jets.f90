@@ -2,9 +2,10 @@
 !>
 !> Exact rules of differentiation, no differences. Where a value does not exist, as sqrt(-1) or 1/0,
 !> the jet is NaN; where only a derivative is infinite, as of sqrt at 0, only the derivatives are NaN
-!> (0 if the argument does not move). No operation here raises a floating-point exception, except by
-!> overflow of a product, a quotient or a power.
+!> (0 if the argument does not move). What is beyond the largest number is no number either: it may raise `overflow`, which
+!> stops no program, and nothing else.
 module jets
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
    implicit none (type, external)
    private
@@ -24,9 +25,24 @@ contains
       real(wp) :: v(3)              !! (3) f(u(t)) and its derivatives [any]
 
       v(1) = f
+      v(2) = not_a_number()
+      v(3) = not_a_number()
+      if (.not. (ieee_is_finite(df) .and. ieee_is_finite(ddf))) return
       v(2) = df*u(2)
-      v(3) = ddf*u(2)*u(2) + df*u(3)  ! in this order: the square alone may overflow where ddf is 0
+      v(3) = total(ddf*u(2)*u(2), df*u(3))  ! in this order: the square alone may overflow where ddf is 0
    end function jet_chain
+
+   !> A sum; NaN if one of both is beyond the largest number.
+   pure real(wp) function total(a, b) result(c)
+      real(wp), intent(in) :: a  !! one part [any]
+      real(wp), intent(in) :: b  !! the other [any]
+
+      if (ieee_is_finite(a) .and. ieee_is_finite(b)) then
+         c = a + b
+      else
+         c = not_a_number()
+      end if
+   end function total
 
    !> A jet whose derivatives do not exist unless the argument rests.
    pure function jet_singular(u, f) result(v)
@@ -34,8 +50,9 @@ contains
       real(wp), intent(in) :: f     !! value, may be NaN [any]
       real(wp) :: v(3)              !! (3) value and derivatives [any]
 
-      v = [f, 0.0_wp, 0.0_wp]
-      if (abs(u(2)) > 0.0_wp .or. abs(u(3)) > 0.0_wp) v(2:3) = not_a_number()
+      v = [f, not_a_number(), not_a_number()]
+      if (.not. (ieee_is_finite(u(2)) .and. ieee_is_finite(u(3)))) return
+      if (.not. (abs(u(2)) > 0.0_wp .or. abs(u(3)) > 0.0_wp)) v(2:3) = 0.0_wp
    end function jet_singular
 
    !> A jet that does not exist.
@@ -52,8 +69,8 @@ contains
       real(wp) :: v(3)              !! (3) the product [any]
 
       v(1) = a(1)*b(1)
-      v(2) = a(2)*b(1) + a(1)*b(2)
-      v(3) = a(3)*b(1) + 2.0_wp*a(2)*b(2) + a(1)*b(3)
+      v(2) = total(a(2)*b(1), a(1)*b(2))
+      v(3) = total(total(a(3)*b(1), 2.0_wp*(a(2)*b(2))), a(1)*b(3))
    end function jet_product
 
    !> a/b
@@ -62,13 +79,13 @@ contains
       real(wp), intent(in) :: b(3)  !! (3) denominator [any]
       real(wp) :: v(3)              !! (3) the quotient [any]
 
-      if (abs(b(1)) > 0.0_wp) then
-         v(1) = a(1)/b(1)
-         v(2) = (a(2) - v(1)*b(2))/b(1)
-         v(3) = (a(3) - 2.0_wp*v(2)*b(2) - v(1)*b(3))/b(1)
-      else
-         v = jet_none()
-      end if
+      v = jet_none()
+      if (.not. abs(b(1)) > 0.0_wp) return
+      v(1) = a(1)/b(1)
+      if (.not. ieee_is_finite(v(1))) return
+      v(2) = total(a(2), -v(1)*b(2))/b(1)
+      if (.not. ieee_is_finite(v(2))) return
+      v(3) = total(total(a(3), -2.0_wp*(v(2)*b(2))), -v(1)*b(3))/b(1)
    end function jet_quotient
 
    !> u**n with an integer exponent, any sign of u
@@ -83,7 +100,7 @@ contains
       case (1)
          v = u
       case default
-         if (n < 0 .and. .not. abs(u(1)) > 0.0_wp) then
+         if (n < 0 .and. .not. abs(u(1)**abs(n - 2)) > 0.0_wp) then  ! what the derivatives are divided by
             v = jet_none()
          else
             v = jet_chain(u, u(1)**n, n*u(1)**(n - 1), real(n, wp)*(n - 1)*u(1)**(n - 2))
@@ -144,8 +161,10 @@ contains
       real(wp), intent(in) :: u(3)  !! (3) argument [1]
       real(wp) :: v(3)              !! (3) value and derivatives [1]
 
-      if (u(1) > 0.0_wp) then
+      if (u(1)**2 > 0.0_wp .and. u(1) > 0.0_wp) then
          v = jet_chain(u, log(u(1)), 1.0_wp/u(1), -1.0_wp/u(1)**2)
+      else if (u(1) > 0.0_wp) then
+         v = jet_singular(u, log(u(1)))
       else
          v = jet_none()
       end if
@@ -160,7 +179,8 @@ contains
 
       if (u(1) > 0.0_wp) then
          f = sqrt(u(1))
-         v = jet_chain(u, f, 0.5_wp/f, -0.25_wp/(f*u(1)))
+         v = jet_singular(u, f)
+         if (f*u(1) > 0.0_wp) v = jet_chain(u, f, 0.5_wp/f, -0.25_wp/(f*u(1)))
       else if (u(1) < 0.0_wp) then
          v = jet_none()
       else
@@ -213,7 +233,7 @@ contains
       real(wp) :: s
 
       s = 1.0_wp + u(1)**2
-      v = jet_chain(u, atan(u(1)), 1.0_wp/s, -2.0_wp*u(1)/s**2)
+      v = jet_chain(u, atan(u(1)), 1.0_wp/s, -2.0_wp*(u(1)/s/s))
    end function jet_atan
 
    !> The angle of the point (x, y), from -pi to pi
@@ -225,13 +245,12 @@ contains
       real(wp) :: square
 
       square = x(1)**2 + y(1)**2
-      if (square > 0.0_wp) then
-         v(1) = atan2(y(1), x(1))
-         v(2) = (x(1)*y(2) - y(1)*x(2))/square
-         v(3) = (x(1)*y(3) - y(1)*x(3) - 2.0_wp*v(2)*(x(1)*x(2) + y(1)*y(2)))/square
-      else
-         v = jet_none()
-      end if
+      v = jet_none()
+      if (.not. (square > 0.0_wp .and. ieee_is_finite(square))) return
+      v(1) = atan2(y(1), x(1))
+      v(2) = total(x(1)*y(2), -y(1)*x(2))/square
+      if (.not. ieee_is_finite(v(2))) return
+      v(3) = total(total(x(1)*y(3), -y(1)*x(3)), -2.0_wp*(v(2)*total(x(1)*x(2), y(1)*y(2))))/square
    end function jet_atan2
 
    !> sinh(u)

@@ -4,6 +4,7 @@
 !> E = kinetic + potential + elastic. It is zero but for the error of the integration: an error
 !> measure that needs no reference solution.
 module planar_energy
+   use cut_off, only: lost_by_damping
    use kinds, only: wp
    use planar_system, only: lost_damper, n_ledger, planar_system_t, work_drive, work_load, work_stabilisation
    implicit none (type, external)
@@ -91,7 +92,7 @@ contains
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       type(energy_t) :: energy                         !! energies
 
-      integer :: k, z
+      integer :: i, k, z
 
       call add_mechanical(system, energy)
       if (.not. system%with_ledger) return
@@ -100,9 +101,14 @@ contains
       energy%load_work = y(z + work_load)
       energy%stabilisation_work = y(z + work_stabilisation)
       energy%dissipated_damper = y(z + lost_damper)
-      do k = 1, system%n_contact
-         energy%dissipated_contact = energy%dissipated_contact + y(z + n_ledger + 2*k - 1)
-         energy%dissipated_friction = energy%dissipated_friction + y(z + n_ledger + 2*k)
+      do k = 1, size(system%clearances)
+         associate (set => system%clearances(k)%set, first => z + n_ledger + 2*system%clearances(k)%set%first_contact)
+            do i = 1, set%n_contact
+               energy%dissipated_contact = energy%dissipated_contact &
+                                           + lost_by_damping(set, i, system%linkage%motion, y(first + 2*i - 1))
+               energy%dissipated_friction = energy%dissipated_friction + y(first + 2*i)
+            end do
+         end associate
       end do
    end function energy_of
 

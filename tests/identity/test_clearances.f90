@@ -401,6 +401,9 @@ contains
             set%contact(k)%peak_force = 10.0_wp*k
             set%contact(k)%peak_penetration = 1.0e-5_wp*k
             set%contact(k)%loss_at_onset = k - 2.0_wp
+            set%contact(k)%is_cut_off = modulo(k, 2) == 0
+            set%contact(k)%held = k - 3.0_wp
+            set%contact(k)%amends = k - 4.0_wp
          end do
          kept = set%contact
          call evaluate_loads(bench, loads, losses)
@@ -422,6 +425,9 @@ contains
          call check_close(error, set%contact%peak_penetration, kept%peak_penetration, 0.0_wp, &
                           bench%name//": peaks of penetration")
          call check_close(error, set%contact%loss_at_onset, kept%loss_at_onset, 0.0_wp, bench%name//": losses")
+         call check_true(error, all(set%contact%is_cut_off .eqv. kept%is_cut_off), bench%name//": which are cut off")
+         call check_close(error, set%contact%held, kept%held, 0.0_wp, bench%name//": held")
+         call check_close(error, set%contact%amends, kept%amends, 0.0_wp, bench%name//": amends")
          call evaluate_loads(bench, again, losses)
          call check_true(error, all(abs(again%force - loads%force) <= 0.0_wp), bench%name//": the same forces")
       end associate

@@ -1,6 +1,7 @@
 !> Expressions: values and derivatives against sympy and against differences, dimensions, mistakes.
 module test_expression
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_flag, ieee_invalid, ieee_set_flag
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use expression, only: constant_expression, evaluate, expression_t
@@ -24,6 +25,7 @@ contains
       call suite%test("differences", test_differences)
       call suite%test("constants", test_constants)
       call suite%test("singular_points", test_singular_points)
+      call suite%test("huge_and_tiny", test_huge)
       call suite%test("dimensions", test_dimensions)
       call suite%test("radians", test_radians)
       call suite%test("mistakes", test_mistakes)
@@ -162,8 +164,73 @@ contains
       call check_close(error, [x, d1, d2], [1.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, "step at its place")
       call compile(error, "1e200*1e200", compiled)
       call evaluate_safely(compiled, 0.0_wp, x, d1, d2)
-      call check_true(error, .not. abs(x) <= huge(x), "an overflow is not finite")
+      call check_true(error, .not. ieee_is_finite(x), "an overflow is not finite")
    end subroutine test_singular_points
+
+   !> Functions of sums, products, quotients and powers of numbers that overflow or underflow: NaN or a number with whose square
+   !> something can be computed, and no exception that would stop the debug build.
+   subroutine test_huge(error)
+      type(error_t), allocatable, intent(out) :: error  !! first failure
+
+      character(16), parameter :: atoms(7) = [character(16) :: "1e99*t/1s", "1e-99*t/1s", "exp(600*t/1s)", "1e90*(t/1s)^3", &
+         & "-1e160*t/1s", "0*t/1s", "(t/1s - 0.7)"]
+      character(16), parameter :: functions(11) = [character(16) :: "sin(@)", "tan(@)", "sqrt(@)", "log(@)", "exp(@)", &
+         & "atan(@)/1rad", "(@)^2", "(@)^-3", "(@)^1.5", "1/(@)", "atan2(@,1)/1rad"]
+      character(8), parameter :: operations(5) = [character(8) :: "+", "-", "*", "/", "^"]
+      real(wp), parameter :: times(3) = [0.7_wp, 1.0_wp, 1.3_wp]
+      type(expression_t) :: compiled
+      character(:), allocatable :: inner, whole
+      real(wp) :: jet(3)
+      integer :: a, b, f, g, i, k, n_finite, n_nan, o
+      logical :: has_invalid, has_zero
+
+      n_finite = 0
+      n_nan = 0
+      do a = 1, size(atoms)
+         do f = 1, size(functions)
+            inner = applied(functions(f), trim(atoms(a)))
+            do o = 1, size(operations)
+               do b = 1, size(atoms)
+                  do g = 1, size(functions)
+                     whole = applied(functions(g), "("//inner//")"//trim(operations(o))//"("//trim(atoms(b))//")")
+                     call compile(error, whole, compiled)
+                     if (allocated(error)) return
+                     do i = 1, size(times)
+                        call ieee_set_flag([ieee_invalid, ieee_divide_by_zero], .false.)
+                        call compiled%evaluate(times(i), jet(1), jet(2), jet(3))
+                        call ieee_get_flag(ieee_invalid, has_invalid)
+                        call ieee_get_flag(ieee_divide_by_zero, has_zero)
+                        if (has_invalid .or. has_zero) call check_true(error, .false., whole//": an exception")
+                        do k = 1, 3
+                           n_nan = n_nan + merge(1, 0, ieee_is_nan(jet(k)))
+                           n_finite = n_finite + merge(1, 0, ieee_is_finite(jet(k)))
+                           if (.not. ieee_is_finite(jet(k))) cycle
+                           if (abs(jet(k)) > 1.0e100_wp) call check_true(error, .false., whole//": too large")
+                        end do
+                     end do
+                  end do
+               end do
+            end do
+         end do
+      end do
+      call check_true(error, n_nan > 10000 .and. n_finite > 10000, "some are numbers, some are not")
+      call check_equal(error, n_nan + n_finite, 9*size(atoms)**2*size(functions)**2*size(operations), "nothing is infinite")
+
+   contains
+
+      !> A function of an argument.
+      function applied(word, argument) result(text)
+         character(*), intent(in) :: word       !! with @ where the argument goes
+         character(*), intent(in) :: argument   !! the argument
+         character(:), allocatable :: text      !! the function of it
+
+         integer :: place
+
+         place = index(word, "@")
+         text = word(:place - 1)//argument//trim(word(place + 1:))
+      end function applied
+
+   end subroutine test_huge
 
    !> Dimensions of results.
    subroutine test_dimensions(error)
