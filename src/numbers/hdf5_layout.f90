@@ -68,7 +68,7 @@ contains
       if (group >= 0) call h5gclose_f(group, closed)
    end subroutine make_provenance
 
-   !> What has become of the run. It is replaced when that is known, so it is a word of fixed length: one write does it, and needs no space.
+   !> What has become of the run: a word of fixed length, since it is replaced when that is known, in one write without new space.
    subroutine write_status(file, word, status)
       integer(hid_t), intent(in) :: file   !! the file
       character(*), intent(in) :: word     !! one of `status_...` of the recorder
