@@ -145,7 +145,6 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      real(wp) :: cpu_0, cpu_1
       integer :: kind
       logical :: has_end
 
@@ -153,12 +152,7 @@ contains
       if (.not. (has_end .or. self%has_jump)) return
       kind = merge(row_peak, row_jump, any(watch%owes_row))
       if (has_end) kind = row_end
-      if (self%t_row < method%t) then
-         call cpu_time(cpu_0)
-         call put_row(self, system, method, plan, method%t, method%step%y1, kind, residual, recorder, error)
-         call cpu_time(cpu_1)
-         self%aside = self%aside + (cpu_1 - cpu_0)
-      end if
+      if (self%t_row < method%t) call put_row_here(self, system, method, plan, kind, residual, recorder, error)
       call watch%note_row()
    end subroutine before_events
 
@@ -173,13 +167,8 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      real(wp) :: cpu_0, cpu_1
-
       if (.not. any(watch%owes_row) .or. self%t_row >= method%t) return
-      call cpu_time(cpu_0)
-      call put_row(self, system, method, plan, method%t, method%step%y1, row_peak, residual, recorder, error)
-      call cpu_time(cpu_1)
-      self%aside = self%aside + (cpu_1 - cpu_0)
+      call put_row_here(self, system, method, plan, row_peak, residual, recorder, error)
       call watch%note_row()
    end subroutine before_instant
 
@@ -194,14 +183,9 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      real(wp) :: cpu_0, cpu_1
-
       if (.not. (self%has_onset .or. self%has_jump)) return
-      call cpu_time(cpu_0)
-      call put_row(self, system, method, plan, method%t, method%step%y1 + watch%shift*method%step%f1, &
-                   merge(row_onset, row_jump, self%has_onset), residual, recorder, error, shift=watch%shift)
-      call cpu_time(cpu_1)
-      self%aside = self%aside + (cpu_1 - cpu_0)
+      call put_row_here(self, system, method, plan, merge(row_onset, row_jump, self%has_onset), residual, recorder, error, &
+                        shift=watch%shift)
       call watch%note_row()
    end subroutine after_events
 
@@ -221,6 +205,31 @@ contains
       end if
       call watch%note_row()
    end subroutine finish_samples
+
+   !> A row at the end of the last step, if it is wanted; what it costs is set aside.
+   subroutine put_row_here(self, system, method, plan, kind, residual, recorder, error, shift)
+      class(sampler_t), intent(inout) :: self             !! what is reported
+      type(planar_system_t), intent(inout) :: system      !! the system
+      class(integrator_t), intent(in) :: method           !! the integrator
+      type(time_plan_t), intent(in) :: plan               !! times
+      integer, intent(in) :: kind                         !! of the row
+      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+      real(wp), intent(in), optional :: shift             !! with the values so much later on [s]
+
+      real(wp) :: cpu_0, cpu_1
+
+      call cpu_time(cpu_0)
+      if (present(shift)) then
+         call put_row(self, system, method, plan, method%t, method%step%y1 + shift*method%step%f1, kind, residual, recorder, &
+                      error, shift)
+      else
+         call put_row(self, system, method, plan, method%t, method%step%y1, kind, residual, recorder, error)
+      end if
+      call cpu_time(cpu_1)
+      self%aside = self%aside + (cpu_1 - cpu_0)
+   end subroutine put_row_here
 
    !> A row beside those of output instants, if it is wanted and within what is written.
    subroutine put_row(self, system, method, plan, t, y, kind, residual, recorder, error, shift)

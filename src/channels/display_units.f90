@@ -38,7 +38,13 @@ contains
             call scale(1.0e3_wp, "mm")
          end if
       case ("m/s")
-         if (extent < 1.0e-2_wp) call scale(1.0e3_wp, "mm/s")
+         if (extent < 1.0e-6_wp) then
+            call scale(1.0e9_wp, "nm/s")
+         else if (extent < 1.0e-4_wp) then
+            call scale(1.0e6_wp, "µm/s")
+         else if (extent < 1.0e-2_wp) then
+            call scale(1.0e3_wp, "mm/s")
+         end if
       case ("m/s^2", "rad/s^2")
          if (extent >= 1.0e4_wp) call scale(1.0e-3_wp, "10³ "//pretty(si))
       case ("N", "N.m", "J", "W")
@@ -46,6 +52,8 @@ contains
             call scale(1.0e-6_wp, "M"//pretty(si))
          else if (extent >= 1.0e4_wp) then
             call scale(1.0e-3_wp, "k"//pretty(si))
+         else if (extent < 1.0e-8_wp) then
+            call scale(1.0e9_wp, "n"//pretty(si))
          else if (extent < 1.0e-5_wp) then
             call scale(1.0e6_wp, "µ"//pretty(si))
          else if (extent < 1.0e-2_wp) then

@@ -18,32 +18,44 @@ contains
       type(scene_t), intent(in) :: scene            !! the scene
       type(planar_system_t), intent(in) :: system   !! its system
 
-      logical :: is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials)))
       integer :: k
+      logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials)))
 
       call say("")
       call say("dropped")
-      if (.not. norm2(system%loading%gravity) > 0.0_wp) call say("gravity: zero", 2)
+      is_nothing = .true.
+      if (.not. norm2(system%loading%gravity) > 0.0_wp) call drop("gravity: zero")
       call find_used(scene, "friction.", is_used)
       do k = 1, size(scene%frictions)
          if (.not. scene%frictions(k)%law%is_active()) then
-            call say("friction law '"//scene%frictions(k)%law%name//"': never a force", 2)
+            call drop("friction law '"//scene%frictions(k)%law%name//"': never a force")
          else if (.not. is_used(k)) then
-            call say("friction law '"//scene%frictions(k)%law%name//"': used by no joint", 2)
+            call drop("friction law '"//scene%frictions(k)%law%name//"': used by no joint")
          end if
       end do
       call find_used(scene, "contact.", is_used)
       do k = 1, size(scene%laws)
-         if (.not. is_used(k)) call say("contact law '"//scene%laws(k)%law%name//"': used by no joint", 2)
+         if (.not. is_used(k)) call drop("contact law '"//scene%laws(k)%law%name//"': used by no joint")
       end do
       call find_used(scene, "material", is_used)
       do k = 1, size(scene%materials)
-         if (.not. is_used(k)) call say("material '"//scene%materials(k)%name%s//"': used by no joint", 2)
+         if (.not. is_used(k)) call drop("material '"//scene%materials(k)%name%s//"': used by no joint")
       end do
-      if (.not. system%with_ledger) call say("energy ledger: off", 2)
+      if (.not. system%with_ledger) call drop("energy ledger: off")
       if (scene%analysis == analysis_kinematic .and. size(system%linkage%ideal) > 0) then
-         call say("clearances: joints are ideal in a kinematic analysis", 2)
+         call drop("clearances: joints are ideal in a kinematic analysis")
       end if
+      if (is_nothing) call say("nothing", 2)
+
+   contains
+
+      !> Say one thing that was dropped.
+      subroutine drop(line)
+         character(*), intent(in) :: line  !! what, and why
+
+         call say(line, 2)
+         is_nothing = .false.
+      end subroutine drop
    end subroutine say_dropped
 
    !> Which rows of a group of kinds any row of the deck refers to.

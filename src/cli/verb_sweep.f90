@@ -436,7 +436,8 @@ contains
       integer :: k, shown
 
       call lines%line(loaded%scene%title)
-      call lines%line(to_text(loaded%sweep%n_cases())//" cases of "//to_text(work%results%n_member)//" runs: "// &
+      call lines%line(to_text(loaded%sweep%n_cases())//" cases of "//to_text(work%results%n_member)// &
+                      trim(merge(" run: ", " runs:", work%results%n_member == 1))//" "// &
                       to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed)//" failed")
       shown = 0
       do k = 1, size(work%results%runs)

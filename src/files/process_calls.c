@@ -74,6 +74,29 @@ static void watch_memory(void)
    if (sigaltstack(&own, NULL) == 0) sigaction(SIGSEGV, &action, &fault_before);
 }
 
+static const int ends[] = {SIGHUP, SIGINT, SIGTERM}; /* signals that end a program that does not say otherwise */
+enum { n_ends = sizeof ends / sizeof ends[0] };
+
+/* A library that comes along with others may take such a signal for purposes of its own as it is loaded (UCX, of MPI, takes
+ * SIGHUP), and no kill ends the program then. So what was to become of them is noted before the constructors of the libraries. */
+#ifdef __linux__
+static struct sigaction given[n_ends];
+
+static void note_signals(void)
+{
+   for (int k = 0; k < n_ends; k++) sigaction(ends[k], NULL, &given[k]);
+}
+
+__attribute__((section(".preinit_array"), used)) static void (*const before_libraries)(void) = note_signals;
+
+static void take_signals_back(void)
+{
+   for (int k = 0; k < n_ends; k++) sigaction(ends[k], &given[k], NULL);
+}
+#else
+static void take_signals_back(void) {}
+#endif
+
 /* Before anything else: descriptors 0 to 2 are open, so that no file of a run gets one of them; a reader that goes away and a
  * file that may not grow are errors of a write, not signals. */
 void gudgeon_begin(void)
@@ -82,6 +105,7 @@ void gudgeon_begin(void)
    do file = open("/dev/null", O_RDWR);
    while (file >= 0 && file <= 2);
    if (file > 2) close(file);
+   take_signals_back();
    signal(SIGPIPE, SIG_IGN);
    signal(SIGXFSZ, SIG_IGN);
 #ifdef __GLIBC__
@@ -104,11 +128,10 @@ static void end_groups(int signal_number)
 
 static void watch_signals(void)
 {
-   static const int ends[] = {SIGHUP, SIGINT, SIGTERM};
    static int is_watching = 0;
    if (is_watching) return;
    is_watching = 1;
-   for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+   for (int k = 0; k < n_ends; k++) {
       struct sigaction now, action = {.sa_handler = end_groups, .sa_flags = SA_NODEFER};
       if (sigaction(ends[k], NULL, &now) == 0 && now.sa_handler == SIG_DFL) sigaction(ends[k], &action, NULL);
    }
@@ -118,12 +141,13 @@ static void watch_signals(void)
 static int become(const char *directory, const char *program, char **vector, const char *log, int is_group, pid_t parent)
 {
    if (is_group) setpgid(0, 0);
-   static const int changed[] = {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ};
-   for (size_t k = 0; k < sizeof changed / sizeof changed[0]; k++) {
+   for (int k = 0; k < n_ends; k++) {
       struct sigaction now;
-      if (k < 3 && sigaction(changed[k], NULL, &now) == 0 && now.sa_handler == SIG_IGN) continue; /* as nohup wants it */
-      signal(changed[k], SIG_DFL);
+      if (sigaction(ends[k], NULL, &now) == 0 && now.sa_handler == SIG_IGN) continue; /* as nohup wants it */
+      signal(ends[k], SIG_DFL);
    }
+   signal(SIGPIPE, SIG_DFL);
+   signal(SIGXFSZ, SIG_DFL);
 #ifdef __linux__
    prctl(PR_SET_PDEATHSIG, is_group ? SIGKILL : SIGTERM); /* it ends with the program that asked for it */
    if (getppid() != parent) return ECHILD;

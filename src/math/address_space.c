@@ -26,20 +26,21 @@ int gudgeon_is_limited(void)
 #ifdef __linux__
 /* Before the constructors of the libraries: that of OpenBLAS 0.3.29 asks for a buffer for each of its threads, one at least, again and
    again, for ever if there is no room. So where the address space is limited the program begins anew with one thread, and ends
-   with code 9 where there is no room for its buffer either. Nothing of a library is called but system calls. */
+   with code 9 where there is no room either for its buffer and what the constructors before it take (UCX, of MPI, 18 MB).
+   Nothing of a library is called but system calls. */
 static void begin_with_one_thread(int argc, char **argv, char **environment)
 {
    static char setting[] = "OPENBLAS_NUM_THREADS=1";
-   static const char words[] = "error: too little memory may be used: OpenBLAS needs 128 MB more than are left (ulimit -v limits the "
+   static const char words[] = "error: too little memory may be used: the libraries need 160 MB more than are left (ulimit -v limits the "
                                "address space)\n";
-   const int64_t buffer_of_blas = INT64_C(128) << 20;
+   const int64_t buffer_of_blas = INT64_C(128) << 20, others = INT64_C(32) << 20;
    enum { most = 4096 };
    static char *larger[most + 2];
    struct rlimit limit;
    int n = 0;
    (void)argc;
    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-   if (!gudgeon_has_room(buffer_of_blas)) {
+   if (!gudgeon_has_room(buffer_of_blas + others)) {
       ssize_t said = write(STDERR_FILENO, words, sizeof words - 1);
       (void)said;  /* there is no one to tell if that fails */
       _exit(9);

@@ -1,28 +1,30 @@
 !> The few things the writers ask of HDF5, each in one call.
 !>
 !> Every procedure does nothing once `status` is negative, so that a caller looks at it once at the
-!> end. Strings are of variable length and UTF-8; no object carries a time of its making, so that
-!> equal runs give equal files. Shapes are given in Fortran's order: reversed in the file.
+!> end. Strings are of variable length and UTF-8, and lie in heaps of the file; words that are replaced in a
+!> file that may be read meanwhile are of fixed length and lie where they are named. No object carries a time
+!> of its making, so that equal runs give equal files. Shapes are given in Fortran's order: reversed in the file.
 module hdf5_calls
    use hdf5, only: h5aclose_f, h5acreate_f, h5aopen_f, h5aexists_f, h5awrite_f, h5dclose_f, h5dcreate_f, h5dwrite_f
    use hdf5, only: h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5gclose_f, h5gcreate_f, h5open_f, h5pclose_f, h5pcreate_f
    use hdf5, only: h5d_alloc_time_early_f, h5pset_alloc_time_f, h5pset_chunk_cache_f, h5pset_chunk_f
    use hdf5, only: h5pset_create_inter_group_f, h5pset_local_heap_size_hint_f, h5pset_obj_track_times_f
-   use hdf5, only: h5sclose_f, h5screate_f, h5screate_simple_f, h5tclose_f, h5tcopy_f, h5tset_cset_f
+   use hdf5, only: h5sclose_f, h5screate_f, h5screate_simple_f, h5tclose_f, h5tcopy_f, h5tset_cset_f, h5tset_size_f
+   use hdf5, only: h5tset_strpad_f
    use hdf5, only: hid_t, hsize_t, size_t
    use hdf5, only: h5f_acc_trunc_f, h5p_dataset_access_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f
    use hdf5, only: h5p_group_create_f, h5p_link_create_f
-   use hdf5, only: h5s_scalar_f, h5s_unlimited_f, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer, h5t_std_i32le
-   use hdf5, only: h5t_std_i64le, h5t_ieee_f64le, h5t_string, h5kind_to_type, h5_integer_kind
+   use hdf5, only: h5s_scalar_f, h5s_unlimited_f, h5t_c_s1, h5t_cset_utf8_f, h5t_native_double, h5t_native_integer
+   use hdf5, only: h5t_std_i32le, h5t_std_i64le, h5t_ieee_f64le, h5t_str_nullpad_f, h5t_string, h5kind_to_type, h5_integer_kind
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use kinds, only: i8, wp
    use posix, only: set_default_variable
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: describe, integer_attribute, is_memory_short, long_attribute, new_dataset, new_file, new_group, open_library
-   public :: real_attribute
-   public :: integer_dataset, real_dataset, string_type, text_attribute, text_dataset
+   public :: creation_list, describe, integer_attribute, is_memory_short, long_attribute, new_dataset, new_file, new_group
+   public :: open_library, real_attribute
+   public :: integer_dataset, real_dataset, string_type, text_attribute, text_dataset, word_attribute, word_type
 
    logical :: is_open = .false.  !! whether the library has been opened
 
@@ -66,6 +68,29 @@ contains
       is_open = status >= 0
    end subroutine open_library
 
+   !> Properties of a new file, group or dataset that carries no time of its making.
+   subroutine creation_list(class, list, status)
+      integer(hid_t), intent(in) :: class  !! class of the properties
+      integer(hid_t), intent(out) :: list  !! to be closed by the caller
+      integer, intent(inout) :: status     !! negative: failed
+
+      list = -1
+      if (status < 0) return
+      call h5pcreate_f(class, list, status)
+      if (status >= 0) call h5pset_obj_track_times_f(list, .false., status)
+   end subroutine creation_list
+
+   !> Properties of a new name that makes the groups above it.
+   subroutine link_list(list, status)
+      integer(hid_t), intent(out) :: list  !! to be closed by the caller
+      integer, intent(inout) :: status     !! negative: failed
+
+      list = -1
+      if (status < 0) return
+      call h5pcreate_f(h5p_link_create_f, list, status)
+      if (status >= 0) call h5pset_create_inter_group_f(list, 1, status)
+   end subroutine link_list
+
    !> Make a file that can be read whenever its writer dies.
    subroutine new_file(path, file, status)
       character(*), intent(in) :: path      !! where
@@ -77,8 +102,7 @@ contains
 
       file = -1
       if (status < 0) return
-      call h5pcreate_f(h5p_file_create_f, creation, status)
-      if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
+      call creation_list(h5p_file_create_f, creation, status)
       if (status >= 0) call h5pset_local_heap_size_hint_f(creation, bytes_of_names, status)
       if (status >= 0) call h5pcreate_f(h5p_file_access_f, access, status)
       if (status < 0) return
@@ -100,11 +124,9 @@ contains
 
       group = -1
       if (status < 0) return
-      call h5pcreate_f(h5p_group_create_f, creation, status)
-      if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
-      if (status >= 0) call h5pcreate_f(h5p_link_create_f, link, status)
+      call creation_list(h5p_group_create_f, creation, status)
+      call link_list(link, status)
       if (status < 0) return
-      call h5pset_create_inter_group_f(link, 1, status)
       call h5gcreate_f(file, path, group, status, lcpl_id=link, gcpl_id=creation)
       call h5pclose_f(creation, closed)
       call h5pclose_f(link, closed)
@@ -129,15 +151,13 @@ contains
       rank = size(shape)
       most = shape
       if (present(chunk)) most(rank) = h5s_unlimited_f
-      call h5pcreate_f(h5p_dataset_create_f, creation, status)
-      if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
+      call creation_list(h5p_dataset_create_f, creation, status)
       if (status >= 0 .and. present(chunk)) then  ! with its index from the start, so that growing changes one part of the header
          call h5pset_chunk_f(creation, rank, chunk, status)
          if (status >= 0) call h5pset_alloc_time_f(creation, h5d_alloc_time_early_f, status)
       end if
-      if (status >= 0) call h5pcreate_f(h5p_link_create_f, link, status)
+      call link_list(link, status)
       if (status < 0) return
-      call h5pset_create_inter_group_f(link, 1, status)
       if (rank == 0) then
          call h5screate_f(h5s_scalar_f, space, status)
       else
@@ -178,6 +198,19 @@ contains
       call h5tcopy_f(h5t_string, type_id, status)
       if (status >= 0) call h5tset_cset_f(type_id, h5t_cset_utf8_f, status)
    end subroutine string_type
+
+   !> The type of words of fixed length, shorter ones padded with null characters.
+   subroutine word_type(width, type_id, status)
+      integer, intent(in) :: width            !! bytes of a word
+      integer(hid_t), intent(out) :: type_id  !! to be closed by the caller
+      integer, intent(inout) :: status        !! negative: failed
+
+      type_id = -1
+      if (status < 0) return
+      call h5tcopy_f(h5t_c_s1, type_id, status)
+      if (status >= 0) call h5tset_size_f(type_id, int(width, size_t), status)
+      if (status >= 0) call h5tset_strpad_f(type_id, h5t_str_nullpad_f, status)
+   end subroutine word_type
 
    !> Make a dataset of strings and write it.
    subroutine text_dataset(file, path, list, is_scalar, long_name, status)
@@ -289,7 +322,29 @@ contains
       call h5sclose_f(space, closed)
    end subroutine open_attribute
 
-   !> Write a string as an attribute; a string that is there is replaced.
+   !> Write a word as an attribute, within the header of the object; one that is there is replaced in its place.
+   subroutine word_attribute(object, name, value, width, status)
+      integer(hid_t), intent(in) :: object  !! what it belongs to
+      character(*), intent(in) :: name      !! its name
+      character(*), intent(in) :: value     !! the word
+      integer, intent(in) :: width          !! bytes of the longest word that it may hold
+      integer, intent(inout) :: status      !! negative: failed
+
+      character(kind=c_char, len=width), target :: store
+      integer(hid_t) :: attribute, type_id
+      integer :: closed
+
+      call word_type(width, type_id, status)
+      call open_attribute(object, name, type_id, 0, attribute, status)
+      if (status < 0) return
+      store = value//repeat(c_null_char, max(width - len(value), 0))
+      call h5awrite_f(attribute, type_id, c_loc(store), status)
+      call h5aclose_f(attribute, closed)
+      call h5tclose_f(type_id, closed)
+   end subroutine word_attribute
+
+   !> Write a string as an attribute; a string that is there is replaced, where nobody reads the file meanwhile: some versions of
+   !> the library take the old one from its heap before the header knows of the new one.
    subroutine text_attribute(object, name, value, status)
       integer(hid_t), intent(in) :: object  !! what it belongs to
       character(*), intent(in) :: name      !! its name

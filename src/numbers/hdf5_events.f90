@@ -4,10 +4,9 @@ module hdf5_events
    use event_list, only: event_list_t, n_event_numbers, n_event_words, number_long_names, number_names, number_units
    use event_list, only: word_long_names, word_names
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5sclose_f, h5screate_simple_f
-   use hdf5, only: h5sselect_hyperslab_f, h5tclose_f, h5tcopy_f, h5tcreate_f, h5tinsert_f, h5tset_size_f
-   use hdf5, only: h5tset_strpad_f, h5s_select_set_f, h5t_c_s1, h5t_compound_f, h5t_ieee_f64le, h5t_native_double
-   use hdf5, only: h5t_str_nullpad_f, hid_t, hsize_t, size_t
-   use hdf5_calls, only: describe, new_dataset
+   use hdf5, only: h5sselect_hyperslab_f, h5tclose_f, h5tcreate_f, h5tinsert_f, h5s_select_set_f, h5t_compound_f
+   use hdf5, only: h5t_ieee_f64le, h5t_native_double, hid_t, hsize_t, size_t
+   use hdf5_calls, only: describe, new_dataset, word_type
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char
    use kinds, only: i8, wp
    implicit none (type, external)
@@ -113,9 +112,7 @@ contains
       if (status >= 0) call h5tinsert_f(type_id, trim(number_names(1)), 0_size_t, kind_of_number, status)
       at = bytes_of_number
       do k = 1, n_event_words
-         if (status >= 0) call h5tcopy_f(h5t_c_s1, word, status)
-         if (status >= 0) call h5tset_size_f(word, int(self%width(k), size_t), status)
-         if (status >= 0) call h5tset_strpad_f(word, h5t_str_nullpad_f, status)
+         call word_type(self%width(k), word, status)
          if (status >= 0) call h5tinsert_f(type_id, trim(word_names(k)), at, word, status)
          if (status < 0) return
          call h5tclose_f(word, closed)

@@ -1,4 +1,4 @@
-!> The layout of run.h5, format 1.1: root attributes, deck, names, one growing dataset per quantity.
+!> The layout of run.h5, format 2.0: root attributes, deck, names, one growing dataset per quantity.
 !>
 !> A room appears if some item of it has a chosen channel, with all such items; a quantity appears
 !> if it is chosen for some item, and its dataset then holds all items of the room that appear.
@@ -7,17 +7,19 @@ module hdf5_layout
    use channels, only: selection_t
    use hdf5, only: h5dclose_f, h5dwrite_f, h5gclose_f, h5t_ieee_f64le, h5t_native_double, h5t_std_i8le
    use hdf5, only: hid_t, hsize_t
-   use hdf5_calls, only: describe, integer_attribute, new_dataset, new_group, text_attribute, text_dataset
+   use hdf5_calls, only: describe, integer_attribute, new_dataset, new_group, text_attribute, text_dataset, word_attribute
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
    use kinds, only: wp
    use output_plan, only: output_plan_t
-   use recorder, only: row_kinds, status_running
+   use posix, only: host_name, utc_time
+   use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: dataset_t, make_quantities, make_root, make_row_kind, make_time
+   public :: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
 
-   integer, parameter :: format_version(2) = [1, 1]  !! major, minor: a reader must know the major number
+   integer, parameter :: format_version(2) = [2, 0]  !! major, minor: a reader must know the major number
+   integer, parameter :: longest_status = max(len(status_running), len(status_complete), len(status_stopped), len(status_failed))
 
    !> One quantity in the file, and its rows that are not yet there.
    type :: dataset_t
@@ -50,6 +52,31 @@ module hdf5_layout
 
 contains
 
+   !> When, where and by which command the file was made.
+   subroutine make_provenance(file, plan, status)
+      integer(hid_t), intent(in) :: file       !! the file
+      type(output_plan_t), intent(in) :: plan  !! what it says of the run
+      integer, intent(inout) :: status         !! negative: failed
+
+      integer(hid_t) :: group
+      integer :: closed
+
+      call new_group(file, "provenance", group, status)
+      call text_attribute(group, "created", utc_time(), status)
+      call text_attribute(group, "command", plan%command, status)
+      call text_attribute(group, "host", host_name(), status)
+      if (group >= 0) call h5gclose_f(group, closed)
+   end subroutine make_provenance
+
+   !> What has become of the run: a word of fixed length, since it is replaced when that is known, in one write without new space.
+   subroutine write_status(file, word, status)
+      integer(hid_t), intent(in) :: file   !! the file
+      character(*), intent(in) :: word     !! one of `status_...` of the recorder
+      integer, intent(inout) :: status     !! negative: failed
+
+      call word_attribute(file, "status", word, longest_status, status)
+   end subroutine write_status
+
    !> Root attributes and the deck.
    subroutine make_root(file, plan, status)
       integer(hid_t), intent(in) :: file       !! the file
@@ -66,7 +93,7 @@ contains
       call text_attribute(file, "compiler", plan%compiler, status)
       call text_attribute(file, "libraries", plan%libraries, status)
       call text_attribute(file, "title", plan%title, status)
-      call text_attribute(file, "status", status_running, status)
+      call write_status(file, status_running, status)
       call text_attribute(file, "status_message", "", status)
       text(1)%s = plan%deck_text
       call text_dataset(file, "deck", text, .true., "the deck, verbatim", status)

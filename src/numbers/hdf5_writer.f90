@@ -13,14 +13,14 @@ module hdf5_writer
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
    use hdf5_calls, only: is_memory_short, new_file, new_group, open_library, text_attribute, text_dataset
    use hdf5_events, only: event_table_t
-   use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time
+   use hdf5_layout, only: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
    use kinds, only: i8, wp
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: host_name, release_space, remove_file, reserve_space, sync_path, system_message, utc_time
+   use posix, only: release_space, remove_file, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
    use text, only: text_t, to_text
@@ -94,11 +94,7 @@ contains
       call self%events%make(self%file, catalogue, status)
       call new_group(self%file, "summary", group, status)
       if (status >= 0) call h5gclose_f(group, closed)
-      call new_group(self%file, "provenance", group, status)
-      call text_attribute(group, "created", utc_time(), status)
-      call text_attribute(group, "command", plan%command, status)
-      call text_attribute(group, "host", host_name(), status)
-      if (group >= 0) call h5gclose_f(group, closed)
+      call make_provenance(self%file, plan, status)
       if (status >= 0) call flush_file(self, status)
       if (status >= 0) return
       closed = remove_file(self%path)
@@ -258,7 +254,7 @@ contains
       if (.not. self%is_broken) call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]), error)
       if (self%is_broken) then
          ! only what needs no new space
-         call text_attribute(self%file, "status", status_failed, status)
+         call write_status(self%file, status_failed, status)
       else
          call self%events%sort(events, status)
          if (statistics%plan%is_wanted) then
@@ -267,7 +263,7 @@ contains
          call text_dataset(self%file, "warnings", warnings, .false., "what a careful reader should know", status)
          call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)
-         call text_attribute(self%file, "status", summary%status, status)
+         call write_status(self%file, summary%status, status)
       end if
       call close_all(self, status)
       call release_space(self%path)

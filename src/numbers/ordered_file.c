@@ -147,16 +147,22 @@ static herr_t ordered_read(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_
    return 0;
 }
 
+/* A list with room for one item more, twice as long where it was full; NULL: no memory, the list is as it was. */
+static void *with_room(void *list, size_t n, size_t *room, size_t size)
+{
+   if (n < *room) return list;
+   size_t wanted = 2 * *room + 64;
+   void *grown = realloc(list, wanted * size);
+   if (grown != NULL) *room = wanted;
+   return grown;
+}
+
 /* Keeps a block until the next flush. */
 static herr_t keep_block(ordered_t *self, H5FD_mem_t type, haddr_t address, size_t size, const void *bytes)
 {
-   if (self->n == self->room) {
-      size_t room = 2 * self->room + 64;
-      block_t *grown = realloc(self->blocks, room * sizeof *grown);
-      if (grown == NULL) return -1;
-      self->blocks = grown;
-      self->room = room;
-   }
+   block_t *blocks = with_room(self->blocks, self->n, &self->room, sizeof *blocks);
+   if (blocks == NULL) return -1;
+   self->blocks = blocks;
    block_t block = {address, size, type, malloc(size)};
    if (block.bytes == NULL) return -1;
    memcpy(block.bytes, bytes, size);
@@ -205,13 +211,9 @@ static herr_t note_flushed(ordered_t *self, haddr_t address)
 {
    size_t at;
    if (is_flushed(self, address, &at)) return 0;
-   if (self->n_flushed == self->room_flushed) {
-      size_t room = 2 * self->room_flushed + 256;
-      haddr_t *grown = realloc(self->flushed, room * sizeof *grown);
-      if (grown == NULL) return -1;
-      self->flushed = grown;
-      self->room_flushed = room;
-   }
+   haddr_t *flushed = with_room(self->flushed, self->n_flushed, &self->room_flushed, sizeof *flushed);
+   if (flushed == NULL) return -1;
+   self->flushed = flushed;
    memmove(self->flushed + at + 1, self->flushed + at, (self->n_flushed - at) * sizeof *self->flushed);
    self->flushed[at] = address;
    self->n_flushed++;

@@ -4,15 +4,14 @@
 module sweep_file
    use errors, only: error_t, exit_file, set_error
    use hdf5, only: h5fclose_f, h5fcreate_f, h5fopen_f, h5gclose_f, h5gget_info_f, h5lget_name_by_idx_f, h5ocopy_f, h5pclose_f
-   use hdf5, only: h5pcreate_f, h5pset_obj_track_times_f
    use hdf5, only: h5_index_name_f, h5_iter_inc_f, h5f_acc_rdonly_f, h5f_acc_trunc_f, h5p_default_f, h5p_file_create_f
    use hdf5, only: hid_t, hsize_t
-   use hdf5_calls, only: integer_dataset, new_group, open_library, real_dataset, text_attribute, text_dataset
-   use hdf5_layout, only: make_root
+   use hdf5_calls, only: creation_list, integer_dataset, new_group, open_library, real_dataset, text_attribute, text_dataset
+   use hdf5_layout, only: make_provenance, make_root, write_status
    use kinds, only: not_a_number, wp
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: host_name, path_exists, remove_file, utc_time
+   use posix, only: path_exists, remove_file
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
    use text, only: append_text, text_t, to_text
    use text_file, only: fail_file, put_in_place
@@ -35,7 +34,7 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! it cannot be written
 
       character(:), allocatable :: path
-      integer(hid_t) :: creation, file, group
+      integer(hid_t) :: creation, file
       integer :: closed, status
 
       path = plan%directory//"/sweep.h5"
@@ -45,8 +44,7 @@ contains
          return
       end if
       call open_library(status)
-      if (status >= 0) call h5pcreate_f(h5p_file_create_f, creation, status)
-      if (status >= 0) call h5pset_obj_track_times_f(creation, .false., status)
+      call creation_list(h5p_file_create_f, creation, status)
       if (status >= 0) call h5fcreate_f(path//".part", h5f_acc_trunc_f, file, status, creation, h5p_default_f)
       if (status >= 0) then
          call h5pclose_f(creation, closed)
@@ -55,13 +53,9 @@ contains
          call write_parameters(file, results, status)
          call write_runs(file, results, status)
          call write_cases(file, results, status)
-         call new_group(file, "provenance", group, status)
-         call text_attribute(group, "created", utc_time(), status)
-         call text_attribute(group, "command", plan%command, status)
-         call text_attribute(group, "host", host_name(), status)
-         if (group >= 0) call h5gclose_f(group, closed)
+         call make_provenance(file, plan, status)
          if (size(run_directories) > 0) call copy_channels(file, results, run_directories, status)
-         call text_attribute(file, "status", state, status)
+         call write_status(file, state, status)
          call text_attribute(file, "status_message", message, status)
          call h5fclose_f(file, closed)
          status = min(status, closed)

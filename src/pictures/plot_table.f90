@@ -19,6 +19,7 @@ module plot_table
    integer, parameter :: draw_boxes = 3    !! boxes from `low` to `high` on the abscissa
    integer, parameter :: draw_bars = 4     !! dots with bars of half length `low`, joined by a line unless at words
    integer, parameter :: draw_marks = 5    !! small dashes, without a title
+   real(wp), parameter :: few_counts = 10.0_wp  !! counts up to which each has its tic on the axis [1]
 
    !> One curve: columns of the table.
    type :: plot_curve_t
@@ -106,7 +107,7 @@ contains
 
       type(buffer_t) :: lines
       type(display_unit_t) :: x
-      character(:), allocatable :: tics
+      character(:), allocatable :: aside, tics
       integer :: k, n
 
       n = size(table%panels)
@@ -114,7 +115,9 @@ contains
       call lines%line("unset key")
       x = choose_unit(table%x_unit, largest(table, [(table%panels(1)%curves(k)%x, k=1, size(table%panels(1)%curves))]))
       call lines%line("set xlabel "//quoted(with_unit(table%x_name, x)))
-      call lines%line("set offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06")
+      aside = "graph 0.05, graph 0.05"
+      if (size(table%categories) > 0) aside = "0.5, 0.5"  ! half of what is between two words
+      call lines%line("set offsets "//aside//", graph 0.06, graph 0.06")
       if (table%is_log_x) call lines%line("set logscale x; set format x '%g'")
       if (size(table%categories) > 0) then
          tics = ""
@@ -165,7 +168,8 @@ contains
       call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y))
       if (any(panel%curves%style == draw_lines)) call lines%line("set autoscale xfix; unset offsets")
       if (any(panel%curves%style == draw_boxes)) then
-         call lines%line("set style fill solid 0.5; unset offsets; set xrange [0:*]; set yrange [0:*]")
+         call lines%line("set style fill solid 0.5; set offsets 0, 0, graph 0.06, 0; set xrange [0:*]; set yrange [0:*]")
+         if (largest(table, panel%curves%y) <= few_counts) call lines%line("set ytics 1")  ! there are no halves of an impact
       end if
       do k = 1, size(panel%curves)
          call lines%line(merge("plot ", "     ", k == 1)//curve_text(table, panel%curves(k), x, y)// &

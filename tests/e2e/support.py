@@ -58,6 +58,15 @@ def changed(text, section, **settings):
     return "\n".join(lines) + "\n"
 
 
+def text_of(path):
+    """A deck's text with everything that it includes."""
+    lines = []
+    for line in path.read_text().splitlines():
+        included = re.match(r'\s*include\s+"([^"]+)"', line)
+        lines.append(text_of(path.parent / included.group(1)) if included else line)
+    return "\n".join(lines)
+
+
 def plain_deck(changes=(), text=None):
     """The dry slider-crank without figures, and with changes (section, key, value)."""
     text = changed(text or DECK.read_text(), "output", figures=None)

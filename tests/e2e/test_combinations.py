@@ -12,7 +12,7 @@ import time
 
 import pytest
 from conftest import DIRECTORY, ROOT, built
-from support import Run, call, changed, scratch, written
+from support import Run, call, changed, scratch, text_of, written
 
 FOLDERS = ("inputs", "inputs/hard", "inputs/studies")
 DECKS = sorted(path for folder in FOLDERS for path in (ROOT / folder).glob("*.deck"))
@@ -21,15 +21,6 @@ INSTANTS = 25  # of output
 PERIODS = 4  # of the statistics
 CRASH = re.compile(r"Backtrace|runtime error|Program received signal|SIG[A-Z]{3}|internal mistake", re.IGNORECASE)
 ENDED = re.compile(r"from 0 to (\S+) s; output")
-
-
-def text_of(path):
-    """A deck's text with everything that it includes."""
-    lines = []
-    for line in path.read_text().splitlines():
-        included = re.match(r'\s*include\s+"([^"]+)"', line)
-        lines.append(text_of(path.parent / included.group(1)) if included else line)
-    return "\n".join(lines)
 
 
 def analyses(text):

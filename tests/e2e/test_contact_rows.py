@@ -9,7 +9,7 @@ import re
 import numpy as np
 import pytest
 from conftest import ROOT
-from support import DECK, Run, assert_close, call, changed, plain_deck, scratch, written
+from support import DECK, Run, assert_close, call, changed, plain_deck, scratch, text_of, written
 
 METHODS = ("verner", "rk4", "adams", "bdf", "ida")
 FOLDERS = ("inputs", "inputs/hard", "inputs/studies")
@@ -24,15 +24,6 @@ END = {  # of motions that are long; others run as they are
     "inputs/hard/wedged_slider.deck": "5 ms",
 }
 ONSET, PEAK, END_ROW, JUMP = 1, 2, 3, 4
-
-
-def text_of(path):
-    """A deck's text with everything that it includes."""
-    lines = []
-    for line in path.read_text().splitlines():
-        included = re.match(r'\s*include\s+"([^"]+)"', line)
-        lines.append(text_of(path.parent / included.group(1)) if included else line)
-    return "\n".join(lines)
 
 
 DECKS = [

@@ -53,6 +53,12 @@ def test_every_reference_counts(build, options, deck, request):
     assert set(re.findall(r"'(\w+)': used by no joint", text)) == {"spare", "lead"}
 
 
+def test_nothing_is_dropped(gudgeon):
+    """Where the motion needs all that the deck gives, explain says so."""
+    text = call(gudgeon, "explain", ROOT / "inputs" / "ferris_wheel.deck").stdout
+    assert "\ndropped\n  nothing\n" in text
+
+
 @pytest.mark.parametrize("build", ["gudgeon", "gudgeon_debug"])
 def test_a_plane_has_no_ideal_twin(build, request):
     """With --ideal a ball keeps its plane: it bounces as without, and no verb falls over."""

@@ -83,8 +83,8 @@ def test_layout_describes_itself(gudgeon):
     run = finished(gudgeon, changes=(("output", "channels", None),))
     with h5py.File(run.directory / "run.h5", "r") as file:
         assert plain(file.attrs["filetype"]) == "gudgeon run"
-        assert list(file.attrs["format_version"]) == [1, 1]
-        assert plain(file.attrs["status"]).strip() == "complete"
+        assert list(file.attrs["format_version"]) == [2, 0]
+        assert plain(file.attrs["status"]) == "complete"
         for key in ("program_version", "git_sha1", "compiler", "libraries", "status_message"):
             assert key in file.attrs, key
         assert file["summary"].attrs["steps"] == run.summary["steps"]
@@ -114,7 +114,7 @@ def test_killed_run_is_readable(gudgeon):
     assert not (directory / "out" / "summary.json").exists()
     killed = Run(directory / "out")
     with h5py.File(killed.directory / "run.h5", "r") as file:
-        assert plain(file.attrs["status"]).strip() == "running"
+        assert plain(file.attrs["status"]) == "running"
         n = len(file["time"])
         assert n > 500
         assert len(file["bodies/position"]) == len(file["row_kind"]) == n
@@ -124,7 +124,7 @@ def test_killed_run_is_readable(gudgeon):
     # the dead run's directory is free again, and what it left is kept
     call(gudgeon, "run", written(directory, plain_deck()), "--out", directory / "out", "--quiet")
     with h5py.File(directory / "out.1" / "run.h5", "r") as file:
-        assert plain(file.attrs["status"]).strip() == "running"
+        assert plain(file.attrs["status"]) == "running"
 
 
 def test_second_run_at_once_is_refused(gudgeon):

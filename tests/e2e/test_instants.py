@@ -234,11 +234,8 @@ every = 1 s
 @pytest.mark.parametrize("name", ["verner", "adams", "bdf"])
 def test_wall_that_comes_and_goes(gudgeon, name):
     """A wall is at the ball for some milliseconds of 3 s, between two output instants. The onset is that of the wall's motion."""
-    directory = scratch()
-    call(gudgeon, "run", written(directory, WALL), "--method", name, "--out", directory / "o")
-    with h5py.File(directory / "o" / "run.h5") as file:
-        table = file["events"]
-        onset, speed = table["time"][0], table["impact_speed"][0]
+    *_, file = run(gudgeon, WALL, "--method", name)
+    onset, speed = file["events"]["time"][0], file["events"]["impact_speed"][0]
     s = 5e-3 * np.sqrt(-np.log(0.49 / 0.55))
     assert onset == pytest.approx(2 - s, abs=1e-7)
     assert speed == pytest.approx(0.49 * 2 * s / 5e-3**2, rel=1e-5)
@@ -311,12 +308,10 @@ every = 10 ms
 @pytest.mark.parametrize("name", ["verner", "adams", "bdf"])
 def test_load_that_tears_a_contact_loose(gudgeon, name):
     """4 N are held by friction of 5 N; 7 N from 1 s on are not: it slips from that instant, at 2 m/s^2."""
-    directory = scratch()
-    call(gudgeon, "run", written(directory, STICK), "--method", name, "--out", directory / "o")
-    with h5py.File(directory / "o" / "run.h5") as file:
-        slips = [row["time"] for row in file["events"][:] if row["kind"].strip(b"\0") == b"slip"]
-        assert slips == [pytest.approx(1, abs=1e-12)]
-        assert at_instants(file, "bodies/velocity").reshape(201, -1)[-1, 0] == pytest.approx(2, rel=1e-6)
+    *_, file = run(gudgeon, STICK, "--method", name)
+    slips = [row["time"] for row in file["events"][:] if row["kind"].strip(b"\0") == b"slip"]
+    assert slips == [pytest.approx(1, abs=1e-12)]
+    assert at_instants(file, "bodies/velocity").reshape(201, -1)[-1, 0] == pytest.approx(2, rel=1e-6)
 
 
 def test_law_of_the_stretch(gudgeon):

@@ -51,6 +51,8 @@ def is_of_type(dtype, word):
     """Whether a type in the file is the documented one."""
     if word == "string":
         return h5py.check_string_dtype(dtype) is not None
+    if word == "word":
+        return dtype == np.dtype("S8")
     if word == "table":
         return dtype.names is not None
     return dtype == np.dtype(KINDS[word])
@@ -97,8 +99,8 @@ def test_every_attribute_is_as_documented(made, root):
                 assert is_of_type(handle.dtype, row["type"]), f"{path} {name}: {handle.dtype}"
                 assert handle.shape == ((2,) if row["shape"] == "(2)" else ()), f"{path} {name}"
         assert file.attrs["filetype"] == "gudgeon run"
-        assert list(file.attrs["format_version"]) == [1, 1]
-        assert file.attrs["status"] == "complete"
+        assert list(file.attrs["format_version"]) == [2, 0]
+        assert file.attrs["status"].decode() == "complete"
 
 
 def test_events_are_as_documented(made, root):

@@ -131,6 +131,29 @@ def test_gnuplot_ends_with_the_run(gudgeon, place, number):
     call(gudgeon, "run", place / "scene.deck", "--out", place / "out", "--quiet")
 
 
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+@pytest.mark.parametrize("is_ignored", [False, True])
+def test_signals_end_a_run_that_does_not_ignore_them(gudgeon, place, number, is_ignored):
+    """Whatever a library makes of a signal as it is loaded: it ends a run, or the run was begun without it (nohup) and goes on."""
+    deck = written(place, plain_deck((("analysis.dynamic", "end", "60 s"), ("output", "every", "10 us"))), "long.deck")
+    process = subprocess.Popen([str(gudgeon), "run", str(deck), "--out", str(place / "out"), "--quiet"],
+                               preexec_fn=lambda: signal.signal(number, signal.SIG_IGN if is_ignored else signal.SIG_DFL))
+    try:
+        for _ in range(400):
+            if (place / "out" / "run.h5").exists():
+                break
+            time.sleep(0.05)
+        process.send_signal(number)
+        if is_ignored:
+            time.sleep(0.3)
+            assert process.poll() is None
+        else:
+            assert process.wait(timeout=20) == -number
+    finally:
+        process.kill()
+        process.wait()
+
+
 def test_a_wrong_patience_is_said(gudgeon, place):
     done = execute(gudgeon, "run", place / "figures.deck", "--out", place / "out",
                    env={**os.environ, "GUDGEON_GNUPLOT_SECONDS": "soon"})
