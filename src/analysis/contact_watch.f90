@@ -21,6 +21,7 @@ module contact_watch
 
    real(wp), parameter :: first_step = 0.01_wp   !! first step of a contact, of the duration of an elastic impact [1]
    real(wp), parameter :: noise = 1.0e-7_wp      !! of a force that a row has told: more than that is worth another row [1]
+   integer, parameter :: n_remembered = 6        !! numbers of a contact in a checkpoint
 
    !> What is known of each contact at the end of the last step.
    type :: contact_watch_t
@@ -335,7 +336,7 @@ contains
    integer function watch_memory_size(self) result(n)
       class(contact_watch_t), intent(in) :: self  !! the watch
 
-      n = 6*size(self%force)
+      n = n_remembered*size(self%force)
    end function watch_memory_size
 
    !> Write what the watch remembers.

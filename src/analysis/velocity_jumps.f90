@@ -77,7 +77,7 @@ contains
                                 solution%row_weight(:n)*abs(rows%phi(:n)) > is_violated)
          call linkage%solve_rows(status)
          if (status /= 0) return
-         call linkage%add_change(linkage%n_position, method%step%y1)
+         call linkage%add_change(.true., method%step%y1)
          call linkage%set_motion(method%t, method%step%y1)
          gained = mechanical_energy(system) - before
          if (system%with_ledger) then

@@ -30,9 +30,9 @@ TITLES = {"gudgeon on": "gudgeon, with energy ledger", "gudgeon off": "gudgeon, 
 
 
 def deck(directory, ledger, end="24 ms"):
-    """The deck with hardly any output: two instants of one channel, no figures."""
+    """The deck with hardly any output: two instants of one channel, no rows at contacts, no figures."""
     changes = [("analysis.dynamic", "ledger", ledger), ("analysis.dynamic", "end", end), ("output", "every", end),
-               ("output", "channels", "slider.position")]
+               ("output", "channels", "slider.position"), ("output", "contact_rows", "off")]
     return written(directory, plain_deck(changes), f"ledger_{ledger}_{end.replace(' ', '')}.deck")
 
 
