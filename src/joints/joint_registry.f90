@@ -6,8 +6,10 @@ module joint_registry
    use driver_speed, only: driver_speed_t
    use initial_speed, only: initial_speed_t
    use joint_distance, only: joint_distance_t
+   use joint_gear, only: joint_gear_t
    use joint_parallel, only: joint_parallel_t
    use joint_pin_in_slot, only: joint_pin_in_slot_t
+   use joint_rack, only: joint_rack_t
    use joint_revolute, only: joint_revolute_t
    use joint_rigid, only: joint_rigid_t
    use joint_set, only: joint_set_t
@@ -16,7 +18,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 11  !! number of kinds
+   integer, parameter :: n_joint_kinds = 13  !! number of kinds
 
 contains
 
@@ -38,6 +40,8 @@ contains
       case (9); allocate (driver_position_t :: set)
       case (10); allocate (initial_speed_t :: set)
       case (11); allocate (joint_parallel_t :: set)
+      case (12); allocate (joint_gear_t :: set)
+      case (13); allocate (joint_rack_t :: set)
       end select
    end subroutine new_joint_set
 
