@@ -1,7 +1,8 @@
 # Writes make rules for the modules of Fortran sources: one program unit per file, file name = name of the
 # module or submodule. An object depends on the .mod files of what it uses; a .mod depends on the object
 # that makes it, with a recipe that only compiles again if the file is gone. gfortran leaves an unchanged
-# .mod untouched, so users are compiled again only when an interface has changed.
+# .mod untouched, so users are compiled again only when an interface has changed. Text that a source
+# includes lies in its directory.
 #
 # awk -v obj=DIR -v mod=DIR -v gen=DIR -f moddeps.awk FILE...   (sources under gen have their objects in obj/gen)
 
@@ -36,6 +37,13 @@ FNR == 1 { files[++n_files] = FILENAME }
 {
    line = tolower($0)
    sub(/^[ \t]+/, "", line)
+   if (line ~ /^include[ \t]*["']/) {
+      split($0, part, /["']/)
+      path = FILENAME
+      sub(/[^\/]*$/, "", path)
+      included[FILENAME] = included[FILENAME] " " path part[2]
+      next
+   }
    if (line !~ /^(module|submodule|use)[ \t,(:]/) next
    sub(/[ \t]*!.*/, "", line)
 }
@@ -90,7 +98,7 @@ END {
    }
    for (i = 1; i <= n_files; i++) {
       n = split(needs[files[i]], need, " ")
-      list = ""
+      list = included[files[i]]
       for (j = 1; j <= n; j++) {
          if (!(need[j] in maker) || maker[need[j]] == files[i]) continue
          if (index(list " ", " " mod "/" need[j] " ") == 0) list = list " " mod "/" need[j]

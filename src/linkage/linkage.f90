@@ -176,10 +176,9 @@ contains
          call self%ideal(k)%set%evaluate(inside, self%motion, self%rows)
       end do
       associate (rows => self%rows, motion => self%motion, solution => self%solution)
-         call right_hand_side(self%bodies%n, rows%n, rows%n_solve, rows%body, rows%phi, rows%phi_t, rows%jac, rows%gam, motion%v, &
-                              motion%omega, solution%alpha, solution%beta, solution%phi_dot, solution%b)
-         if (rows%n_known > 0) call take_known(self%bodies%n, rows%n, rows%n_known, rows%known, rows%jac, motion%a, &
-                                               motion%alpha, solution%b)
+         call right_hand_side(rows, self%bodies%n, motion%v, motion%omega, solution%alpha, solution%beta, solution%phi_dot, &
+                              solution%b)
+         if (rows%n_known > 0) call take_known(rows, self%bodies%n, motion%a, motion%alpha, solution%b)
       end associate
    end subroutine linkage_evaluate_rows
 

@@ -1,17 +1,23 @@
 !> The constraint rows of a mechanism: places for their values, and which bodies they tie.
 !>
-!> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j.
+!> A body has n_v rates: in the plane those of x, y and the angle, in space three of its position and three of its rotation. A row
+!> has 2 n_v columns, those of body i before those of body j. Loops over all rows take the columns as one sequence; where in it
+!> the entries of a body begin is said here and nowhere else.
 module rows
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: list_sides, new_rows, rows_t
+   public :: coordinate_place, list_sides, n_v_planar, n_v_spatial, new_rows, place_in_row, rows_t, side_place
+
+   integer, parameter :: n_v_planar = 3    !! rates of a body in the plane
+   integer, parameter :: n_v_spatial = 6   !! rates of a body in space
 
    !> The constraint rows.
    !>
    !> The first `n_solve` rows are solved for; those after them only fix the motion of bodies that are known
    !> functions of time, and are evaluated when their reactions are wanted.
    type :: rows_t
+      integer :: n_v = n_v_planar               !! rates of a body
       integer :: n = 0                          !! number of rows
       integer :: n_solve = 0                    !! rows that are solved for, the first ones
       integer, allocatable :: body(:, :)        !! (2, n) bodies i and j of each row, 0: ground
@@ -25,22 +31,24 @@ module rows
       integer, allocatable :: known(:, :)       !! (3, known sides) row, place before its entries in `jac`, body
       real(wp), allocatable :: phi(:)           !! (n) Phi [m or rad]
       real(wp), allocatable :: phi_t(:)         !! (n) partial time derivative of Phi [m/s or rad/s]
-      real(wp), allocatable :: jac(:, :)        !! (6, n) Phi_q [1 or m]
+      real(wp), allocatable :: jac(:, :)        !! (2 n_v, n) Phi_q [1 or m]
       real(wp), allocatable :: gam(:)           !! (n) gamma [m/s^2 or rad/s^2]
    end type rows_t
 
 contains
 
    !> Room for n rows.
-   subroutine new_rows(n, rows)
-      integer, intent(in) :: n           !! number of rows
-      type(rows_t), intent(out) :: rows  !! the rows, zero, all to be solved for
+   subroutine new_rows(n, rows, n_v)
+      integer, intent(in) :: n               !! number of rows
+      type(rows_t), intent(out) :: rows      !! the rows, zero, all to be solved for
+      integer, intent(in), optional :: n_v   !! rates of a body; those of the plane if it is not given
 
+      if (present(n_v)) rows%n_v = n_v
       rows%n = n
       rows%n_solve = n
       allocate (rows%body(2, n), source=0)
       allocate (rows%is_angle(n), source=.false.)
-      allocate (rows%phi(n), rows%phi_t(n), rows%gam(n), rows%jac(6, n), source=0.0_wp)
+      allocate (rows%phi(n), rows%phi_t(n), rows%gam(n), rows%jac(2*rows%n_v, n), source=0.0_wp)
    end subroutine new_rows
 
    !> List the sides of the solved rows: those of unknown bodies body by body, which loops over the Jacobian
@@ -79,11 +87,11 @@ contains
             if (body == 0) cycle
             if (is_known(body)) then
                rows%n_known = rows%n_known + 1
-               rows%known(:, rows%n_known) = [row, 6*(row - 1) + 3*(side - 1), body]
+               rows%known(:, rows%n_known) = [row, side_place(rows%n_v, row, side), body]
             else
                k = rows%last_side(body)
                rows%last_side(body) = k - 1
-               rows%side(:, k) = [row, 6*(row - 1) + 3*(side - 1), body]
+               rows%side(:, k) = [row, side_place(rows%n_v, row, side), body]
             end if
          end do
       end do
@@ -93,5 +101,31 @@ contains
       end do
       rows%last_side(n_body) = rows%n_side
    end subroutine list_sides
+
+   !> Coordinates before those of body k, where those of all bodies follow one another.
+   elemental integer function coordinate_place(n_v, k) result(place)
+      integer, intent(in) :: n_v   !! rates of a body
+      integer, intent(in) :: k     !! number of the body, 1: the first
+
+      place = n_v*(k - 1)
+   end function coordinate_place
+
+   !> Entries of Phi_q before those of one side of a row, where the columns of all rows follow one another.
+   elemental integer function side_place(n_v, row, side) result(place)
+      integer, intent(in) :: n_v    !! rates of a body
+      integer, intent(in) :: row    !! number of the row
+      integer, intent(in) :: side   !! 1: body i, 2: body j
+
+      place = coordinate_place(n_v, 2*(row - 1) + side)
+   end function side_place
+
+   !> Entries of a row before those of one of its sides, from its place among all.
+   elemental integer function place_in_row(n_v, row, place) result(before)
+      integer, intent(in) :: n_v     !! rates of a body
+      integer, intent(in) :: row     !! number of the row
+      integer, intent(in) :: place   !! of the side, as `side_place` says
+
+      before = place - side_place(n_v, row, 1)
+   end function place_in_row
 
 end module rows

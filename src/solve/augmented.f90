@@ -11,15 +11,17 @@
 !> Directions in which S is much larger than the damping are solved to round-off; in the others lambda stays small, which
 !> gives the multipliers of least norm, each measured by the root of its entry of D. One step is the regularised solution.
 !>
-!> Signs: the reaction on the bodies is -Phi_q^T lambda. A planar mass matrix is diagonal, three
-!> entries per body. Source: Flores et al. (2008), eqs. (2.14)-(2.18), (2.34). Limits: rows that contradict one another
-!> have no solution; what is left over of them decides whether that is an error.
+!> Signs: the reaction on the bodies is -Phi_q^T lambda. M is diagonal, n_v entries a body, and a row has 2 n_v columns: three and
+!> six in the plane; six and twelve in space, with rates of rotation about the principal axes of a body. No more than these
+!> numbers tells the plane from space here. Source: Flores et al. (2008), eqs. (2.14)-(2.18), (2.34). Limits: rows that contradict
+!> one another have no solution; what is left over of them decides whether that is an error.
 module augmented
+   use body_kernels, only: body_accelerations, row_residuals
    use rows, only: rows_t
    use kinds, only: i8, wp
    implicit none (type, external)
    private
-   public :: augmented_t, body_accelerations, direct_t, row_residuals
+   public :: augmented_t, direct_t
 
    real(wp), parameter :: converged = 1.0e-15_wp  !! residual of the rows, of the greatest term, that is round-off [1]
    real(wp), parameter :: stagnant = 0.5_wp       !! ratio of successive residuals that is no progress [1]
@@ -68,11 +70,11 @@ module augmented
          import :: augmented_t, rows_t, wp
          implicit none (type, external)
          class(augmented_t), intent(inout) :: self                !! the solver
-         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
          type(rows_t), intent(in) :: rows                         !! rows, of which the Jacobian is read
-         real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
+         real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied forces and moments [N or N.m]
          real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
-         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
          real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
          integer, intent(out) :: bad_row                          !! row that depends on others, or nearly so, 0: none
       end subroutine solve_interface
@@ -82,13 +84,13 @@ module augmented
          import :: augmented_t, rows_t, wp
          implicit none (type, external)
          class(augmented_t), intent(inout) :: self                !! the solver
-         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
          type(rows_t), intent(in) :: rows                         !! rows
-         real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
+         real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied forces and moments [N or N.m]
          real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
          real(wp), intent(in) :: damping                          !! of S, relative to its diagonal [1]
          integer, intent(in) :: n_refinement                      !! refinements after the first solution, at most
-         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+         real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
          real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
          integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
       end subroutine solve_damped_interface
@@ -98,7 +100,7 @@ module augmented
          import :: direct_t, rows_t, wp
          implicit none (type, external)
          class(direct_t), intent(inout) :: self                   !! the solver
-         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+         real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
          type(rows_t), intent(in) :: rows                         !! rows, of which the Jacobian is read
          real(wp), intent(in) :: damping                          !! added to the diagonal, of its entries [1]
          integer, intent(out) :: bad_row                          !! row at which there are no factors all the same, 0: none
@@ -124,29 +126,29 @@ contains
    !> Accelerations and multipliers where rows may depend on one another.
    subroutine direct_solve_damped(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)
       class(direct_t), intent(inout) :: self                   !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
-      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied forces and moments [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied forces and moments [N or N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
       real(wp), intent(in) :: damping                          !! of S, relative to its diagonal [1]
       integer, intent(in) :: n_refinement                      !! refinements after the first solution, at most
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers, set of solved rows [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
       real(wp) :: before, greatest, now
-      integer :: k, n
+      integer :: k, n, n_body
 
       n = rows%n_solve
+      n_body = ubound(g, 2)
       call self%factorise(inverse_mass, rows, damping, bad_row)
       if (bad_row > 0) return
       lambda(:n) = 0.0_wp
       before = huge(1.0_wp)
       greatest = tiny(1.0_wp)
       do k = 0, n_refinement + 1
-         call body_accelerations(size(g, 2) - 1, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
-                                 inverse_mass, rows%jac, g, lambda, a)
-         call row_residuals(size(g, 2) - 1, rows%n, n, rows%n_side, rows%side, rows%jac, a, b, self%residual)
+         call body_accelerations(rows, rows%n_unknown, rows%unknown, n_body, inverse_mass, rows%jac, g, lambda, a)
+         call row_residuals(rows, n, n_body, rows%jac, a, b, self%residual)
          if (n == 0) return
          now = maxval(abs(self%residual(:n)))
          if (k == 0) greatest = max(greatest, now, maxval(abs(b(:n))))
@@ -157,69 +159,5 @@ contains
          lambda(:n) = lambda(:n) + self%residual(:n)
       end do
    end subroutine direct_solve_damped
-
-   !> a = M^-1 (g - Phi_q^T lambda) of the unknown bodies.
-   pure subroutine body_accelerations(n_body, n_row, n_unknown, unknown, n_side, side, last_side, inverse_mass, jac, g, lambda, a)
-      integer, intent(in) :: n_body                        !! number of bodies
-      integer, intent(in) :: n_row                         !! number of rows
-      integer, intent(in) :: n_unknown                     !! number of unknown bodies
-      integer, intent(in) :: unknown(n_unknown)            !! (unknown bodies) their numbers
-      integer, intent(in) :: n_side                        !! sides of rows that are unknown bodies
-      integer, intent(in) :: side(3, n_side)               !! (3, sides) row, place in the Jacobian, body
-      integer, intent(in) :: last_side(0:n_body)           !! (0:bodies) last side of each body
-      real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-      real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
-      real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: lambda(n_row)                !! (rows) multipliers [N or N.m]
-      real(wp), intent(inout) :: a(3, 0:n_body)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-
-      real(wp) :: f1, f2, f3, multiplier
-      integer :: body, i, k, place
-
-      do i = 1, n_unknown
-         body = unknown(i)
-         f1 = g(1, body)
-         f2 = g(2, body)
-         f3 = g(3, body)
-         !GCC$ novector
-         do k = last_side(body - 1) + 1, last_side(body)
-            place = side(2, k)
-            multiplier = lambda(side(1, k))
-            f1 = f1 - jac(place + 1)*multiplier
-            f2 = f2 - jac(place + 2)*multiplier
-            f3 = f3 - jac(place + 3)*multiplier
-         end do
-         a(1, body) = f1*inverse_mass(1, body)
-         a(2, body) = f2*inverse_mass(2, body)
-         a(3, body) = f3*inverse_mass(3, body)
-      end do
-   end subroutine body_accelerations
-
-   !> r = Phi_q a - b of the solved rows.
-   pure subroutine row_residuals(n_body, n_row, n_solve, n_side, side, jac, a, b, r)
-      integer, intent(in) :: n_body                        !! number of bodies
-      integer, intent(in) :: n_row                         !! number of rows
-      integer, intent(in) :: n_solve                       !! rows that are solved for
-      integer, intent(in) :: n_side                        !! sides of rows that are unknown bodies
-      integer, intent(in) :: side(3, n_side)               !! (3, sides) row, place in the Jacobian, body
-      real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
-      real(wp), intent(in) :: a(3, 0:n_body)               !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(out) :: r(n_solve)                  !! (solved rows) residuals [m/s^2 or rad/s^2]
-
-      integer :: body, k, place, row
-
-      !GCC$ novector
-      do row = 1, n_solve
-         r(row) = -b(row)
-      end do
-      !GCC$ novector
-      do k = 1, n_side
-         row = side(1, k)
-         place = side(2, k)
-         body = side(3, k)
-         r(row) = r(row) + (jac(place + 1)*a(1, body) + jac(place + 2)*a(2, body) + jac(place + 3)*a(3, body))
-      end do
-   end subroutine row_residuals
 
 end module augmented

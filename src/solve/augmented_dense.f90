@@ -6,10 +6,10 @@
 !> [ I   J^T ] [ M^(1/2) a     ]   [ M^(-1/2) g ]
 !> [ J   -d  ] [ D^(1/2) lambda ] = [ D^(-1/2) b ],   J = D^(-1/2) Phi_q M^(-1/2),   d the damping, zero in `solve`.
 !>
-!> Source: Flores et al. (2008), eq. (2.15). Cost: of order (3 unknown bodies + rows)^3.
+!> Source: Flores et al. (2008), eq. (2.15). Cost: of order (n_v unknown bodies + rows)^3, n_v rates a body.
 module augmented_dense
    use augmented, only: direct_t
-   use rows, only: rows_t
+   use rows, only: coordinate_place, place_in_row, rows_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -60,23 +60,24 @@ contains
 
       integer :: k, n
 
-      self%n_coordinate = 3*rows%n_unknown
+      self%n_coordinate = rows%n_v*rows%n_unknown
       n = self%n_coordinate + rows%n_solve
       allocate (self%place(0:n_body), source=0)
-      self%place(rows%unknown) = [(3*k - 3, k=1, rows%n_unknown)]
+      self%place(rows%unknown) = coordinate_place(rows%n_v, [(k, k=1, rows%n_unknown)])
       allocate (self%matrix(n, n), self%x(n), self%row_scale(rows%n_solve), self%residual(rows%n_solve), source=0.0_wp)
    end subroutine dense_prepare
 
    !> The scaled matrix.
    subroutine assemble(self, inverse_mass, rows, damping)
       class(augmented_dense_t), intent(inout) :: self                !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)        !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)        !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                               !! rows
       real(wp), intent(in) :: damping                                !! on the diagonal of the rows [1]
 
       real(wp) :: diagonal
-      integer :: body, i, k, nq, row, side
+      integer :: body, i, k, n_v, nq, row, side
 
+      n_v = rows%n_v
       nq = self%n_coordinate
       self%matrix = 0.0_wp
       do i = 1, nq
@@ -84,10 +85,10 @@ contains
       end do
       do k = 1, rows%n_side
          row = rows%side(1, k)
-         side = rows%side(2, k) - 6*(row - 1)
+         side = place_in_row(n_v, row, rows%side(2, k))
          body = rows%side(3, k)
          i = self%place(body)
-         self%matrix(i + 1:i + 3, nq + row) = rows%jac(side + 1:side + 3, row)*sqrt(inverse_mass(:, body))
+         self%matrix(i + 1:i + n_v, nq + row) = rows%jac(side + 1:side + n_v, row)*sqrt(inverse_mass(:, body))
       end do
       do row = 1, rows%n_solve
          diagonal = sum(self%matrix(1:nq, nq + row)**2)
@@ -102,28 +103,31 @@ contains
    !> Accelerations and multipliers.
    subroutine dense_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
       class(augmented_dense_t), intent(inout) :: self                !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)        !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)        !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                               !! rows
-      real(wp), intent(in), contiguous :: g(:, 0:)                   !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)                   !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in), contiguous :: b(:)                       !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(inout), contiguous :: a(:, 0:)                !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)                !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)               !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                                !! row that depends on others, 0: none
 
-      integer :: body, i, nq
+      integer :: body, i, k, n_v, nq
 
+      n_v = rows%n_v
       nq = self%n_coordinate
       call self%factorise(inverse_mass, rows, 0.0_wp, bad_row)
       if (bad_row > 0) return
-      do i = 1, rows%n_unknown
-         body = rows%unknown(i)
-         self%x(3*i - 2:3*i) = g(:, body)*sqrt(inverse_mass(:, body))
+      do k = 1, rows%n_unknown
+         body = rows%unknown(k)
+         i = self%place(body)
+         self%x(i + 1:i + n_v) = g(:, body)*sqrt(inverse_mass(:, body))
       end do
       self%x(nq + 1:) = b(:rows%n_solve)*self%row_scale
       call self%substitute()
-      do i = 1, rows%n_unknown
-         body = rows%unknown(i)
-         a(:, body) = self%x(3*i - 2:3*i)*sqrt(inverse_mass(:, body))
+      do k = 1, rows%n_unknown
+         body = rows%unknown(k)
+         i = self%place(body)
+         a(:, body) = self%x(i + 1:i + n_v)*sqrt(inverse_mass(:, body))
       end do
       lambda(:rows%n_solve) = self%x(nq + 1:)*self%row_scale
    end subroutine dense_solve
@@ -131,7 +135,7 @@ contains
    !> Factors of the damped matrix.
    subroutine dense_factorise(self, inverse_mass, rows, damping, bad_row)
       class(augmented_dense_t), intent(inout) :: self                !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)        !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)        !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                               !! rows
       real(wp), intent(in) :: damping                                !! on the diagonal of the rows [1]
       integer, intent(out) :: bad_row                                !! row at which there are no factors, 0: none

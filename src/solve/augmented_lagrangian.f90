@@ -11,10 +11,15 @@
 !> Source: Flores et al. (2008), eqs. (2.32)-(2.35), with Phi_q v + Phi_t where (2.34) prints Phi_q a.
 !> Limits: slow where mu is small; multipliers lose as many digits as the penalty has.
 module augmented_lagrangian
-   use augmented, only: augmented_t, body_accelerations, row_residuals
+   use augmented, only: augmented_t
+   use body_kernels, only: body_accelerations, row_residuals
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
-   use rows, only: rows_t
+   use rows, only: coordinate_place, n_v_planar, rows_t
    use kinds, only: wp
+   use matrix_kernels_planar, only: planar_loads => penalty_loads, planar_matrix => penalty_matrix, &
+                                    planar_penalties => row_penalties
+   use matrix_kernels_spatial, only: spatial_loads => penalty_loads, spatial_matrix => penalty_matrix, &
+                                     spatial_penalties => row_penalties
    use ordering, only: envelope_of, reverse_cuthill_mckee
    implicit none (type, external)
    private
@@ -32,11 +37,11 @@ module augmented_lagrangian
       type(envelope_t) :: k                       !! penalty matrix, then its factors
       integer, allocatable :: place(:)            !! (0:bodies) place before the coordinates of an unknown body
       integer :: n_pair = 0                       !! pairs of sides of the same row
-      integer, allocatable :: pair(:, :)          !! (5, pairs) row, entries of both sides in the Jacobian, their coordinates
+      integer, allocatable :: pair(:, :)          !! (5, pairs) row, places of both sides in Phi_q, of their coordinates
       real(wp) :: change = 0.0_wp                 !! of the accelerations in the last iteration, of the greatest [1]
       real(wp), allocatable :: alpha(:)           !! (solved rows) penalties [any]
-      real(wp), allocatable :: d(:, :)            !! (3, 0:bodies) change of a [any]
-      real(wp), allocatable :: last(:, :)         !! (3, 0:bodies) a of the iteration before [any]
+      real(wp), allocatable :: d(:, :)            !! (n_v, 0:bodies) change of a [any]
+      real(wp), allocatable :: last(:, :)         !! (n_v, 0:bodies) a of the iteration before [any]
       real(wp), allocatable :: rest(:)            !! (solved rows) residual after the change [any]
       real(wp), allocatable :: x(:)               !! (coordinates) right-hand side and change of a [any]
    contains
@@ -87,8 +92,8 @@ contains
          first_body = first
       end if
       allocate (self%place(0:n_body), source=0)
-      self%place(rows%unknown(order)) = [(3*k - 3, k=1, n)]
-      call new_envelope([((3*first_body(k) - 2, c=1, 3), k=1, n)], self%k)
+      self%place(rows%unknown(order)) = coordinate_place(rows%n_v, [(k, k=1, n)])
+      call new_envelope([((coordinate_place(rows%n_v, first_body(k)) + 1, c=1, rows%n_v), k=1, n)], self%k)
       do pass = 1, 2
          self%n_pair = 0
          do k = 1, rows%n_solve
@@ -107,8 +112,8 @@ contains
          if (pass == 1) allocate (self%pair(5, self%n_pair), source=0)
       end do
       self%is_iterative = .true.
-      allocate (self%alpha(rows%n_solve), self%residual(rows%n_solve), self%rest(rows%n_solve), self%x(3*n), source=0.0_wp)
-      allocate (self%d(3, 0:n_body), self%last(3, 0:n_body), source=0.0_wp)
+      allocate (self%alpha(rows%n_solve), self%residual(rows%n_solve), self%rest(rows%n_solve), self%x(self%k%n), source=0.0_wp)
+      allocate (self%d(rows%n_v, 0:n_body), self%last(rows%n_v, 0:n_body), source=0.0_wp)
    end subroutine lagrangian_prepare
 
    !> Sides of each row, and for each unknown body those that share a row with it.
@@ -144,11 +149,11 @@ contains
    !> Accelerations and multipliers.
    subroutine lagrangian_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
-      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row that has not converged, 0: none
 
@@ -159,13 +164,13 @@ contains
    !> The same, with a stronger penalty where that does not converge. The penalty stands for the damping.
    subroutine lagrangian_solve_damped(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
-      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
       real(wp), intent(in) :: damping                          !! of other solvers [1]
       integer, intent(in) :: n_refinement                      !! of other solvers
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
@@ -179,11 +184,11 @@ contains
    subroutine iterate(self, penalty, inverse_mass, rows, g, b, a, lambda, bad_row)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
       real(wp), intent(in) :: penalty                          !! of a violated row, of its inverse effective mass [1]
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
-      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row at which there is no solution, 0: none
 
@@ -209,10 +214,9 @@ contains
       before = huge(1.0_wp)
       do k = 0, n_iteration
          self%last = a
-         call body_accelerations(n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
-                                 inverse_mass, rows%jac, g, lambda, a)
+         call body_accelerations(rows, rows%n_unknown, rows%unknown, n_body, inverse_mass, rows%jac, g, lambda, a)
          if (n == 0) return
-         call row_residuals(n_body, rows%n, n, rows%n_side, rows%side, rows%jac, a, b, self%residual)
+         call row_residuals(rows, n, n_body, rows%jac, a, b, self%residual)
          if (k == 0) greatest = max(greatest, maxval(abs(self%residual)), maxval(abs(b(:n))))
          self%left_over = maxval(abs(self%residual))/greatest
          call compare(rows, self%last, a, change, largest)
@@ -222,7 +226,7 @@ contains
             before = self%change
          end if
          call change_accelerations(self, rows)
-         call row_residuals(n_body, rows%n, n, rows%n_side, rows%side, rows%jac, self%d, -self%residual, self%rest)
+         call row_residuals(rows, n, n_body, rows%jac, self%d, -self%residual, self%rest)
          lambda(:n) = lambda(:n) + self%alpha*self%rest
       end do
    end subroutine iterate
@@ -231,46 +235,30 @@ contains
    subroutine assemble(self, penalty, inverse_mass, rows)
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver
       real(wp), intent(in) :: penalty                          !! of a violated row, of its inverse effective mass [1]
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
 
-      integer :: c, i, j, k, place, row
+      integer :: n_body
 
-      self%alpha = 0.0_wp
-      do k = 1, rows%n_side
-         row = rows%side(1, k)
-         place = rows%side(2, k) - 6*(row - 1)
-         self%alpha(row) = self%alpha(row) + sum(rows%jac(place + 1:place + 3, row)**2*inverse_mass(:, rows%side(3, k)))
-      end do
-      ! a row between known bodies has nothing to hold
-      where (self%alpha > 0.0_wp) self%alpha = penalty/self%alpha
-      self%k%a = 0.0_wp
-      do k = 1, rows%n_unknown
-         do c = 1, 3
-            i = self%place(rows%unknown(k)) + c
-            self%k%a(self%k%start(i) + i) = 1.0_wp/inverse_mass(c, rows%unknown(k))
-         end do
-      end do
-      do k = 1, self%n_pair
-         row = self%pair(1, k)
-         associate (left => self%pair(2, k) - 6*(row - 1), right => self%pair(3, k) - 6*(row - 1))
-            do c = 1, 3
-               i = self%pair(4, k) + c
-               do j = 1, 3
-                  if (self%pair(5, k) + j > i) exit
-                  place = self%k%start(i) + self%pair(5, k) + j
-                  self%k%a(place) = self%k%a(place) + self%alpha(row)*rows%jac(left + c, row)*rows%jac(right + j, row)
-               end do
-            end do
-         end associate
-      end do
+      n_body = ubound(inverse_mass, 2)
+      associate (k => self%k, n => rows%n_solve)
+         if (rows%n_v == n_v_planar) then
+            call planar_penalties(n_body, rows%n, n, rows%n_side, rows%side, penalty, rows%jac, inverse_mass, self%alpha)
+            call planar_matrix(n_body, rows%n, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, k%start, &
+                               size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
+         else
+            call spatial_penalties(n_body, rows%n, n, rows%n_side, rows%side, penalty, rows%jac, inverse_mass, self%alpha)
+            call spatial_matrix(n_body, rows%n, n, rows%n_unknown, rows%unknown, self%place, self%n_pair, self%pair, k%n, k%start, &
+                                size(k%a), self%alpha, inverse_mass, rows%jac, k%a)
+         end if
+      end associate
    end subroutine assemble
 
    !> Greatest change of an acceleration of unknown bodies, and the greatest acceleration so far.
    pure subroutine compare(rows, last, a, change, largest)
       type(rows_t), intent(in) :: rows             !! rows
-      real(wp), intent(in) :: last(:, 0:)          !! (3, 0:bodies) accelerations before [any]
-      real(wp), intent(in) :: a(:, 0:)             !! (3, 0:bodies) accelerations now [any]
+      real(wp), intent(in) :: last(:, 0:)          !! (n_v, 0:bodies) accelerations before [any]
+      real(wp), intent(in) :: a(:, 0:)             !! (n_v, 0:bodies) accelerations now [any]
       real(wp), intent(out) :: change              !! greatest change [any]
       real(wp), intent(inout) :: largest           !! greatest acceleration so far, raised [any]
 
@@ -290,19 +278,20 @@ contains
       class(augmented_lagrangian_t), intent(inout) :: self     !! the solver, factorised, residuals set
       type(rows_t), intent(in) :: rows                         !! rows
 
-      integer :: i, k, place, row
+      integer :: i, k, n_body
 
-      self%x = 0.0_wp
-      do k = 1, rows%n_side
-         row = rows%side(1, k)
-         place = rows%side(2, k) - 6*(row - 1)
-         i = self%place(rows%side(3, k))
-         self%x(i + 1:i + 3) = self%x(i + 1:i + 3) - rows%jac(place + 1:place + 3, row)*(self%alpha(row)*self%residual(row))
-      end do
+      n_body = ubound(self%place, 1)
+      if (rows%n_v == n_v_planar) then
+         call planar_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%place, self%k%n, self%alpha, rows%jac, &
+                           self%residual, self%x)
+      else
+         call spatial_loads(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%place, self%k%n, self%alpha, rows%jac, &
+                            self%residual, self%x)
+      end if
       call solve_factored(self%k%n, size(self%k%a), self%k%first, self%k%start, self%k%a, self%k%inverse, self%x)
       do k = 1, rows%n_unknown
          i = self%place(rows%unknown(k))
-         self%d(:, rows%unknown(k)) = self%x(i + 1:i + 3)
+         self%d(:, rows%unknown(k)) = self%x(i + 1:i + rows%n_v)
       end do
    end subroutine change_accelerations
 

@@ -5,9 +5,13 @@
 !> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
 module augmented_sparse
    use augmented, only: direct_t
-   use rows, only: rows_t
+   use rows, only: coordinate_place, n_v_planar, rows_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
+   use matrix_kernels_planar, only: planar_lower => lower_sides, planar_scaled => scaled_loads, planar_unscaled => unscaled, &
+                                    planar_upper => upper_sides
+   use matrix_kernels_spatial, only: spatial_lower => lower_sides, spatial_scaled => scaled_loads, spatial_unscaled => unscaled, &
+                                     spatial_upper => upper_sides
    implicit none (type, external)
    private
    public :: augmented_sparse_t
@@ -16,12 +20,12 @@ module augmented_sparse
    type, extends(direct_t) :: augmented_sparse_t
       integer :: n_coordinate = 0               !! coordinates of unknown bodies, the first rows of the matrix
       type(sparse_lu_t) :: matrix               !! scaled augmented matrix and its factors
-      integer, allocatable :: upper(:)          !! (sides) place of a side's first entry in the rows' columns; two more follow
-      integer, allocatable :: lower(:, :)       !! (3, sides) places of its entries in the coordinates' columns
+      integer, allocatable :: upper(:)          !! (sides) place of a side's first entry in the rows' columns; the others follow
+      integer, allocatable :: lower(:, :)       !! (n_v, sides) places of its entries in the coordinates' columns
       integer, allocatable :: diagonal(:)       !! (solved rows) places of the diagonal entries of the rows
       real(wp), allocatable :: x(:)             !! (n) right-hand side and solution [any]
       real(wp), allocatable :: row_scale(:)     !! (solved rows) scales of the rows [any]
-      real(wp), allocatable :: root(:, :)       !! (3, 0:bodies) roots of the inverse masses [1/kg^0.5, 1/kg^0.5, 1/(kg^0.5.m)]
+      real(wp), allocatable :: root(:, :)       !! (n_v, 0:bodies) roots of the inverse masses [1/kg^0.5 or 1/(kg^0.5.m)]
    contains
       procedure, nopass :: name => sparse_name
       procedure :: prepare => sparse_prepare
@@ -45,22 +49,23 @@ contains
       integer, intent(in) :: n_body                     !! number of bodies
       type(rows_t), intent(in) :: rows                  !! rows, of which the bodies are read
 
-      integer :: body, c, column, coordinate(0:n_body), i, k, n, nq, place
+      integer :: body, c, column, coordinate(0:n_body), i, k, n, n_v, nq, place
       integer, allocatable :: in_row(:), of_row(:, :)
 
-      nq = 3*rows%n_unknown
+      n_v = rows%n_v
+      nq = n_v*rows%n_unknown
       n = nq + rows%n_solve
       self%n_coordinate = nq
       coordinate = 0
-      coordinate(rows%unknown) = [(3*k - 3, k=1, rows%n_unknown)]
+      coordinate(rows%unknown) = coordinate_place(n_v, [(k, k=1, rows%n_unknown)])
       self%matrix%n = n
-      allocate (self%matrix%column(n + 1), self%matrix%row(nq + 6*rows%n_side + rows%n_solve))
-      allocate (self%upper(rows%n_side), self%lower(3, rows%n_side), self%diagonal(rows%n_solve))
+      allocate (self%matrix%column(n + 1), self%matrix%row(nq + 2*n_v*rows%n_side + rows%n_solve))
+      allocate (self%upper(rows%n_side), self%lower(n_v, rows%n_side), self%diagonal(rows%n_solve))
       place = 0
       do i = 1, rows%n_unknown
          body = rows%unknown(i)
-         do c = 1, 3
-            column = 3*i - 3 + c
+         do c = 1, n_v
+            column = coordinate(body) + c
             self%matrix%column(column) = place
             place = place + 1
             self%matrix%row(place) = column - 1
@@ -82,7 +87,7 @@ contains
          self%matrix%column(nq + i) = place
          do k = 1, in_row(i)
             self%upper(of_row(k, i)) = place + 1
-            do c = 1, 3
+            do c = 1, n_v
                place = place + 1
                self%matrix%row(place) = coordinate(rows%side(3, of_row(k, i))) + c - 1
             end do
@@ -95,36 +100,38 @@ contains
       allocate (self%matrix%a(place), source=0.0_wp)
       self%matrix%a(self%matrix%column(:nq) + 1) = 1.0_wp
       call self%matrix%analyse()
-      allocate (self%x(n), self%row_scale(rows%n_solve), self%residual(rows%n_solve), self%root(3, 0:n_body), source=0.0_wp)
+      allocate (self%x(n), self%row_scale(rows%n_solve), self%residual(rows%n_solve), self%root(n_v, 0:n_body), source=0.0_wp)
    end subroutine sparse_prepare
 
    !> Accelerations and multipliers.
    subroutine sparse_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
       class(augmented_sparse_t), intent(inout) :: self         !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
-      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) applied loads [N or N.m]
       real(wp), intent(in), contiguous :: b(:)                 !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), intent(inout), contiguous :: lambda(:)         !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                          !! row that depends on others, 0: none
 
-      integer :: body, i, k
+      integer :: k
 
       call sparse_factorise(self, inverse_mass, rows, 0.0_wp, bad_row)
       if (bad_row > 0) return
-      do i = 1, rows%n_unknown
-         body = rows%unknown(i)
-         self%x(3*i - 2:3*i) = g(:, body)*self%root(:, body)
-      end do
+      if (rows%n_v == n_v_planar) then
+         call planar_scaled(size(g, 2) - 1, rows%n_unknown, rows%unknown, self%root, g, self%x)
+      else
+         call spatial_scaled(size(g, 2) - 1, rows%n_unknown, rows%unknown, self%root, g, self%x)
+      end if
       do k = 1, rows%n_solve
          self%x(self%n_coordinate + k) = b(k)*self%row_scale(k)
       end do
       call self%matrix%solve(self%x)
-      do i = 1, rows%n_unknown
-         body = rows%unknown(i)
-         a(:, body) = self%x(3*i - 2:3*i)*self%root(:, body)
-      end do
+      if (rows%n_v == n_v_planar) then
+         call planar_unscaled(size(g, 2) - 1, rows%n_unknown, rows%unknown, self%root, self%x, a)
+      else
+         call spatial_unscaled(size(g, 2) - 1, rows%n_unknown, rows%unknown, self%root, self%x, a)
+      end if
       do k = 1, rows%n_solve
          lambda(k) = self%x(self%n_coordinate + k)*self%row_scale(k)
       end do
@@ -133,23 +140,23 @@ contains
    !> Factors of the damped matrix.
    subroutine sparse_factorise(self, inverse_mass, rows, damping, bad_row)
       class(augmented_sparse_t), intent(inout) :: self         !! the solver
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows
       real(wp), intent(in) :: damping                          !! on the diagonal of the rows [1]
       integer, intent(out) :: bad_row                          !! row at which there are no factors, 0: none
 
-      real(wp) :: entry(3)
-      integer :: bad, k, place, row
+      integer :: bad, n_body, n_entry, row
 
       self%root = sqrt(inverse_mass)
-      self%row_scale = 0.0_wp
-      do k = 1, rows%n_side
-         row = rows%side(1, k)
-         place = rows%side(2, k) - 6*(row - 1)
-         entry = rows%jac(place + 1:place + 3, row)*self%root(:, rows%side(3, k))
-         self%matrix%a(self%upper(k):self%upper(k) + 2) = entry
-         self%row_scale(row) = self%row_scale(row) + sum(entry**2)
-      end do
+      n_body = ubound(inverse_mass, 2)
+      n_entry = size(self%matrix%a)
+      if (rows%n_v == n_v_planar) then
+         call planar_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%upper, n_entry, rows%jac, self%root, &
+                           self%matrix%a, self%row_scale)
+      else
+         call spatial_upper(n_body, rows%n, rows%n_solve, rows%n_side, rows%side, self%upper, n_entry, rows%jac, self%root, &
+                            self%matrix%a, self%row_scale)
+      end if
       do row = 1, rows%n_solve
          self%matrix%a(self%diagonal(row)) = -damping
          if (.not. self%row_scale(row) > 0.0_wp) then
@@ -158,14 +165,11 @@ contains
          end if
          self%row_scale(row) = 1.0_wp/sqrt(self%row_scale(row))
       end do
-      do k = 1, rows%n_side
-         row = rows%side(1, k)
-         entry = self%matrix%a(self%upper(k):self%upper(k) + 2)*self%row_scale(row)
-         self%matrix%a(self%upper(k):self%upper(k) + 2) = entry
-         self%matrix%a(self%lower(1, k)) = entry(1)
-         self%matrix%a(self%lower(2, k)) = entry(2)
-         self%matrix%a(self%lower(3, k)) = entry(3)
-      end do
+      if (rows%n_v == n_v_planar) then
+         call planar_lower(rows%n_solve, rows%n_side, rows%side, self%upper, self%lower, self%row_scale, n_entry, self%matrix%a)
+      else
+         call spatial_lower(rows%n_solve, rows%n_side, rows%side, self%upper, self%lower, self%row_scale, n_entry, self%matrix%a)
+      end if
       call self%matrix%factorise(bad)
       self%n_factorisations = self%n_factorisations + 1
       bad_row = 0

@@ -4,14 +4,14 @@
 !>
 !> S lambda = Phi_b M_b^-1 g_b - b,   a_b = M_b^-1 (g_b - Phi_b^T lambda),
 !>
-!> solved without assembling it. In a crank mechanism with a loose joint all bodies are such.
+!> solved without assembling it (`solve_lone_bodies` of `body_kernels.inc`). In a crank mechanism with a loose joint all bodies are
+!> such.
 !> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: one or two rows a body; other bodies are not lone.
 module lone_bodies
    use rows, only: rows_t
-   use kinds, only: wp
    implicit none (type, external)
    private
-   public :: find_lone_bodies, lone_t, solve_lone_bodies
+   public :: find_lone_bodies, lone_t
 
    !> The lone bodies, those with one row before those with two.
    type :: lone_t
@@ -58,67 +58,5 @@ contains
          end do
       end do
    end subroutine find_lone_bodies
-
-   !> Accelerations and multipliers of the lone bodies.
-   pure subroutine solve_lone_bodies(n, body, row, place, n_body, n_row, inverse_mass, jac, g, b, threshold, a, lambda, bad_row)
-      integer, intent(in) :: n(2)                          !! (2) bodies with one row, and with two
-      integer, intent(in) :: body(n(1) + n(2))             !! (bodies) their numbers
-      integer, intent(in) :: row(2, n(1) + n(2))           !! (2, bodies) their rows
-      integer, intent(in) :: place(2, n(1) + n(2))         !! (2, bodies) place in the Jacobian before their entries
-      integer, intent(in) :: n_body                        !! number of bodies
-      integer, intent(in) :: n_row                         !! number of rows
-      real(wp), intent(in) :: inverse_mass(3, 0:n_body)    !! (3, 0:bodies) inverse masses [1/kg, 1/kg, 1/(kg.m^2)]
-      real(wp), intent(in) :: jac(6*n_row)                 !! (6 rows) Phi_q, row by row [1 or m]
-      real(wp), intent(in) :: g(3, 0:n_body)               !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
-      real(wp), intent(in) :: threshold                    !! least pivot, as a part of its diagonal [1]
-      real(wp), intent(inout) :: a(3, 0:n_body)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout) :: lambda(n_row)             !! (rows) multipliers [N or N.m]
-      integer, intent(out) :: bad_row                      !! a row that depends on the other, or nearly so, 0: none
-
-      real(wp) :: factor, free(3), l1, l2, m(3), p(3), pivot, q(3), s11, s12, s22, w_p(3), w_q(3), x1, x2
-      integer :: c, k, i1, i2
-
-      bad_row = 0
-      do k = 1, n(1)
-         c = body(k)
-         i1 = place(1, k)
-         m = inverse_mass(:, c)
-         p = jac(i1 + 1:i1 + 3)
-         w_p = p*m
-         free = g(:, c)*m
-         l1 = (p(1)*free(1) + p(2)*free(2) + p(3)*free(3) - b(row(1, k))) &
-              /(w_p(1)*p(1) + w_p(2)*p(2) + w_p(3)*p(3))
-         lambda(row(1, k)) = l1
-         a(:, c) = free - w_p*l1
-      end do
-      do k = n(1) + 1, n(1) + n(2)
-         c = body(k)
-         i1 = place(1, k)
-         i2 = place(2, k)
-         m = inverse_mass(:, c)
-         p = jac(i1 + 1:i1 + 3)
-         q = jac(i2 + 1:i2 + 3)
-         w_p = p*m
-         w_q = q*m
-         free = g(:, c)*m
-         x1 = p(1)*free(1) + p(2)*free(2) + p(3)*free(3) - b(row(1, k))
-         x2 = q(1)*free(1) + q(2)*free(2) + q(3)*free(3) - b(row(2, k))
-         s11 = w_p(1)*p(1) + w_p(2)*p(2) + w_p(3)*p(3)
-         s12 = w_p(1)*q(1) + w_p(2)*q(2) + w_p(3)*q(3)
-         s22 = w_q(1)*q(1) + w_q(2)*q(2) + w_q(3)*q(3)
-         factor = s12/s11
-         pivot = s22 - factor*s12
-         if (.not. pivot > threshold*s22) then
-            bad_row = row(2, k)
-            return
-         end if
-         l2 = (x2 - factor*x1)/pivot
-         l1 = (x1 - s12*l2)/s11
-         lambda(row(1, k)) = l1
-         lambda(row(2, k)) = l2
-         a(:, c) = free - w_p*l1 - w_q*l2
-      end do
-   end subroutine solve_lone_bodies
 
 end module lone_bodies

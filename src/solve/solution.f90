@@ -29,7 +29,7 @@ module solution
       real(wp), allocatable :: row_weight(:)             !! (rows) one over the size of the bodies, or one for angles [1/m or 1/rad]
       real(wp), allocatable :: phi_dot(:)                !! (rows) rate of the violation [m/s or rad/s]
       real(wp), allocatable :: b(:)                      !! (rows) right-hand side of accelerations [m/s^2 or rad/s^2]
-      real(wp), allocatable :: a(:, :)                   !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), allocatable :: a(:, :)                   !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
@@ -53,9 +53,9 @@ contains
    !> depend on others contradict them, or if there is no solution.
    subroutine solution_find(self, inverse_mass, rows, g, must_agree, status)
       class(solution_t), intent(inout) :: self                 !! the solution
-      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (3, 0:bodies) inverse masses, 0 if known [1/kg, 1/kg, 1/(kg.m^2)]
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses, 0 if known [1/kg or 1/(kg.m^2)]
       type(rows_t), intent(in) :: rows                         !! rows, evaluated
-      real(wp), intent(in), contiguous :: g(:, 0:)             !! (3, 0:bodies) loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) loads [N or N.m]
       logical, intent(in) :: must_agree                        !! whether a contradiction counts: that of a correction is round-off
       integer, intent(out) :: status                           !! 0: found
 

@@ -12,11 +12,12 @@
 !> norm). Limits: rows that contradict one another are fulfilled as far as they are not set aside, not in least squares; a row
 !> is dependent below a pivot of `threshold`, a ratio of lengths of its square root.
 module sparse_start
-   use augmented, only: body_accelerations, row_residuals
-   use augmented_schur, only: assemble, part_t, prepare_part
+   use augmented_schur, only: assemble
+   use body_kernels, only: body_accelerations, row_residuals
    use envelope, only: factorise_semidefinite, solve_factored, vanishing_vector
    use rows, only: list_sides, new_rows, rows_t
    use kinds, only: wp
+   use schur_part, only: part_t, prepare_part
    implicit none (type, external)
    private
    public :: new_sparse_start, sparse_start_t
@@ -49,7 +50,7 @@ contains
       type(sparse_start_t), intent(out) :: start  !! the structure
 
       start%n_body = n_body
-      call new_rows(rows%n, start%rows)
+      call new_rows(rows%n, start%rows, rows%n_v)
       start%rows%body = rows%body
       call list_sides(spread(.false., 1, n_body), start%rows)
       call prepare_part(start%rows, spread(.true., 1, rows%n), start%part)
@@ -59,10 +60,10 @@ contains
    !> Factors of S at the present Jacobian.
    subroutine start_factorise(self, jac, weight)
       class(sparse_start_t), intent(inout) :: self       !! the structure; its factors are set
-      real(wp), intent(in), contiguous :: jac(:, :)      !! (6, rows) Phi_q [1 or m]
-      real(wp), intent(in), contiguous :: weight(:, 0:)  !! (3, 0:bodies) W [any]
+      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W [any]
 
-      real(wp) :: none(3, 0:self%n_body), zero(self%rows%n)
+      real(wp) :: none(self%rows%n_v, 0:self%n_body), zero(self%rows%n)
 
       none = 0.0_wp
       zero = 0.0_wp
@@ -75,14 +76,14 @@ contains
    !> Least change x of the coordinates (or rates) with Phi_q x = right.
    subroutine start_correct(self, jac, weight, right, x, rank)
       class(sparse_start_t), intent(inout) :: self       !! the structure
-      real(wp), intent(in), contiguous :: jac(:, :)      !! (6, rows) Phi_q [1 or m]
-      real(wp), intent(in), contiguous :: weight(:, 0:)  !! (3, 0:bodies) W, zero for the ground [any]
+      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W, zero for the ground [any]
       real(wp), intent(in), contiguous :: right(:)       !! (rows) what the rows should change by [m or rad, or rates]
-      real(wp), intent(out), contiguous :: x(:)          !! (3 bodies) change [m, m, rad, or rates]
+      real(wp), intent(out), contiguous :: x(:)          !! (n_v bodies) change [m or rad, or rates]
       integer, intent(out) :: rank                       !! independent rows
 
-      real(wp) :: change(3, 0:self%n_body), lambda(self%rows%n), none(3, 0:self%n_body), residual(self%rows%n)
-      real(wp) :: total(3, 0:self%n_body)
+      real(wp), dimension(self%rows%n_v, 0:self%n_body) :: change, none, total
+      real(wp) :: lambda(self%rows%n), residual(self%rows%n)
       real(wp) :: before, now
       integer :: k
 
@@ -98,11 +99,10 @@ contains
             part%x = residual(part%order)
             call solve_factored(size(part%x), size(part%s%a), part%s%first, part%s%start, part%s%a, part%s%inverse, part%x)
             lambda(part%order) = part%x
-            call body_accelerations(self%n_body, rows%n, rows%n_unknown, rows%unknown, rows%n_side, rows%side, rows%last_side, &
-                                    weight, jac, none, lambda, change)
+            call body_accelerations(rows, rows%n_unknown, rows%unknown, self%n_body, weight, jac, none, lambda, change)
             ! the sum of changes is kept, not that of multipliers: large weights would make the round-off of these visible
             change = total + change
-            call row_residuals(self%n_body, rows%n, rows%n, rows%n_side, rows%side, jac, change, right, residual)
+            call row_residuals(rows, rows%n, self%n_body, jac, change, right, residual)
             now = maxval(abs(residual))
             if (.not. now < before) exit
             total = change
@@ -116,8 +116,8 @@ contains
    !> Rows that depend on others, and all rows that occur in a combination that vanishes.
    subroutine start_find_dependent(self, jac, weight, scale, share, dependent, shared)
       class(sparse_start_t), intent(inout) :: self       !! the structure
-      real(wp), intent(in), contiguous :: jac(:, :)      !! (6, rows) Phi_q [1 or m]
-      real(wp), intent(in), contiguous :: weight(:, 0:)  !! (3, 0:bodies) W, zero for the ground [any]
+      real(wp), intent(in), contiguous :: jac(:, :)      !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W, zero for the ground [any]
       real(wp), intent(in) :: scale(:)                   !! (rows) scales that make rows comparable [any]
       real(wp), intent(in) :: share                      !! least part of a scaled row in a combination that counts [1]
       integer, allocatable, intent(out) :: dependent(:)  !! (dependent rows) those set aside

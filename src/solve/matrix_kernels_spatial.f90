@@ -1,0 +1,14 @@
+!> Loops that put the matrices of the solvers together in space, see `matrix_kernels.inc`.
+module matrix_kernels_spatial
+   use kinds, only: wp
+   use rows, only: n_v => n_v_spatial
+   use schur_part, only: part_t
+   implicit none (type, external)
+   private
+   public :: assemble_schur, lower_sides, penalty_loads, penalty_matrix, row_penalties, scaled_loads, unscaled, upper_sides
+
+contains
+
+   include "matrix_kernels.inc"
+
+end module matrix_kernels_spatial

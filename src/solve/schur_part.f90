@@ -1,0 +1,147 @@
+!> Structure of the Schur complement of some of the rows: their order, the envelope, and the pairs of rows that share a body.
+!>
+!> S = Phi_q M^-1 Phi_q^T. The order is the given one or that of reverse Cuthill-McKee, whichever costs less.
+module schur_part
+   use envelope, only: envelope_t, new_envelope
+   use kinds, only: wp
+   use ordering, only: envelope_of, reverse_cuthill_mckee
+   use rows, only: coordinate_place, rows_t
+   implicit none (type, external)
+   private
+   public :: choose_order, part_t, prepare_part
+
+   !> The Schur complement of some of the solved rows, with its structure.
+   type :: part_t
+      integer :: n_v = 0                          !! rates of a body
+      type(envelope_t) :: s                       !! Schur complement, then its factors
+      integer, allocatable :: order(:)            !! (its rows) rows in the order of the envelope
+      integer :: n_side = 0                       !! their sides that are unknown bodies
+      integer, allocatable :: side(:, :)          !! (2, sides) place in the envelope's order, place in the Jacobian; body by body
+      integer :: n_pair = 0                       !! pairs of sides that share a body
+      integer, allocatable :: pair(:, :)          !! (3, pairs) places in Phi_q M^-1 of the body, in Phi_q and in S
+      integer :: n_body = 0                       !! bodies with sides
+      integer, allocatable :: body(:, :)          !! (3, these bodies) body, its last side, its last pair
+      real(wp), allocatable :: jac_m(:)           !! (n_v most sides of a body) Phi_q M^-1 of one body [any]
+      real(wp), allocatable :: x(:)               !! (its rows) right-hand side and solution, in the order of the envelope [any]
+   end type part_t
+
+contains
+
+   !> The order of some of the rows with the narrower envelope.
+   subroutine choose_order(rows, is_taken, order, first, cost)
+      type(rows_t), intent(in) :: rows                  !! rows, declared
+      logical, intent(in) :: is_taken(:)                !! (solved rows) which of them
+      integer, allocatable, intent(out) :: order(:)     !! (rows taken) rows in their order
+      integer, allocatable, intent(out) :: first(:)     !! (rows taken) first column of each place
+      real, intent(out) :: cost                         !! operations of one factorisation, about [1]
+
+      integer, allocatable :: neighbour(:), number(:), other(:), other_first(:), start(:)
+      real :: other_cost
+      integer :: k
+
+      number = pack([(k, k=1, rows%n_solve)], is_taken)
+      call list_neighbours(rows, is_taken, start, neighbour)
+      order = [(k, k=1, size(number))]
+      first = order
+      other_first = order
+      call envelope_of(start, neighbour, order, first, cost)
+      call reverse_cuthill_mckee(start, neighbour, other)
+      call envelope_of(start, neighbour, other, other_first, other_cost)
+      if (other_cost < cost) then
+         cost = other_cost
+         order = other
+         first = other_first
+      end if
+      order = number(order)
+   end subroutine choose_order
+
+   !> For each row taken, those that share an unknown body with it, numbered among the rows taken.
+   subroutine list_neighbours(rows, is_taken, start, neighbour)
+      type(rows_t), intent(in) :: rows                    !! rows, declared
+      logical, intent(in) :: is_taken(:)                  !! (solved rows) which of them
+      integer, allocatable, intent(out) :: start(:)       !! (rows taken + 1) place of the first neighbour of each row
+      integer, allocatable, intent(out) :: neighbour(:)   !! (any) neighbours
+
+      integer :: body, i, j, n, number(rows%n_solve), pass, row
+
+      n = 0
+      do row = 1, rows%n_solve
+         if (is_taken(row)) n = n + 1
+         number(row) = n
+      end do
+      allocate (start(n + 1), source=0)
+      do pass = 1, 2
+         do body = 1, ubound(rows%last_side, 1)
+            do i = rows%last_side(body - 1) + 1, rows%last_side(body)
+               if (.not. is_taken(rows%side(1, i))) cycle
+               row = number(rows%side(1, i))
+               do j = rows%last_side(body - 1) + 1, rows%last_side(body)
+                  if (i == j .or. .not. is_taken(rows%side(1, j))) cycle
+                  if (pass == 2) neighbour(start(row)) = number(rows%side(1, j))
+                  start(row) = start(row) + 1
+               end do
+            end do
+         end do
+         if (pass == 1) then
+            ! counts become places
+            i = 1
+            do row = 1, n + 1
+               j = start(row)
+               start(row) = i
+               i = i + j
+            end do
+            allocate (neighbour(i - 1), source=0)
+         end if
+      end do
+      ! the second pass has moved each place to that of the next row
+      start(2:) = start(:n)
+      start(1) = 1
+   end subroutine list_neighbours
+
+   !> Order, envelope, sides and pairs of some of the rows.
+   subroutine prepare_part(rows, is_taken, part)
+      type(rows_t), intent(in) :: rows       !! rows, of which the bodies are read
+      logical, intent(in) :: is_taken(:)     !! (solved rows) which of them
+      type(part_t), intent(inout) :: part    !! their structure
+
+      integer, allocatable :: first(:), place(:)
+      real :: cost
+      integer :: body, column, first_side, i, j, k, line, most, pass
+
+      part%n_v = rows%n_v
+      call choose_order(rows, is_taken, part%order, first, cost)
+      allocate (place(rows%n_solve), source=0)
+      place(part%order) = [(k, k=1, size(part%order))]
+      call new_envelope(first, part%s)
+      do pass = 1, 2
+         part%n_side = 0
+         part%n_pair = 0
+         part%n_body = 0
+         most = 0
+         do body = 1, ubound(rows%last_side, 1)
+            first_side = part%n_side
+            do i = rows%last_side(body - 1) + 1, rows%last_side(body)
+               line = place(rows%side(1, i))
+               if (line == 0) cycle
+               part%n_side = part%n_side + 1
+               if (pass == 2) part%side(:, part%n_side) = [line, rows%side(2, i)]
+               do j = rows%last_side(body - 1) + 1, rows%last_side(body)
+                  column = place(rows%side(1, j))
+                  if (column > line .or. column == 0) cycle
+                  part%n_pair = part%n_pair + 1
+                  if (pass == 2) part%pair(:, part%n_pair) = [coordinate_place(rows%n_v, part%n_side - first_side), &
+                                                              rows%side(2, j), part%s%start(line) + column]
+               end do
+            end do
+            if (part%n_side == first_side) cycle
+            most = max(most, part%n_side - first_side)
+            part%n_body = part%n_body + 1
+            if (pass == 2) part%body(:, part%n_body) = [body, part%n_side, part%n_pair]
+         end do
+         if (pass == 1) allocate (part%side(2, part%n_side), part%pair(3, part%n_pair), part%body(3, part%n_body), source=0)
+      end do
+      allocate (part%jac_m(coordinate_place(rows%n_v, most + 1)), source=0.0_wp)
+      allocate (part%x(size(part%order)), source=0.0_wp)
+   end subroutine prepare_part
+
+end module schur_part
