@@ -10,7 +10,7 @@ module deck_scene
    use guards, only: new_guards
    use integrator, only: integrator_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
    use recorder, only: event_t, recorder_t, summary_t
    use run_audit, only: limits_t
@@ -30,7 +30,7 @@ module deck_scene
    !> A deck ready to run.
    type :: loaded_t
       type(scene_t) :: scene                            !! what it means
-      type(planar_system_t) :: system                   !! its equations
+      type(mechanism_t) :: system                   !! its equations
       type(time_plan_t) :: plan                         !! its times
       class(integrator_t), allocatable :: method        !! its integrator, not started
       real(wp), allocatable :: y(:)                     !! (n) state at the start [any]

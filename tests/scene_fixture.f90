@@ -6,8 +6,8 @@ module scene_fixture
    use deck_reader, only: deck_t, diagnostics_t, read_deck
    use errors, only: error_t
    use kinds, only: not_a_number, wp
-   use planar_report, only: build_catalogue, report_state
-   use planar_system, only: planar_system_t
+   use mechanism_report, only: build_catalogue, report_state
+   use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
    use scene, only: scene_t
    use scratch_deck, only: remove_scratch, write_scratch
@@ -43,7 +43,7 @@ contains
    !> The system of a deck, its joints with clearance as the deck has them.
    subroutine system_of_text(text, system, error)
       character(*), intent(in) :: text                    !! the deck, without `deck = 1`
-      type(planar_system_t), intent(out) :: system        !! its equations
+      type(mechanism_t), intent(out) :: system        !! its equations
       type(error_t), allocatable, intent(inout) :: error  !! first failure; mistakes in it
 
       type(scene_t) :: scene
@@ -56,7 +56,7 @@ contains
    !> The system of a deck and its state at t = 0.
    subroutine start_text(text, system, y, error, report)
       character(*), intent(in) :: text                         !! the deck, without `deck = 1`
-      type(planar_system_t), intent(out) :: system             !! its equations
+      type(mechanism_t), intent(out) :: system             !! its equations
       real(wp), allocatable, intent(out) :: y(:)               !! (n) state [any]
       type(error_t), allocatable, intent(inout) :: error       !! first failure; mistakes, or it has no start
       type(assembly_t), intent(out), optional :: report        !! how the assembly went
@@ -73,7 +73,7 @@ contains
 
    !> First component of a channel at a state.
    real(wp) function channel_of(system, t, y, item, channel) result(x)
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                       !! time [s]
       real(wp), intent(in) :: y(:)                    !! (n) state [any]
       character(*), intent(in) :: item                !! name of the item
@@ -87,7 +87,7 @@ contains
 
    !> Both components of a channel at a state (the second is NaN if it has only one); NaN if it is not there.
    function channel_pair(system, t, y, item, channel) result(x)
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t                       !! time [s]
       real(wp), intent(in) :: y(:)                    !! (n) state [any]
       character(*), intent(in) :: item                !! name of the item

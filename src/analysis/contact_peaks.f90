@@ -5,7 +5,7 @@
 module contact_peaks
    use integrator, only: integrator_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
@@ -41,7 +41,7 @@ contains
 
    !> Force and penetration of a contact at the present motion.
    subroutine look(system, slot, item, force, penetration)
-      type(planar_system_t), intent(in) :: system     !! the system, motion and accelerations set
+      type(mechanism_t), intent(in) :: system     !! the system, motion and accelerations set
       integer, intent(in) :: slot                     !! set of the contact
       integer, intent(in) :: item                     !! contact of the set
       type(trend_t), intent(out) :: force             !! normal force
@@ -54,7 +54,7 @@ contains
    !> Maximum of the penetration within the last step, on its interpolant. What is still missing to the maximum of the parabola
    !> through the place is added.
    subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest)
-      type(planar_system_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
       integer, intent(in) :: item                       !! contact of the set
@@ -84,7 +84,7 @@ contains
    !> Maximum of the normal force within the last step: each place looked at is reached by the method
    !> itself, so that the force is as accurate as the step.
    subroutine find_force_peak(system, method, slot, item, left, right, y, ydot, peak)
-      type(planar_system_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
       integer, intent(in) :: item                       !! contact of the set

@@ -11,7 +11,7 @@ module contact_watch
    use integrator, only: integrator_t, onset_located
    use kinds, only: not_a_number, pi, wp
    use memory, only: get, put
-   use planar_system, only: n_ledger, planar_system_t
+   use mechanism, only: n_ledger, mechanism_t
    use recorder, only: event_t
    use slip_watch, only: handle_slip
    use turn_watch, only: handle_turn
@@ -50,7 +50,7 @@ contains
 
    !> Room for the contacts of a system.
    subroutine new_contact_watch(system, watch)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       type(contact_watch_t), intent(out) :: watch   !! the watch
 
       allocate (watch%peaks(1))
@@ -64,7 +64,7 @@ contains
    !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
    subroutine after_step(self, system, method)
       class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(planar_system_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step; the system is at its end
 
       type(trend_t) :: force, penetration
@@ -106,7 +106,7 @@ contains
 
    !> Raise the greatest penetration that a contact remembers.
    subroutine keep_depth(system, slot, item, delta)
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       integer, intent(in) :: slot                     !! set of the contact
       integer, intent(in) :: item                     !! contact of the set
       real(wp), intent(in) :: delta                   !! penetration [m]
@@ -120,7 +120,7 @@ contains
    !> step does not go beyond it, the row that is owed is told now.
    subroutine keep_force(self, system, method, slot, item, peak, at_end)
       type(contact_watch_t), intent(inout) :: self    !! the watch
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method       !! the integrator, after a step
       integer, intent(in) :: slot                     !! set of the contact
       integer, intent(in) :: item                     !! contact of the set
@@ -163,7 +163,7 @@ contains
    !> What the events at the end of the last step are going to be; to be asked before they are handled.
    subroutine foresee(self, system, method, has_end, has_onset, has_jump)
       class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(planar_system_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, at the events
       logical, intent(out) :: has_end                   !! a contact ends
       logical, intent(out) :: has_onset                 !! a contact begins
@@ -203,7 +203,7 @@ contains
    !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after.
    subroutine after_restart(self, system, method)
       class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(planar_system_t), intent(inout) :: system    !! the system, at the present state
+      type(mechanism_t), intent(inout) :: system    !! the system, at the present state
       class(integrator_t), intent(in) :: method         !! the integrator, begun again
 
       integer :: i, k, number, status
@@ -239,7 +239,7 @@ contains
    !> what is gone counts as lost in this contact: it is negative where the energy grows.
    subroutine handle_event(self, system, method, number, is_over, row, step_hint)
       class(contact_watch_t), intent(inout) :: self     !! the watch
-      type(planar_system_t), intent(inout) :: system    !! the system; the contact's state is changed
+      type(mechanism_t), intent(inout) :: system    !! the system; the contact's state is changed
       class(integrator_t), intent(inout) :: method      !! the integrator, at the event; the ledger of its state may change
       integer, intent(in) :: number                     !! number of the event function
       logical, intent(out) :: is_over                   !! there is something to tell: a contact ended, or its friction changed
@@ -309,7 +309,7 @@ contains
 
    !> The run ends within a contact: tell of the first open one, and take it off the list.
    subroutine close_open(system, method, is_open, row)
-      type(planar_system_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, at the end
       logical, intent(out) :: is_open                   !! there was one: `row` tells of it
       type(event_t), intent(out) :: row                 !! the contact
@@ -374,7 +374,7 @@ contains
 
    !> What the ledger has lost in a contact at the present motion; NaN without a ledger.
    real(wp) function loss_of(system, y, slot, item) result(loss)
-      type(planar_system_t), intent(in) :: system  !! the system, its motion that of the state
+      type(mechanism_t), intent(in) :: system  !! the system, its motion that of the state
       real(wp), intent(in) :: y(:)                 !! (n) state [any]
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: item                  !! contact of the set
@@ -391,7 +391,7 @@ contains
 
    !> Place in the state of what the ledger lost by damping in a contact; what it lost by friction is the next.
    pure integer function loss_place(system, number) result(z)
-      type(planar_system_t), intent(in) :: system  !! the system, with a ledger
+      type(mechanism_t), intent(in) :: system  !! the system, with a ledger
       integer, intent(in) :: number                !! number of the contact
 
       z = system%n - system%n_quadrature + n_ledger + 2*number - 1

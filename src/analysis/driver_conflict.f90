@@ -10,7 +10,7 @@ module driver_conflict
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    use text, only: append_text, starts_with, text_t
    implicit none (type, external)
@@ -75,7 +75,7 @@ contains
       type(assembly_t) :: report
       type(error_t), allocatable :: error
       type(item_t), allocatable :: rest(:)
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: p(size(q)), w(size(v))
       integer :: k, n
 

@@ -8,8 +8,8 @@ module dynamic
    use integrator, only: advance_event, advance_failed_evaluation, integrator_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, not_a_number, wp
-   use planar_energy, only: energy_of, energy_t
-   use planar_system, only: planar_system_t
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism, only: mechanism_t
    use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
    use run_audit, only: audit, limits_t, warn_of_errors
    use run_failure, only: constraints_lost, describe_failure, events_without_end, guard_reached, time_used_up
@@ -55,7 +55,7 @@ contains
 
    !> Run from a state at t = 0 to the end.
    subroutine run_dynamic(system, method, y, plan, limits, recorder, summary, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator, with its controls
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
@@ -125,7 +125,7 @@ contains
 
    !> From step to step.
    subroutine integrate(system, method, y, plan, recorder, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
@@ -199,7 +199,7 @@ contains
 
    !> Pace and constraint violation at the end of a step.
    subroutine look_at_step(system, method, run)
-      type(planar_system_t), intent(inout) :: system  !! the system, last evaluated at the end of the step
+      type(mechanism_t), intent(inout) :: system  !! the system, last evaluated at the end of the step
       class(integrator_t), intent(in) :: method       !! the integrator
       type(run_t), intent(inout) :: run               !! maxima are raised
 
@@ -221,7 +221,7 @@ contains
 
    !> Energy balance at the end of a step, after `watch` has looked at it.
    subroutine look_at_energy(system, method, run)
-      type(planar_system_t), intent(in) :: system     !! the system, its motion that of the end of the step
+      type(mechanism_t), intent(in) :: system     !! the system, its motion that of the end of the step
       class(integrator_t), intent(in) :: method       !! the integrator
       type(run_t), intent(inout) :: run               !! maxima are raised
 
@@ -239,7 +239,7 @@ contains
 
    !> Whether a condition ends the run within the last step.
    subroutine look_for_stop(system, method, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator
       type(run_t), intent(inout) :: run                   !! state of the run
       type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
@@ -258,7 +258,7 @@ contains
 
    !> Handle the events at the end of the last step, and go on from there.
    subroutine handle_events(system, method, plan, recorder, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
@@ -306,7 +306,7 @@ contains
 
    !> Pass an instant at which functions of time are not smooth.
    subroutine pass_instant(system, method, plan, recorder, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator, at the instant
       type(time_plan_t), intent(in) :: plan               !! times
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
@@ -349,7 +349,7 @@ contains
 
    !> Decide whether contacts that have just begun slip or stick.
    subroutine decide_slips(system, t, y, recorder, run, error)
-      type(planar_system_t), intent(inout) :: system      !! the system, its motion that of the state
+      type(mechanism_t), intent(inout) :: system      !! the system, its motion that of the state
       real(wp), intent(in) :: t                           !! time [s]
       real(wp), intent(in) :: y(:)                        !! (n) state [any]
       class(recorder_t), intent(inout) :: recorder        !! keeps the results

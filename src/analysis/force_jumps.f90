@@ -3,7 +3,7 @@ module force_jumps
    use clearance_set, only: clearance_set_t
    use integrator, only: integrator_t
    use kinds, only: eps, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: law_jumps, time_to_see
@@ -28,7 +28,7 @@ contains
 
    !> Time after an onset at which the penetration is beyond round-off.
    pure real(wp) function time_to_see(system, method, delta, rate) result(time)
-      type(planar_system_t), intent(in) :: system      !! the system
+      type(mechanism_t), intent(in) :: system      !! the system
       class(integrator_t), intent(in) :: method        !! the integrator, at the onset
       real(wp), intent(in) :: delta                    !! penetration there [m]
       real(wp), intent(in) :: rate                     !! its rate [m/s]

@@ -14,7 +14,7 @@ module guards
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use normal_law, only: parameter_deepest
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    use scene_size, only: extent_of_scene
    use surfaces, only: shape_plane
@@ -72,7 +72,7 @@ contains
    !> Guards as the deck sets them.
    subroutine new_guards(scene, system, guards)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(planar_system_t), intent(in) :: system     !! the system that will run
+      type(mechanism_t), intent(in) :: system     !! the system that will run
       type(guards_t), intent(out) :: guards           !! the guards
 
       character(:), allocatable :: word
@@ -136,7 +136,7 @@ contains
    !> Before the first step.
    subroutine guards_begin(self, system)
       class(guards_t), intent(inout) :: self         !! the guards
-      type(planar_system_t), intent(in) :: system    !! the system, its motion that of the start
+      type(mechanism_t), intent(in) :: system    !! the system, its motion that of the start
 
       if (.not. self%is_set) return
       allocate (self%breach(n_contact_guard, system%n_contact), self%travel(system%linkage%bodies%n))
@@ -146,7 +146,7 @@ contains
    !> After a step: contacts and bodies.
    subroutine guards_look(self, system, t)
       class(guards_t), intent(inout) :: self         !! the guards
-      type(planar_system_t), intent(in) :: system    !! the system, its motion that at the end of the step
+      type(mechanism_t), intent(in) :: system    !! the system, its motion that at the end of the step
       real(wp), intent(in) :: t                      !! time there [s]
 
       real(wp) :: values(n_contact_guard), way
@@ -290,7 +290,7 @@ contains
    !> body that went farthest.
    subroutine guards_warn(self, system, warnings)
       class(guards_t), intent(in) :: self                        !! the guards
-      type(planar_system_t), intent(in) :: system                !! the system
+      type(mechanism_t), intent(in) :: system                !! the system
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
       character(:), allocatable :: words

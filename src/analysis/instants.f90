@@ -14,7 +14,7 @@ module instants
    use kind_info, only: cell_expression, dim_angle, same_dimension
    use kinds, only: eps, pi, wp
    use pace_scan, only: new_pace_scan, pace_scan_t
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use root_scan, only: new_root_scan, place_t, root_scan_t
    use scene, only: scene_t, table_t
    use smooth_piece, only: smooth_piece_t
@@ -229,7 +229,7 @@ contains
    !> Where a step that begins now must end at the latest.
    subroutine instants_stop_after(self, system, method, stop)
       class(instants_t), intent(inout) :: self       !! the instants
-      type(planar_system_t), intent(inout) :: system !! the system; its motion becomes that of the beginning of the step
+      type(mechanism_t), intent(inout) :: system !! the system; its motion becomes that of the beginning of the step
       class(integrator_t), intent(in) :: method      !! the integrator, at the beginning of the step
       real(wp), intent(out) :: stop                  !! its latest end [s]
 

@@ -16,9 +16,9 @@ module kinematic
    use kinds, only: i8, not_a_number, wp
    use linkage, only: linkage_t
    use mobility, only: find_mobility, mobility_t, stiffest_driver
-   use planar_energy, only: energy_of, energy_t
-   use planar_report, only: build_catalogue, fill_catalogue
-   use planar_system, only: planar_system_t
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism_report, only: build_catalogue, fill_catalogue
+   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use text, only: append_text, real_text
@@ -44,7 +44,7 @@ contains
 
    !> Run from assembled positions at t = 0 to the end.
    subroutine run_kinematic(system, q, plan, newton, limit_cpu, recorder, summary, error)
-      type(planar_system_t), intent(inout) :: system      !! the system, all joints ideal
+      type(mechanism_t), intent(inout) :: system      !! the system, all joints ideal
       real(wp), intent(in) :: q(:)                        !! (n_q bodies) positions at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls
@@ -91,7 +91,7 @@ contains
 
    !> From output instant to output instant.
    subroutine follow(system, q, plan, newton, budget, recorder, catalogue, summary, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       real(wp), intent(in) :: q(:)                        !! (n_q bodies) positions at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
       type(newton_t), intent(inout) :: newton             !! controls and cost
@@ -129,7 +129,7 @@ contains
 
    !> Move to a later time in as many steps as it takes to stay on the branch.
    subroutine move_to(system, t, shortest, newton, state, summary, error)
-      type(planar_system_t), intent(inout) :: system      !! the system, evaluated at the state
+      type(mechanism_t), intent(inout) :: system      !! the system, evaluated at the state
       real(wp), intent(in) :: t                           !! the time [s]
       real(wp), intent(in) :: shortest                    !! step that is given up [s]
       type(newton_t), intent(inout) :: newton             !! controls and cost
@@ -180,7 +180,7 @@ contains
 
    !> Solve a predicted instant; a correction that turns a body by much is not trusted.
    subroutine try(system, newton, next, outcome)
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       type(newton_t), intent(inout) :: newton         !! controls and cost
       type(state_t), intent(inout) :: next            !! predicted, then solved
       integer, intent(out) :: outcome                 !! as of `prescribed_motion`
@@ -198,7 +198,7 @@ contains
 
    !> Positions, velocities and accelerations at the time of a state, from its positions.
    subroutine solve_instant(system, newton, state, outcome)
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       type(newton_t), intent(inout) :: newton         !! controls and cost
       type(state_t), intent(inout) :: state           !! guess, then solved
       integer, intent(out) :: outcome                 !! as of `prescribed_motion`
@@ -209,7 +209,7 @@ contains
 
    !> Forces at a solved instant, and all values of the catalogue.
    subroutine report(system, state, catalogue, summary)
-      type(planar_system_t), intent(inout) :: system    !! the system, rows evaluated at the state
+      type(mechanism_t), intent(inout) :: system    !! the system, rows evaluated at the state
       type(state_t), intent(in) :: state                !! the motion
       type(catalogue_t), intent(inout) :: catalogue     !! values
       type(summary_t), intent(inout) :: summary         !! maxima are raised
@@ -230,7 +230,7 @@ contains
 
    !> Say when, where and why the motion cannot go on, and what to try.
    subroutine describe_failure(system, state, t, outcome, newton, error)
-      type(planar_system_t), intent(inout) :: system      !! the system, rows evaluated at the instant that failed
+      type(mechanism_t), intent(inout) :: system      !! the system, rows evaluated at the instant that failed
       type(state_t), intent(in) :: state                  !! the last motion found
       real(wp), intent(in) :: t                           !! the instant that failed [s]
       integer, intent(in) :: outcome                      !! how it failed

@@ -4,7 +4,7 @@ module kinematic_start
    use errors, only: error_t, exit_assembly, set_error
    use kinds, only: wp
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    use text, only: to_text
    implicit none (type, external)
@@ -19,7 +19,7 @@ contains
    !> of them is in excess, not which joint stays open.
    subroutine find_kinematic_start(scene, system, q, report, mobility, error)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(planar_system_t), intent(inout) :: system        !! the system, all joints ideal
+      type(mechanism_t), intent(inout) :: system        !! the system, all joints ideal
       real(wp), allocatable, intent(out) :: q(:)            !! (n_q bodies) positions at t = 0 [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(mobility_t), intent(out) :: mobility             !! freedoms and drivers at the start
@@ -45,7 +45,7 @@ contains
 
    !> Drivers that prescribe what the joints and the other drivers do already.
    subroutine refuse_excess(system, mobility, error)
-      type(planar_system_t), intent(in) :: system          !! the system
+      type(mechanism_t), intent(in) :: system          !! the system
       type(mobility_t), intent(in) :: mobility             !! freedoms and drivers
       type(error_t), allocatable, intent(out) :: error     !! the message
 
@@ -63,7 +63,7 @@ contains
 
    !> Freedoms that no driver prescribes.
    subroutine refuse_missing(system, mobility, report, error)
-      type(planar_system_t), intent(in) :: system          !! the system
+      type(mechanism_t), intent(in) :: system          !! the system
       type(mobility_t), intent(in) :: mobility             !! freedoms and drivers
       type(assembly_t), intent(in) :: report               !! dependent rows
       type(error_t), allocatable, intent(out) :: error     !! the message

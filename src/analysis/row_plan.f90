@@ -1,7 +1,7 @@
 !> Whether a motion is reported at the instants of its contacts, besides the output instants.
 module row_plan
    use columns, only: column_of
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: analysis_dynamic, scene_t
    use section_info, only: most_row_contacts
    use text, only: to_text
@@ -14,7 +14,7 @@ contains
    !> Whether there are rows at contacts.
    logical function has_contact_rows(scene, system) result(has_rows)
       type(scene_t), intent(in) :: scene           !! the scene
-      type(planar_system_t), intent(in) :: system  !! its system
+      type(mechanism_t), intent(in) :: system  !! its system
 
       has_rows = .false.
       if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
@@ -29,7 +29,7 @@ contains
    !> The same in words, blank where there are no contacts.
    function contact_rows_text(scene, system) result(words)
       type(scene_t), intent(in) :: scene           !! the scene
-      type(planar_system_t), intent(in) :: system  !! its system
+      type(mechanism_t), intent(in) :: system  !! its system
       character(:), allocatable :: words           !! as `rows at the onset, peak and end of every contact (contact_rows = auto)`
 
       words = ""

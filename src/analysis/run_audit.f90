@@ -3,7 +3,7 @@ module run_audit
    use errors, only: error_t, exit_audit, set_error
    use guards, only: guards_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use recorder, only: summary_t
    use stop_condition, only: stop_t
    use text, only: append_text, real_text
@@ -27,7 +27,7 @@ contains
 
    !> What a careful reader of the results should know.
    subroutine warn_of_errors(system, worst, worst_row, lost, summary)
-      type(planar_system_t), intent(in) :: system  !! the system
+      type(mechanism_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: worst                !! greatest violation, over the size of the bodies or one radian [1]
       integer, intent(in) :: worst_row             !! the row it belongs to
       real(wp), intent(in) :: lost                 !! least that contacts had lost: negative, they made energy [J]

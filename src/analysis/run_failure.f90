@@ -5,7 +5,7 @@ module run_failure
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_too_many_evaluations, &
       advance_too_many_steps, integrator_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use text, only: real_text, to_text
    implicit none (type, external)
    private
@@ -21,7 +21,7 @@ contains
 
    !> Say when, where and why the integration cannot go on, and what to try.
    subroutine describe_failure(system, method, status, error, reason)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator
       integer, intent(in) :: status                       !! how it failed
       type(error_t), allocatable, intent(out) :: error    !! the message
@@ -74,7 +74,7 @@ contains
 
    !> What is not a finite number after an evaluation that failed: a driver, or a load.
    function not_finite(system) result(words)
-      type(planar_system_t), intent(in) :: system   !! the system, evaluated
+      type(mechanism_t), intent(in) :: system   !! the system, evaluated
       character(:), allocatable :: words            !! to follow "cannot be solved", blank if all is finite
 
       integer :: k, pass
@@ -99,7 +99,7 @@ contains
 
    !> The touching contact with the greatest penetration.
    function deepest_contact(system, method) result(words)
-      type(planar_system_t), intent(inout) :: system   !! the system
+      type(mechanism_t), intent(inout) :: system   !! the system
       class(integrator_t), intent(in) :: method        !! the integrator
       character(:), allocatable :: words               !! a line of the message, blank if nothing touches
 
@@ -124,7 +124,7 @@ contains
 
    !> The joint of the last event.
    function last_event(system, method) result(name)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       class(integrator_t), intent(in) :: method     !! the integrator, at an event
       character(:), allocatable :: name             !! name of the joint
 

@@ -9,8 +9,8 @@ module sampling
    use errors, only: error_t
    use integrator, only: advance_failed_evaluation, integrator_t
    use kinds, only: i8, wp
-   use planar_report, only: build_catalogue, report_state
-   use planar_system, only: planar_system_t
+   use mechanism_report, only: build_catalogue, report_state
+   use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
    use time_plan, only: instant, last_instant, time_plan_t
@@ -46,7 +46,7 @@ contains
 
    !> Room for the reports of a system.
    subroutine new_sampler(system, plan, sampler)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       type(time_plan_t), intent(in) :: plan         !! times
       type(sampler_t), intent(out) :: sampler       !! nothing reported yet
 
@@ -59,7 +59,7 @@ contains
    !> not smooth only when the motion has passed it, with the values behind it.
    subroutine take_samples(self, system, method, plan, watch, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator
       type(time_plan_t), intent(in) :: plan               !! times
       type(contact_watch_t), intent(inout) :: watch       !! contacts, after the step
@@ -107,7 +107,7 @@ contains
    !> The row at which a condition ends the run, unless there is a row at that instant.
    subroutine take_stop(self, system, method, plan, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator, after the step in which the run ends
       type(time_plan_t), intent(in) :: plan               !! times
       real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
@@ -126,7 +126,7 @@ contains
    !> never reached.
    pure real(wp) function next_instant(self, system, plan) result(t)
       class(sampler_t), intent(in) :: self         !! what is reported
-      type(planar_system_t), intent(in) :: system  !! the system
+      type(mechanism_t), intent(in) :: system  !! the system
       type(time_plan_t), intent(in) :: plan        !! times
 
       t = huge(1.0_wp)
@@ -137,7 +137,7 @@ contains
    !> The row before the events at the end of the last step, where a contact ends or a force may jump.
    subroutine before_events(self, system, method, plan, watch, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator, at the events
       type(time_plan_t), intent(in) :: plan               !! times
       type(contact_watch_t), intent(inout) :: watch       !! contacts
@@ -159,7 +159,7 @@ contains
    !> The row before an instant at which functions of time are not smooth, if one is owed: the force may jump there.
    subroutine before_instant(self, system, method, plan, watch, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system, its functions of time those before the instant
+      type(mechanism_t), intent(inout) :: system      !! the system, its functions of time those before the instant
       class(integrator_t), intent(in) :: method           !! the integrator, at the instant
       type(time_plan_t), intent(in) :: plan               !! times
       type(contact_watch_t), intent(inout) :: watch       !! contacts
@@ -175,7 +175,7 @@ contains
    !> The row after the events, where a contact began or a force may have jumped.
    subroutine after_events(self, system, method, plan, watch, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator, begun again
       type(time_plan_t), intent(in) :: plan               !! times
       type(contact_watch_t), intent(inout) :: watch       !! contacts
@@ -192,7 +192,7 @@ contains
    !> The end of the run: the row of a contact whose greatest force is that of the last instant.
    subroutine finish_samples(self, system, method, plan, watch, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator, at the end
       type(time_plan_t), intent(in) :: plan               !! times
       type(contact_watch_t), intent(inout) :: watch       !! contacts
@@ -209,7 +209,7 @@ contains
    !> A row at the end of the last step, if it is wanted; what it costs is set aside.
    subroutine put_row_here(self, system, method, plan, kind, residual, recorder, error, shift)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator
       type(time_plan_t), intent(in) :: plan               !! times
       integer, intent(in) :: kind                         !! of the row
@@ -234,7 +234,7 @@ contains
    !> A row beside those of output instants, if it is wanted and within what is written.
    subroutine put_row(self, system, method, plan, t, y, kind, residual, recorder, error, shift)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator
       type(time_plan_t), intent(in) :: plan               !! times
       real(wp), intent(in) :: t                           !! time of the row [s]
@@ -261,7 +261,7 @@ contains
    !> All stroboscopic instants up to the end of the last step.
    subroutine take_strobes(self, system, method, plan, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(inout) :: method        !! the integrator
       type(time_plan_t), intent(in) :: plan               !! times
       real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
@@ -290,7 +290,7 @@ contains
    !> Fill the catalogue with the values at a state.
    subroutine report(self, system, method, t, y, residual, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       class(integrator_t), intent(in) :: method           !! the integrator
       real(wp), intent(in) :: t                           !! time [s]
       real(wp), intent(in), contiguous :: y(:)            !! (n) state [any]

@@ -6,7 +6,7 @@ module slip_watch
    use friction_law, only: memory_slip
    use integrator, only: integrator_t
    use kinds, only: not_a_number, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use recorder, only: event_t
    implicit none (type, external)
    private
@@ -20,7 +20,7 @@ contains
    !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; there is
    !> nothing to tell of one that goes on as before.
    subroutine handle_slip(system, t, y, slot, k, has_row, row)
-      type(planar_system_t), intent(inout) :: system   !! the system; the contact's state is changed
+      type(mechanism_t), intent(inout) :: system   !! the system; the contact's state is changed
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       integer, intent(in) :: slot                      !! set of the contact
@@ -38,7 +38,7 @@ contains
 
    !> Decide about the first contact that has begun and is not decided. The row tells of it if it sticks.
    subroutine decide_next(system, t, y, is_found, has_row, row)
-      type(planar_system_t), intent(inout) :: system   !! the system, its motion that of the state
+      type(mechanism_t), intent(inout) :: system   !! the system, its motion that of the state
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       logical, intent(out) :: is_found                 !! there was one
@@ -66,7 +66,7 @@ contains
 
    !> The row of a change.
    subroutine tell(system, t, slot, k, before, row)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       real(wp), intent(in) :: t                     !! time [s]
       integer, intent(in) :: slot                   !! set of the contact
       integer, intent(in) :: k                      !! contact of the set
@@ -93,7 +93,7 @@ contains
    !> happened at the end of the last step: `g` holds the event functions before the jump, the integrator was begun anew behind it.
    !> So do those that slip with no speed to speak of: drivers may have come to rest, but for round-off, or may be about to turn.
    subroutine note_jumps(system, method)
-      type(planar_system_t), intent(in) :: system       !! the system
+      type(mechanism_t), intent(in) :: system       !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator
 
       integer :: contact, k, slot

@@ -9,7 +9,7 @@ module start_state
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
    use perturbation, only: shift_t
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    use static, only: equilibrium_t, find_equilibrium
    use text, only: to_text
@@ -29,13 +29,13 @@ contains
    !> on one another: it is told.
    subroutine find_start(scene, system, y, report, error, shift)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(planar_system_t), intent(inout) :: system        !! the system that will run
+      type(mechanism_t), intent(inout) :: system        !! the system that will run
       real(wp), allocatable, intent(out) :: y(:)            !! (n) state [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or overlap
       type(shift_t), intent(in), optional :: shift          !! a perturbation, after which the mechanism is assembled anew
 
-      type(planar_system_t) :: twin
+      type(mechanism_t) :: twin
       real(wp), allocatable :: q(:), v(:)
       integer :: levels
 
@@ -72,7 +72,7 @@ contains
    !> The static equilibrium at t = 0, its contacts begun.
    subroutine start_at_rest(scene, system, q, v, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(planar_system_t), intent(inout) :: system        !! the system that will run
+      type(mechanism_t), intent(inout) :: system        !! the system that will run
       real(wp), intent(inout) :: q(:)                       !! (3 bodies) positions of the deck, then at rest [m, m, rad]
       real(wp), intent(out) :: v(:)                         !! (3 bodies) velocities, zero [m/s, m/s, rad/s]
       type(assembly_t), intent(out) :: report               !! how the assembly went
@@ -96,7 +96,7 @@ contains
 
    !> How many rows depend on others, and whose reactions are not unique; blank if none.
    function redundancy_text(system, report) result(words)
-      class(planar_system_t), intent(in) :: system   !! the system that was assembled
+      class(mechanism_t), intent(in) :: system   !! the system that was assembled
       type(assembly_t), intent(in) :: report         !! dependent rows
       character(:), allocatable :: words             !! one line
 
@@ -118,7 +118,7 @@ contains
    !> No loose joint may begin with its surfaces overlapping, unless the deck says that it is preloaded: then its contact
    !> has begun, with the rate of the penetration as impact speed; a law's floor takes the place of one that is less.
    subroutine look_at_overlap(system, y, is_preload, error)
-      type(planar_system_t), intent(inout) :: system       !! the system
+      type(mechanism_t), intent(inout) :: system       !! the system
       real(wp), intent(in) :: y(:)                         !! (n) state [any]
       logical, intent(in) :: is_preload                    !! overlap is wanted
       type(error_t), allocatable, intent(out) :: error     !! names the joint and the depth

@@ -16,9 +16,9 @@ module static
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
    use mobility, only: moving_bodies
-   use planar_energy, only: energy_of, energy_t
-   use planar_report, only: build_catalogue, fill_catalogue
-   use planar_system, only: planar_system_t
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism_report, only: build_catalogue, fill_catalogue
+   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_positions
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use scene, only: scene_t
@@ -56,7 +56,7 @@ contains
    !> Search an equilibrium of a system of the scene.
    subroutine find_equilibrium(scene, system, q, report, equilibrium, error)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(planar_system_t), intent(inout) :: system        !! the system; left at the equilibrium
+      type(mechanism_t), intent(inout) :: system        !! the system; left at the equilibrium
       real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions of the deck [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(equilibrium_t), intent(out) :: equilibrium       !! what was found
@@ -95,12 +95,12 @@ contains
    !> Positions to begin with.
    subroutine assemble_at_rest(scene, system, q, report, error)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(planar_system_t), intent(inout) :: system        !! the system that is searched
+      type(mechanism_t), intent(inout) :: system        !! the system that is searched
       real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions, assembled [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled
 
-      type(planar_system_t) :: twin
+      type(mechanism_t) :: twin
       real(wp) :: v(size(q))
 
       v = 0.0_wp
@@ -120,7 +120,7 @@ contains
 
    !> Let KINSOL polish; keep what it found if that is an equilibrium nearby.
    subroutine try_to_polish(system, q, balance, equilibrium)
-      type(planar_system_t), intent(inout) :: system         !! the system, balance evaluated
+      type(mechanism_t), intent(inout) :: system         !! the system, balance evaluated
       real(wp), intent(inout) :: q(:)                        !! (n_q bodies) positions, polished [any]
       type(balance_t), intent(inout) :: balance              !! at the positions
       type(equilibrium_t), intent(inout) :: equilibrium      !! whether it was polished
@@ -148,7 +148,7 @@ contains
 
    !> Stable, unstable or indifferent.
    subroutine classify(system, balance, equilibrium)
-      type(planar_system_t), intent(in) :: system            !! the system at the equilibrium
+      type(mechanism_t), intent(in) :: system            !! the system at the equilibrium
       type(balance_t), intent(in) :: balance                 !! with stiffness and modes
       type(equilibrium_t), intent(inout) :: equilibrium      !! words and warning are set
 
@@ -195,7 +195,7 @@ contains
 
    !> How much each body takes part in some motions.
    pure function bodies_in(system, modes) result(part)
-      class(planar_system_t), intent(in) :: system       !! the system
+      class(mechanism_t), intent(in) :: system           !! the system
       real(wp), intent(in) :: modes(:, :)                !! (n_v bodies, motions) unit motions [1]
       real(wp) :: part(system%linkage%bodies%n)          !! (bodies) greatest part of each, 0 to 1 [1]
 
@@ -210,7 +210,7 @@ contains
 
    !> The search did not settle: say what still moves, and what to try.
    subroutine refuse(system, balance, equilibrium, error)
-      type(planar_system_t), intent(in) :: system          !! the system where the search ended
+      type(mechanism_t), intent(in) :: system          !! the system where the search ended
       type(balance_t), intent(in) :: balance               !! there
       type(equilibrium_t), intent(in) :: equilibrium       !! how far it came
       type(error_t), allocatable, intent(out) :: error     !! the message
@@ -230,7 +230,7 @@ contains
 
    !> One sample of all channels, at rest at t = 0.
    subroutine record_equilibrium(system, equilibrium, recorder, summary, error)
-      type(planar_system_t), intent(inout) :: system      !! the system that was searched
+      type(mechanism_t), intent(inout) :: system      !! the system that was searched
       type(equilibrium_t), intent(in) :: equilibrium      !! what was found
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(summary_t), intent(out) :: summary             !! cost and errors

@@ -14,7 +14,7 @@ module static_kinsol
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunmatrix_dense_mod, only: fsundensematrix
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use static_problem, only: look_at, position_scale, unbalanced_load
    use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, n_vector, new_context, &
       new_kinsol, sunindextype, sunlinearsolver, sunmatrix
@@ -26,7 +26,7 @@ module static_kinsol
 
    !> What the library hands back to the equations.
    type :: problem_t
-      class(planar_system_t), pointer :: system => null()  !! the system
+      class(mechanism_t), pointer :: system => null()  !! the system
       logical, allocatable :: is_independent(:)            !! (rows) rows that are solved for
       real(wp) :: load = 1.0_wp                            !! largest load [N.m]
    end type problem_t
@@ -65,7 +65,7 @@ contains
 
    !> Polish an equilibrium.
    subroutine polish(system, dependent, load, tolerance, most, q, is_solved)
-      class(planar_system_t), intent(inout), target :: system  !! the system, balance evaluated at the start
+      class(mechanism_t), intent(inout), target :: system  !! the system, balance evaluated at the start
       integer, intent(in) :: dependent(:)                      !! rows that depend on others
       real(wp), intent(in) :: load                             !! largest load [N.m]
       real(wp), intent(in) :: tolerance                        !! greatest value of an equation allowed [1]

@@ -16,7 +16,7 @@ module static_problem
    use kinds, only: i8, wp
    use lapack, only: dsyev, dsygv
    use mobility, only: split_space
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, square_frequencies
@@ -37,7 +37,7 @@ contains
 
    !> Scales of the coordinates: the size of the bodies for lengths, one for angles.
    pure function position_scale(system) result(scale)
-      class(planar_system_t), intent(in) :: system   !! the system
+      class(mechanism_t), intent(in) :: system   !! the system
       real(wp) :: scale(size(system%linkage%mass))   !! (n_v bodies) scales [m or rad]
 
       scale = system%linkage%coordinates%scales(system%linkage%scales%length, system%linkage%bodies%n)
@@ -45,7 +45,7 @@ contains
 
    !> Rows and loads at rest at a position, contacts touching where they penetrate.
    subroutine look_at(system, q)
-      class(planar_system_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
+      class(mechanism_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
 
       real(wp) :: delta(system%n_contact), rate(system%n_contact), rest(size(system%linkage%mass))
@@ -67,7 +67,7 @@ contains
 
    !> Loads less reactions for given multipliers, after `look_at`.
    function unbalanced_load(system) result(load)
-      class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
+      class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
       real(wp) :: load(size(system%linkage%mass))              !! (n_v bodies) what is out of balance, scaled [N.m]
 
       integer :: body, row, side
@@ -89,7 +89,7 @@ contains
 
    !> The largest of weights, present loads and present reactions: what `unbalanced` is measured by.
    real(wp) function load_scale(system)
-      class(planar_system_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
+      class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 
       real(wp) :: rest(size(system%linkage%mass)), weights(size(system%linkage%mass)), loads(size(system%linkage%mass))
 
@@ -101,7 +101,7 @@ contains
 
    !> The balance at a position, with the multipliers that fit it best. No stiffness yet.
    subroutine evaluate_balance(system, q, balance)
-      class(planar_system_t), intent(inout) :: system  !! the system; all is set, lambda too
+      class(mechanism_t), intent(inout) :: system  !! the system; all is set, lambda too
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
       type(balance_t), intent(inout) :: balance        !! the load out of balance is set
 
@@ -116,7 +116,7 @@ contains
 
    !> Free motions and the tangent stiffness against them, by central differences of r with lambda held.
    subroutine free_stiffness(system, q, balance)
-      class(planar_system_t), intent(inout) :: system  !! the system, balance evaluated at the positions
+      class(mechanism_t), intent(inout) :: system  !! the system, balance evaluated at the positions
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
       type(balance_t), intent(inout) :: balance        !! free motions, stiffness and modes are set
 
@@ -156,7 +156,7 @@ contains
    !>
    !> K w = omega^2 N^T M N w, K diagonal in the modes.
    function square_frequencies(system, balance) result(square)
-      class(planar_system_t), intent(in) :: system      !! the system, for the masses
+      class(mechanism_t), intent(in) :: system      !! the system, for the masses
       type(balance_t), intent(in) :: balance            !! with stiffness and modes
       real(wp) :: square(size(balance%stiffness))       !! (freedoms) squares [1/s^2]
 

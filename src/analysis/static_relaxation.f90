@@ -13,7 +13,7 @@
 module static_relaxation
    use coordinates, only: coordinates_t
    use kinds, only: eps, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, solve_positions
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale
    implicit none (type, external)
@@ -29,7 +29,7 @@ contains
 
    !> Go downhill until the unbalanced load is below a part of the loads.
    subroutine relax(system, part, most, q, balance, steps, is_settled)
-      class(planar_system_t), intent(inout) :: system  !! the system, positions assembled
+      class(mechanism_t), intent(inout) :: system  !! the system, positions assembled
       real(wp), intent(in) :: part                     !! unbalanced load allowed, of the largest [1]
       integer, intent(in) :: most                      !! steps allowed
       real(wp), intent(inout) :: q(:)                  !! (n_q bodies) positions, moved [any]
@@ -60,7 +60,7 @@ contains
 
    !> Extent of the mechanism in sizes of its bodies.
    pure real(wp) function extent_of(system) result(extent)
-      class(planar_system_t), intent(in) :: system  !! the system, its motion set
+      class(mechanism_t), intent(in) :: system  !! the system, its motion set
 
       associate (r => system%linkage%motion%r(:, 1:))
          extent = sizes + maxval(maxval(r, dim=2) - minval(r, dim=2))/system%linkage%scales%length
@@ -102,7 +102,7 @@ contains
 
    !> Move along a step, shortened where the loads turn against it.
    subroutine go_along(system, direction, q, balance)
-      class(planar_system_t), intent(inout) :: system  !! the system
+      class(mechanism_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: direction(:)             !! (n_v bodies) scaled step [1]
       real(wp), intent(inout) :: q(:)                  !! (n_q bodies) positions, moved [any]
       type(balance_t), intent(inout) :: balance        !! at the positions

@@ -7,8 +7,8 @@ module stop_condition
    use catalogue, only: catalogue_t
    use integrator, only: integrator_t
    use kinds, only: wp
-   use planar_report, only: report_state
-   use planar_system, only: planar_system_t
+   use mechanism_report, only: report_state
+   use mechanism, only: mechanism_t
    use text, only: real_text
    implicit none (type, external)
    private
@@ -59,7 +59,7 @@ contains
    !> After a step; before the first one, a condition that is met already ends the run there.
    subroutine stop_look(self, system, method, residual, catalogue, status)
       class(stop_t), intent(inout) :: self              !! the conditions
-      type(planar_system_t), intent(inout) :: system    !! the system
+      type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step or at the start
       real(wp), intent(in) :: residual                  !! of the ledger [J]
       type(catalogue_t), intent(inout) :: catalogue     !! what is reported

@@ -5,7 +5,7 @@ module time_plan
    use instants, only: instants_t, new_instants
    use item, only: value_t
    use kinds, only: i8, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: analysis_kinematic, analysis_static, scene_t
    use text, only: join, nearest_word, text_list_t, to_text
    implicit none (type, external)
@@ -34,7 +34,7 @@ contains
    !> Times from the settings of a scene; all zero for an equilibrium.
    subroutine new_time_plan(scene, system, plan, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
-      type(planar_system_t), intent(in) :: system         !! its system, for the drivers
+      type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(out) :: plan              !! times
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
@@ -91,7 +91,7 @@ contains
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.
    subroutine plan_statistics(scene, system, plan, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
-      type(planar_system_t), intent(in) :: system         !! its system, for the drivers
+      type(mechanism_t), intent(in) :: system         !! its system, for the drivers
       type(time_plan_t), intent(inout) :: plan            !! times
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
@@ -154,7 +154,7 @@ contains
    function period_start(period, k, system, slot, item) result(t)
       type(value_t), intent(in) :: period           !! the setting
       integer, intent(in) :: k                      !! number of the period, from 0
-      type(planar_system_t), intent(in) :: system   !! drivers
+      type(mechanism_t), intent(in) :: system   !! drivers
       integer, intent(in) :: slot                   !! the driver's set, 0: a period is a time
       integer, intent(in) :: item                   !! its number there
       real(wp) :: t                                 !! the time [s]
@@ -184,7 +184,7 @@ contains
       type(value_t), intent(in) :: value                  !! the setting
       character(*), intent(in) :: key                     !! its key
       real(wp), intent(in) :: t_end                       !! end of the turns, negative: turns since the start [s]
-      type(planar_system_t), intent(in) :: system         !! drivers
+      type(mechanism_t), intent(in) :: system         !! drivers
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
       real(wp) :: t                                       !! the time [s]
 
@@ -217,7 +217,7 @@ contains
    subroutine find_driver(value, key, system, slot, item, diagnostics)
       type(value_t), intent(in) :: value                  !! the setting
       character(*), intent(in) :: key                     !! its key
-      type(planar_system_t), intent(in) :: system         !! drivers
+      type(mechanism_t), intent(in) :: system         !! drivers
       integer, intent(out) :: slot                        !! the driver's set, 0: a time, or a mistake
       integer, intent(out) :: item                        !! its number there
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found

@@ -12,7 +12,7 @@
 module turn_watch
    use contact_memory, only: approaches, parts, rests
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: handle_turn
@@ -21,7 +21,7 @@ contains
 
    !> A located turn of the penetration, or the end of rest.
    subroutine handle_turn(system, t, y, slot, k)
-      type(planar_system_t), intent(inout) :: system   !! the system; the course of the contact is changed
+      type(mechanism_t), intent(inout) :: system   !! the system; the course of the contact is changed
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       integer, intent(in) :: slot                      !! set of the contact
@@ -48,7 +48,7 @@ contains
 
    !> Greatest rate of a contact that rests.
    pure real(wp) function speed_of_rest(system, slot, k, delta) result(speed)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       integer, intent(in) :: slot                   !! set of the contact
       integer, intent(in) :: k                      !! contact of the set
       real(wp), intent(in) :: delta                 !! penetration [m]

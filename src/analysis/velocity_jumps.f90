@@ -14,8 +14,8 @@ module velocity_jumps
    use floors, only: at_rest
    use integrator, only: integrator_t
    use kinds, only: wp
-   use planar_energy, only: mechanical_energy
-   use planar_system, only: planar_system_t, work_drive
+   use mechanism_energy, only: mechanical_energy
+   use mechanism, only: mechanism_t, work_drive
    use text, only: append_text, real_text, text_t, to_text
    implicit none (type, external)
    private
@@ -42,7 +42,7 @@ contains
    !> Note the rates that the drivers have before an instant.
    subroutine before_instant(self, system, method)
       class(velocity_jumps_t), intent(inout) :: self   !! what is remembered
-      type(planar_system_t), intent(inout) :: system   !! the system, still before the instant
+      type(mechanism_t), intent(inout) :: system   !! the system, still before the instant
       class(integrator_t), intent(in) :: method        !! the integrator, at the instant
 
       associate (linkage => system%linkage)
@@ -56,7 +56,7 @@ contains
    !> Behind the instant: let the velocities jump with the rates of the drivers.
    subroutine after_instant(self, system, method, status)
       class(velocity_jumps_t), intent(inout) :: self   !! what is remembered
-      type(planar_system_t), intent(inout) :: system   !! the system, behind the instant
+      type(mechanism_t), intent(inout) :: system   !! the system, behind the instant
       class(integrator_t), intent(inout) :: method     !! the integrator, at the instant; its state jumps
       integer, intent(out) :: status                   !! 0: done
 
@@ -98,7 +98,7 @@ contains
    !> Tell of them at the end of a run.
    subroutine warn(self, system, warnings)
       class(velocity_jumps_t), intent(in) :: self             !! what is remembered
-      type(planar_system_t), intent(in) :: system             !! the system
+      type(mechanism_t), intent(in) :: system             !! the system
       type(text_t), allocatable, intent(inout) :: warnings(:) !! the line is added
 
       if (self%n == 0) return

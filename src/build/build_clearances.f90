@@ -13,7 +13,7 @@ module build_clearances
    use joint_set, only: joint_slot_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    implicit none (type, external)
    private
@@ -31,7 +31,7 @@ contains
       integer, intent(in) :: levels                   !! how they are taken, one of the above
       real(wp), intent(in) :: angle(0:)               !! (0:bodies) angles at the start [rad]
       logical, intent(in) :: is_driven(:)             !! (bodies) whether drivers alone say how they move
-      type(planar_system_t), intent(inout) :: system  !! clearances and ideal joints are set
+      type(mechanism_t), intent(inout) :: system  !! clearances and ideal joints are set
 
       type(clearance_slot_t), allocatable :: slots(:)
       type(joint_slot_t) :: twins(n_clearance_kinds)
@@ -143,7 +143,7 @@ contains
       type(item_t), intent(in) :: items(:)            !! rows that share their laws
       logical, intent(in) :: is_driven(:)             !! (bodies) whether drivers alone say how they move
       type(clearance_slot_t), intent(inout) :: slot   !! the set is made here
-      type(planar_system_t), intent(inout) :: system  !! joints and contacts are counted
+      type(mechanism_t), intent(inout) :: system  !! joints and contacts are counted
 
       class(friction_law_t), allocatable :: friction
       integer :: face_law, friction_law, i, normal_law

@@ -12,6 +12,7 @@ module build_known
    use joint_translational, only: joint_translational_t
    use kinds, only: wp
    use linkage, only: linkage_t
+   use rows, only: side_place
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
    implicit none (type, external)
@@ -177,7 +178,7 @@ contains
    subroutine list_carried(linkage)
       type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows, sides listed
 
-      integer :: i, k, n, place, row
+      integer :: i, k, n, row
 
       associate (guided => linkage%reduced%guided%item, rows => linkage%rows)
          linkage%reduced%driven = [linkage%reduced%known%item%body, pack(guided%body, guided%base > 0)]
@@ -188,9 +189,8 @@ contains
             if (guided(k)%base == 0) cycle
             do i = 1, 2
                row = guided(k)%row(i)
-               place = 6*(row - 1) + 3*(2 - guided(k)%side)
                n = n + 1
-               linkage%reduced%carried(:, n) = [row, place, guided(k)%base]
+               linkage%reduced%carried(:, n) = [row, side_place(rows%n_v, row, 3 - guided(k)%side), guided(k)%base]
             end do
          end do
       end associate

@@ -120,7 +120,7 @@ contains
 
       n_solve = linkage%rows%n_solve
       n = linkage%rows%n
-      call new_rows(n, linkage%rows)
+      call new_rows(n, linkage%rows, linkage%coordinates%n_v)
       linkage%rows%n_solve = n_solve
       do k = 1, size(linkage%joints)
          call linkage%joints(k)%set%declare_rows(linkage%rows)

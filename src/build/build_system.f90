@@ -17,7 +17,7 @@ module build_system
    use kinds, only: wp
    use loading, only: loading_t
    use motion, only: new_loads
-   use planar_system, only: n_ledger, planar_system_t
+   use mechanism, only: n_ledger, mechanism_t
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
    use start_piece, only: piece_at_start
@@ -31,7 +31,7 @@ contains
    subroutine new_system(scene, levels, system, is_for_start)
       type(scene_t), intent(in) :: scene            !! the scene
       integer, intent(in) :: levels                 !! of joints with clearance, one of the above
-      type(planar_system_t), intent(out) :: system  !! the system
+      type(mechanism_t), intent(out) :: system  !! the system
       logical, intent(in), optional :: is_for_start !! with the rows that hold only at the start; absent: without
 
       type(reduction_t) :: reduction
@@ -86,7 +86,7 @@ contains
    !> Room for friction that remembers: a state for each contact with bristles, a second event function for each contact if
    !> any can stick.
    subroutine count_grips(system)
-      type(planar_system_t), intent(inout) :: system  !! the system, all else counted
+      type(mechanism_t), intent(inout) :: system  !! the system, all else counted
 
       integer :: k, n_bristle, n_slip
 
@@ -134,7 +134,7 @@ contains
    !> stabilisation where a driver jumps, because a jump cannot be projected.
    subroutine choose_hold(scene, system)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(planar_system_t), intent(inout) :: system  !! the way is set
+      type(mechanism_t), intent(inout) :: system  !! the way is set
 
       class(hold_t), allocatable :: way
       character(:), allocatable :: word

@@ -5,7 +5,7 @@ module explain_dropped
    use console, only: say
    use kind_info, only: cell_reference
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: analysis_kinematic, scene_t, table_t
    implicit none (type, external)
    private
@@ -16,7 +16,7 @@ contains
    !> Say what was dropped.
    subroutine say_dropped(scene, system)
       type(scene_t), intent(in) :: scene            !! the scene
-      type(planar_system_t), intent(in) :: system   !! its system
+      type(mechanism_t), intent(in) :: system   !! its system
 
       integer :: k
       logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials)))

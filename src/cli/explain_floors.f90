@@ -3,7 +3,7 @@ module explain_floors
    use console, only: say
    use floors, only: all_floors, floor_t, of_acceleration, of_contact, of_mobility, of_pace, of_run, of_speed, of_step, of_time
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use text, only: real_text
    implicit none (type, external)
    private
@@ -13,7 +13,7 @@ contains
 
    !> For `gudgeon explain`: the pace of a mechanism at its start, and what is small beside it. The system is evaluated.
    subroutine floors_of_scene(system, y, end)
-      type(planar_system_t), intent(inout) :: system  !! the system; its pace is set
+      type(mechanism_t), intent(inout) :: system  !! the system; its pace is set
       real(wp), intent(in) :: y(:)                    !! (n) state at the start [any]
       real(wp), intent(in) :: end                     !! end of the run [s]
 

@@ -6,8 +6,8 @@ module explain_guards
    use guards, only: guard_clearance, guard_penetration, guard_strength, guards_t
    use kinds, only: wp
    use load, only: loaded_t
-   use planar_report, only: build_catalogue
-   use planar_system, only: planar_system_t
+   use mechanism_report, only: build_catalogue
+   use mechanism, only: mechanism_t
    use run_audit, only: limits_t
    use run_limits, only: limits_of
    use scene, only: analysis_dynamic, scene_t
@@ -54,7 +54,7 @@ contains
    !> The guards of the contacts, joint by joint.
    subroutine say_contacts(scene, system, guards)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(planar_system_t), intent(in) :: system     !! the system that will run
+      type(mechanism_t), intent(in) :: system     !! the system that will run
       type(guards_t), intent(in) :: guards            !! the guards
 
       integer :: i, k, m

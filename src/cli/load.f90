@@ -14,8 +14,8 @@ module load
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
    use options, only: options_t
-   use planar_report, only: build_catalogue
-   use planar_system, only: planar_system_t
+   use mechanism_report, only: build_catalogue
+   use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
@@ -33,7 +33,7 @@ module load
       character(:), allocatable :: path           !! of the deck
       type(deck_t) :: deck                        !! its text and parameters
       type(scene_t) :: scene                      !! what it means
-      type(planar_system_t) :: system             !! its equations
+      type(mechanism_t) :: system             !! its equations
       type(time_plan_t) :: plan                   !! its times
       type(sweep_t) :: sweep                      !! its cases
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
@@ -49,7 +49,7 @@ contains
 
       type(catalogue_t) :: catalogue
       type(diagnostics_t) :: mistakes
-      type(planar_system_t) :: loose
+      type(mechanism_t) :: loose
 
       if (size(options%operands) /= 1) then
          call set_error(error, exit_usage, "'gudgeon "//options%verb//"' needs one deck: gudgeon "//options%verb// &

@@ -9,7 +9,7 @@ module run_limits
    use guards, only: new_guards
    use item, only: condition_t
    use kind_info, only: dim_none, dim_t, same_dimension
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use run_audit, only: limits_t
    use scene, only: scene_t
    use stop_condition, only: stop_t
@@ -24,7 +24,7 @@ contains
    !> Limits of a run. Conditions on channels that its joints, taken as ideal, do not have are left out, with a warning.
    subroutine limits_of(scene, system, catalogue, limits, warnings)
       type(scene_t), intent(in) :: scene                        !! the scene
-      type(planar_system_t), intent(in) :: system               !! the system that will run
+      type(mechanism_t), intent(in) :: system               !! the system that will run
       type(catalogue_t), intent(in) :: catalogue                !! what it can report
       type(limits_t), intent(out) :: limits                     !! limits
       type(text_t), allocatable, intent(inout) :: warnings(:)   !! (any) appended to
@@ -55,7 +55,7 @@ contains
    !> Limits of an ideal twin: its processor time and guards only.
    function twin_limits(scene, system) result(limits)
       type(scene_t), intent(in) :: scene              !! the scene
-      type(planar_system_t), intent(in) :: system     !! the twin's system
+      type(mechanism_t), intent(in) :: system     !! the twin's system
       type(limits_t) :: limits                        !! limits
 
       limits%cpu = scene%dynamic%values(column_of(scene%dynamic_kind, "limit_cpu"))%number

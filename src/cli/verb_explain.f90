@@ -19,7 +19,7 @@ module verb_explain
    use load, only: check_swept_words, load_deck, loaded_t
    use mobility, only: find_mobility, mobility_t
    use options, only: options_t
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use row_plan, only: contact_rows_text
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use start_state, only: find_start, redundancy_text
@@ -97,7 +97,7 @@ contains
       type(assembly_t) :: assembly
       type(error_t), allocatable :: start_error
       type(loaded_t) :: loaded
-      type(planar_system_t) :: twin
+      type(mechanism_t) :: twin
       type(text_t), allocatable :: defaults(:)
       real(wp), allocatable :: y(:)
       integer :: k
@@ -162,8 +162,8 @@ contains
    !> Coordinates, rows and degrees of freedom.
    subroutine explain_size(scene, system, twin)
       type(scene_t), intent(in) :: scene            !! the scene
-      type(planar_system_t), intent(in) :: system   !! its system
-      type(planar_system_t), intent(in) :: twin     !! with all joints ideal
+      type(mechanism_t), intent(in) :: system   !! its system
+      type(mechanism_t), intent(in) :: twin     !! with all joints ideal
 
       integer :: k
 
@@ -310,7 +310,7 @@ contains
 
    !> Duration of an impact.
    real(wp) function contact_time(system, set, contact, speed)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       class(clearance_set_t), intent(in) :: set     !! the joint's set
       integer, intent(in) :: contact                !! contact of the set
       real(wp), intent(in) :: speed                 !! impact speed [m/s]
@@ -380,7 +380,7 @@ contains
 
    !> Why `auto` has chosen the solver.
    function reason_of_solver(system) result(words)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       character(:), allocatable :: words            !! the reason
 
       select case (system%linkage%solution%solver%name())
@@ -395,7 +395,7 @@ contains
 
    !> Why `auto` has chosen the stabilisation.
    function reason_of_hold(system) result(words)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       character(:), allocatable :: words            !! the reason
 
       select case (system%way%name())

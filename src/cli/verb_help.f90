@@ -15,7 +15,7 @@ module verb_help
    use libraries, only: library_versions
    use man_page, only: write_man_page
    use options, only: options_t, usage_error
-   use planar_report, only: energy_info
+   use mechanism_report, only: energy_info
    use text, only: append_text, join, nearest_word, starts_with, text_t, to_text
    use version, only: program_version
    implicit none (type, external)

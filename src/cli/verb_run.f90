@@ -23,8 +23,8 @@ module verb_run
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
    use perturbation, only: new_shift
-   use planar_report, only: build_catalogue
-   use planar_system, only: planar_system_t
+   use mechanism_report, only: build_catalogue
+   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t
    use recorder, only: summary_t
    use row_plan, only: contact_rows_text, has_contact_rows
@@ -200,7 +200,7 @@ contains
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(run_recorder_t) :: keeper
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)

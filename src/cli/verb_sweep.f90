@@ -22,7 +22,7 @@ module verb_sweep
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
    use output_tree, only: remove_run
-   use planar_report, only: build_catalogue
+   use mechanism_report, only: build_catalogue
    use plot_table, only: plot_table_t, write_plot
    use posix, only: make_directory, n_processors, own_path, path_exists, remove_file, remove_within
    use processes, only: start_program, wait_any

@@ -4,7 +4,7 @@
 !> sticking:  F_T is what keeps the surfaces from sliding, as long as |F_T| <= c_s F_N
 !>
 !> A contact slides one way, slides the other way or sticks, and changes only at located events: sliding ends where v_T = 0,
-!> sticking where |F_T| = c_s F_N. The force that sticks is found with the accelerations (`planar_friction`); it does no work.
+!> sticking where |F_T| = c_s F_N. The force that sticks is found with the accelerations (`mechanism_friction`); it does no work.
 !>
 !> Signs: against the sliding velocity. Source: Flores et al. (2008), eqs. (3.13), (3.14). Limits: needs an integrator that
 !> solves for accelerations, so not `ida`.

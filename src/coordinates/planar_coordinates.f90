@@ -31,7 +31,7 @@ module planar_coordinates
       procedure, nopass :: kinetic_energy => planar_kinetic_energy
       procedure, nopass :: rate_of => planar_rate_of
       procedure, nopass :: split_load => planar_split_load
-      procedure, nopass :: report => planar_report
+      procedure, nopass :: report => mechanism_report
       procedure, nopass :: along => planar_along
    end type planar_coordinates_t
 
@@ -291,7 +291,7 @@ contains
    end subroutine planar_split_load
 
    !> Values of a channel of all bodies.
-   pure subroutine planar_report(channel, motion, values)
+   pure subroutine mechanism_report(channel, motion, values)
       character(*), intent(in) :: channel        !! the channel
       type(motion_t), intent(in) :: motion       !! the motion, accelerations too
       real(wp), intent(inout) :: values(:, :)    !! (components, bodies) values [any]
@@ -312,7 +312,7 @@ contains
             values(1, :) = motion%alpha(3, 1:n)
          end select
       end associate
-   end subroutine planar_report
+   end subroutine mechanism_report
 
    !> The direction, and its moment.
    pure subroutine planar_along(direction, arm, row)

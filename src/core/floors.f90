@@ -1,7 +1,8 @@
 !> What counts as nothing, and what stands in where a law or a scale would be divided by it.
 !>
 !> Every such number is a part of something that the scene itself has: of the mechanism's own speed (its pace times its size, see
-!> `planar_scales`), of a step, of the time or the depth of a contact. None is a speed, a length, a time or a force of its own, so
+!> `mechanism_scales`), of a step, of the time or the depth of a contact. None is a speed, a length, a time or a force of its
+!> own, so
 !> that small and slow mechanisms are computed as large and fast ones are. `gudgeon explain` and the manual print this list.
 module floors
    use kinds, only: wp

@@ -17,6 +17,7 @@ module hold_partitioning
    use kinds, only: wp
    use lapack, only: dgels, dgeqp3, dgeqrf
    use memory, only: get, put
+   use rows, only: place_in_row
    use linkage, only: linkage_t
    implicit none (type, external)
    private
@@ -179,7 +180,7 @@ contains
             body = rows%side(3, k)
             do c = 1, n_v
                column = position(place(body) + c)
-               self%jac(row, column) = rows%jac(rows%side(2, k) - size(rows%jac, 1)*(row - 1) + c, row) &
+               self%jac(row, column) = rows%jac(place_in_row(n_v, row, rows%side(2, k)) + c, row) &
                                        *linkage%solution%row_weight(row)*merge(1.0_wp, linkage%scales%length, is_turn(c))
             end do
          end do

@@ -8,7 +8,8 @@
 !>
 !> R is positive if the pinion lies to the left of the axis. Phi' = 0 says that line and pitch circle have the same velocity where
 !> they touch. Signs: the force on the body of i, where they touch, is s lambda.
-!> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4. Limits: other joints hold the pinion
+!> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4. Limits: other joints hold
+!> the pinion
 !> at its distance |R| from the line; the force is along the line, what a pressure angle adds is left out, as is any play.
 module joint_rack
    use item, only: item_t

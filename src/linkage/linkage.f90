@@ -21,7 +21,7 @@ module linkage
    private
    public :: linkage_t, scales_t
 
-   !> What is large and what is small, see `planar_scales`.
+   !> What is large and what is small, see `mechanism_scales`.
    type :: scales_t
       real(wp) :: length = 1.0_wp         !! size of the bodies, for error scales [m]
       real(wp) :: tolerance = 1.0e-8_wp   !! of the integrator, for what round-off allows [1]

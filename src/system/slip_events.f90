@@ -5,10 +5,11 @@
 !> that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit: so a contact that
 !> can neither slip nor stick costs a bounded number of steps.
 !>
-!> Speeds that are small are parts of the mechanism's own, its pace times its size (`planar_scales`); times, of the contact's own.
+!> Speeds that are small are parts of the mechanism's own, its pace times its size (`mechanism_scales`); times, of the
+!> contact's own.
 !>
-!> Source: see `planar_friction`. Limits: contacts change one after another, each for the others as they are.
-submodule(planar_system:planar_friction) slip_events
+!> Source: see `mechanism_friction`. Limits: contacts change one after another, each for the others as they are.
+submodule(mechanism:mechanism_friction) slip_events
    use contact_grip, only: is_undecided, tangent_t
    use floors, only: at_rest, chatter_time, least_band, look_ahead, standstill, torn, widest_band
    implicit none (type, external)
@@ -16,7 +17,7 @@ submodule(planar_system:planar_friction) slip_events
 contains
 
    !> Event functions of friction.
-   module procedure planar_friction_events
+   module procedure mechanism_friction_events
       real(wp) :: moment
       integer :: k, number, slot, status
 
@@ -48,11 +49,11 @@ contains
             end do
          end associate
       end do
-   end procedure planar_friction_events
+   end procedure mechanism_friction_events
 
    !> What the contacts that stick are short of giving way, as of the last evaluation.
    subroutine note_holds(self, g)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       real(wp), intent(inout) :: g(:)              !! (n_event) event functions [N]
 
       integer :: k, slot
@@ -71,7 +72,7 @@ contains
 
    !> What a contact that sticks is beyond giving way: by its force, or by a speed that drivers have given it.
    pure real(wp) function short_of(self, tangent, limit) result(g)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       type(tangent_t), intent(in) :: tangent       !! how the contact lies
       real(wp), intent(in) :: limit                !! greatest force that it holds [N]
 
@@ -83,14 +84,14 @@ contains
 
    !> Speed of the mechanism, which says what sliding is slow.
    pure real(wp) function own_speed(self) result(speed)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
 
       speed = self%linkage%scales%pace*self%linkage%scales%length
    end function own_speed
 
    !> Whether any contact sticks.
    pure logical function any_sticks(self)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
 
       integer :: k
 
@@ -106,7 +107,7 @@ contains
    !> Decide whether a contact slips, which way, or sticks. One whose slip ended, or that begins without sliding, is tried as
    !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
    !> that sticks until now. One that drivers move goes with them.
-   module procedure planar_decide_slip
+   module procedure mechanism_decide_slip
       real(wp) :: delta(self%n_contact), rate(self%n_contact), speed
       integer :: before, status
 
@@ -143,11 +144,11 @@ contains
             set%grip%slip(k) = nint(-sign(1.0_wp, tangent%f_t))
          end associate
       end associate
-   end procedure planar_decide_slip
+   end procedure mechanism_decide_slip
 
    !> Which way a contact goes that drivers move, by its speed now and a little later; it sticks if it does not move then either.
    integer function way_of_drivers(self, t, y, slot, k, still) result(slip)
-      class(planar_system_t), intent(inout) :: self  !! the system, evaluated at the state with the contact sticking
+      class(mechanism_t), intent(inout) :: self  !! the system, evaluated at the state with the contact sticking
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(:)                   !! (n) state [any]
       integer, intent(in) :: slot                    !! set of the contact
@@ -175,7 +176,7 @@ contains
 
    !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
    pure real(wp) function own_time(self, slot, k, delta) result(time)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: k                     !! contact of the set
       real(wp), intent(in) :: delta                !! its penetration [m]

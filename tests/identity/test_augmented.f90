@@ -13,7 +13,7 @@ module test_augmented
    use item, only: option_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: nl, slider_crank, start_text
    use section_info, only: dynamic_info, word_options
    use solver_registry, only: n_solver_kinds, new_solver
@@ -105,7 +105,7 @@ contains
    !> All solvers at one state: the residuals of both equations and, without redundant rows, the results by full
    !> pivoting.
    subroutine check_solvers(system, t, y, what, error)
-      type(planar_system_t), intent(inout) :: system      !! the system; its solver is exchanged
+      type(mechanism_t), intent(inout) :: system      !! the system; its solver is exchanged
       real(wp), intent(in) :: t                           !! time [s]
       real(wp), intent(in) :: y(:)                        !! (n) state [any]
       character(*), intent(in) :: what                    !! which scene
@@ -143,7 +143,7 @@ contains
 
    !> Put another solver into a system.
    subroutine use_solver(system, name)
-      type(planar_system_t), intent(inout) :: system  !! the system
+      type(mechanism_t), intent(inout) :: system  !! the system
       character(*), intent(in) :: name                !! word for the solver
 
       integer :: k
@@ -158,7 +158,7 @@ contains
    !> M a + Phi_q^T lambda = g of the unknown bodies, Phi_q a = b of the solved rows, in parts of the greatest terms and of
    !> what the loads alone would do.
    subroutine check_equations(system, what, error)
-      type(planar_system_t), intent(in) :: system         !! the system, evaluated
+      type(mechanism_t), intent(in) :: system         !! the system, evaluated
       character(*), intent(in) :: what                    !! scene and solver
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
@@ -196,7 +196,7 @@ contains
 
    !> Random states about a start: out of place by up to a thousandth of the size, rates of any kind.
    subroutine check_at_random(system, start, what, error)
-      type(planar_system_t), intent(inout) :: system      !! the system
+      type(mechanism_t), intent(inout) :: system      !! the system
       real(wp), intent(in) :: start(:)                    !! (n) its state at t = 0 [any]
       character(*), intent(in) :: what                    !! which scene
       type(error_t), allocatable, intent(inout) :: error  !! first failure
@@ -222,7 +222,7 @@ contains
       character(*), intent(in) :: what                    !! which scene
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: start(:)
 
       if (allocated(error)) return
@@ -333,7 +333,7 @@ contains
          "[joint.distance]"//nl//"name i j length[m]"//nl//"string one_a hook {sqrt((0.5 - 0.4 - 0.1*cos(0.3) + 0.05*sin(0.3))^2 " &
          //"+ (0.5 - 0.1 - 0.1*sin(0.3) - 0.05*cos(0.3))^2)*1m}"//nl//"stay base three_b {sqrt(1.1^2 + 1.1^2)*1m}"//nl// &
          "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor main 12"//nl//second
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: start(:)
 
       ! an integrator that wants all constraints leaves the known bodies alone, but guides none
@@ -361,7 +361,7 @@ contains
       character(*), intent(in) :: what                    !! which scene
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
-      type(planar_system_t) :: system, unique
+      type(mechanism_t) :: system, unique
       real(wp), allocatable :: start(:), y(:), ydot(:), ydot_twin(:)
       integer :: k, n, status
 
@@ -395,7 +395,7 @@ contains
       character(*), parameter :: rod = weight//body_head//"rod 1.5 0.1 {0.5m*cos(0.4)} {0.5m*sin(0.4)} 0.4 3"//nl// &
                                  point_head//"wall ground 0 0"//nl//"eye rod -0.5 0"//nl// &
                                  "[joint.revolute]"//nl//"name i j"//nl//"pin wall eye"//nl
-      type(planar_system_t) :: one, many
+      type(mechanism_t) :: one, many
       real(wp), allocatable :: start(:), y(:), ydot(:)
       character(:), allocatable :: deck
       integer :: copies, i, k, status

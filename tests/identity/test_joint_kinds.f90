@@ -22,7 +22,7 @@ module test_joint_kinds
    use lapack, only: dgelsd
    use motion, only: motion_t, new_motion
    use planar_coordinates, only: set_planar_motion
-   use planar_report, only: joint_channels
+   use mechanism_report, only: joint_channels
    use span, only: span_of
    use text, only: text_t, to_text
    implicit none (type, external)

@@ -11,9 +11,9 @@ module test_known_bodies
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, two_pi, wp
-   use planar_energy, only: energy_of, energy_t
-   use planar_report, only: build_catalogue, report_state
-   use planar_system, only: planar_system_t
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism_report, only: build_catalogue, report_state
+   use mechanism, only: mechanism_t
    use recorder, only: summary_t
    use scene_fixture, only: nl, slider_crank, start_text, system_of_text
    use solver_registry, only: n_solver_kinds, new_solver
@@ -71,8 +71,8 @@ contains
    subroutine both_systems(deck, n_known, full, small, start, error)
       character(*), intent(in) :: deck                        !! the deck
       integer, intent(in) :: n_known                          !! bodies that must be known
-      type(planar_system_t), intent(out) :: full              !! with all bodies unknown
-      type(planar_system_t), intent(out) :: small             !! without the known ones
+      type(mechanism_t), intent(out) :: full              !! with all bodies unknown
+      type(mechanism_t), intent(out) :: small             !! without the known ones
       real(wp), allocatable, intent(out) :: start(:)          !! (small's n) state at t = 0 of the latter [any]
       type(error_t), allocatable, intent(inout) :: error      !! first failure
 
@@ -86,7 +86,7 @@ contains
 
    !> State of all bodies from that of the unknown ones and the time.
    subroutine complete_state(small, t, y, full)
-      type(planar_system_t), intent(inout) :: small   !! the system without the known bodies
+      type(mechanism_t), intent(inout) :: small   !! the system without the known bodies
       real(wp), intent(in) :: t                       !! time [s]
       real(wp), intent(in) :: y(:)                    !! (small's n) its state [any]
       real(wp), intent(out) :: full(:)                !! (full's n) state of all bodies, works as those of y [any]
@@ -104,8 +104,8 @@ contains
 
    !> All that both systems report at a time, the unknown bodies somewhat out of place, as if nothing held them exactly.
    subroutine compare_at(full, small, t, y, error)
-      type(planar_system_t), intent(inout) :: full        !! with all bodies unknown
-      type(planar_system_t), intent(inout) :: small       !! without the known ones
+      type(mechanism_t), intent(inout) :: full        !! with all bodies unknown
+      type(mechanism_t), intent(inout) :: small       !! without the known ones
       real(wp), intent(in) :: t                           !! time [s]
       real(wp), intent(in) :: y(:)                        !! (small's n) a state [any]
       type(error_t), allocatable, intent(inout) :: error  !! first failure
@@ -163,7 +163,7 @@ contains
       real(wp), intent(in) :: t_end                       !! greatest time [s]
       type(error_t), allocatable, intent(inout) :: error  !! first failure
 
-      type(planar_system_t) :: full, small
+      type(mechanism_t) :: full, small
       type(random_t) :: random
       real(wp), allocatable :: start(:), y(:)
       integer :: k, n
@@ -193,7 +193,7 @@ contains
    subroutine test_contact_on_a_known_body(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: full, small
+      type(mechanism_t) :: full, small
       real(wp), allocatable :: start(:), y(:)
       character(:), allocatable :: deck
       integer :: k
@@ -248,7 +248,7 @@ contains
          "s_2 c_2 far 40 1 0.3"//nl//"s_3 b_3 c_3 50 2 0.3"//nl//"s_4 b_2 c_4 60 1 0.2"//nl// &
          "[force.torque]"//nl//"name body moment"//nl//"twist bob_1 0.3N.m"//nl//"push cart_1 0.2N.m"//nl// &
          "[analysis.dynamic]"//nl//"end = 1 s"//nl//"stabilise = baumgarte"
-      type(planar_system_t) :: full, small
+      type(mechanism_t) :: full, small
       real(wp), allocatable :: start(:)
 
       call both_systems(deck, 1, full, small, start, error)
@@ -297,7 +297,7 @@ contains
          character(*), intent(in) :: joint     !! row of the joint between both bodies, or nothing
 
          class(augmented_t), allocatable :: solver
-         type(planar_system_t) :: one, two
+         type(mechanism_t) :: one, two
          real(wp), allocatable :: a(:), start(:), y(:), ydot_one(:), ydot_two(:)
          character(:), allocatable :: deck
          integer :: status
@@ -369,7 +369,7 @@ contains
          character(*), intent(in) :: angle    !! of the first
          integer, intent(in) :: expected      !! known bodies
 
-         type(planar_system_t) :: system
+         type(mechanism_t) :: system
 
          if (allocated(error)) return
          call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl// &
@@ -388,7 +388,7 @@ contains
    subroutine test_all_driven(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"crank 1 0.1 0.5 0"//nl// &
                           "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"heel crank -0.5 0"//nl// &
@@ -405,7 +405,7 @@ contains
    subroutine test_error_scales(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: scale(:), y(:), ydot(:)
       integer :: status
 

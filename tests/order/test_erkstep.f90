@@ -8,7 +8,7 @@ module test_erkstep
    use integrator, only: advance_event
    use kinds, only: wp
    use ode_examples, only: new_pendulum, pendulum_t, run_to, slope
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use recorder, only: event_t
    use verner, only: verner_t
    implicit none (type, external)
@@ -164,7 +164,7 @@ contains
    !> Two states agree, each kind of quantity to a part of its greatest.
    subroutine compare(error, system, actual, expected, part, what)
       type(error_t), allocatable, intent(inout) :: error   !! first failure
-      type(planar_system_t), intent(in) :: system          !! the system
+      type(mechanism_t), intent(in) :: system          !! the system
       real(wp), intent(in) :: actual(:)                    !! (n) state [any]
       real(wp), intent(in) :: expected(:)                  !! (n) the judge's [any]
       real(wp), intent(in) :: part                         !! difference allowed, of the greatest of its kind [1]

@@ -4,7 +4,7 @@ module test_build_system
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    use scene_fixture, only: channel_of, nl, read_scene_text, slider_crank, system_of_text
    use text, only: replace, to_text
@@ -57,7 +57,7 @@ contains
    subroutine test_sets_share_laws(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       character(*), parameter :: expected(5) = ["loose_1", "loose_3", "loose_2", "loose_5", "loose_6"]
       integer :: item, k, slot
 
@@ -84,7 +84,7 @@ contains
    subroutine test_ideal_twin(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: twin
+      type(mechanism_t) :: twin
       type(scene_t) :: scene
 
       call read_scene_text(slider_crank("", "damped", "none", "clearance"), scene, error)
@@ -103,7 +103,7 @@ contains
    subroutine test_stiffness(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call system_of_text(six_bearings(), system, error)
       if (allocated(error)) return
@@ -120,7 +120,7 @@ contains
    subroutine test_law_without_effect(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call system_of_text(slider_crank("", "damped", "rubbing", "clearance"), system, error)
       if (allocated(error)) return
@@ -136,7 +136,7 @@ contains
 
       character(*), parameter :: names(5) = ["main   ", "big_end", "guide  ", "motor  ", "gudgeon"]
       integer, parameter :: n_row(5) = [2, 2, 2, 1, 2]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       integer :: k, n, row
 
       call system_of_text(slider_crank("", "damped", "none", "ideal"), system, error)
@@ -157,7 +157,7 @@ contains
    subroutine test_energy_of_several_contacts(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: delta, energy
       integer :: k

@@ -3,7 +3,7 @@ module test_equations
    use check, only: check_close, suite_t
    use errors, only: error_t
    use kinds, only: pi, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: channel_of, channel_pair, nl, start_text, system_of_text
    implicit none (type, external)
    private
@@ -44,7 +44,7 @@ contains
 
    !> State of the pendulum at an angle.
    function hanging(system, angle, speed) result(y)
-      type(planar_system_t), intent(in) :: system   !! the system
+      type(mechanism_t), intent(in) :: system   !! the system
       real(wp), intent(in) :: angle                 !! from the pin to the centre of mass, from x [rad]
       real(wp), intent(in) :: speed                 !! angular speed [rad/s]
       real(wp) :: y(system%n)                       !! (n) state [any]
@@ -69,7 +69,7 @@ contains
    subroutine test_free_fall(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(one_body(""), system, y, error)
@@ -84,7 +84,7 @@ contains
 
       real(wp), parameter :: angles(4) = [-0.5_wp*pi, 0.6_wp, 2.5_wp, -3.0_wp], speeds(2) = [0.0_wp, 3.0_wp]
       character(*), parameter :: pairs(2) = ["hook eye ", "eye  hook"]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: acceleration, force(2)
       integer :: i, k, order
@@ -112,7 +112,7 @@ contains
    subroutine test_weld(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call system_of_text(one_body("[joint.rigid]"//nl//"name i j"//nl//"weld hook eye"), system, error)
@@ -128,7 +128,7 @@ contains
    subroutine test_inclined_guide(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: along(2), arm(2), normal(2)
 
@@ -154,7 +154,7 @@ contains
    subroutine test_driver_of_constant_speed(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp), parameter :: angles(3) = [0.0_wp, 0.6_wp, 2.5_wp]
       real(wp) :: moment, acceleration, force(2)
@@ -183,7 +183,7 @@ contains
    subroutine test_driver_of_an_angle(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: angle, moment, speed
       real(wp), parameter :: t = 0.2_wp
@@ -205,7 +205,7 @@ contains
    subroutine test_driven_body_i(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: moment
 
@@ -224,7 +224,7 @@ contains
    subroutine test_force_on_a_guided_mass(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: f, t
       integer :: k
@@ -254,7 +254,7 @@ contains
    subroutine test_torque_on_a_rotor(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       real(wp) :: moment, t
       integer :: k

@@ -8,8 +8,8 @@ module test_hold_kinds
    use hold_partitioning, only: hold_partitioning_t
    use hold_registry, only: n_hold_kinds
    use kinds, only: two_pi, wp
-   use planar_energy, only: energy_of, energy_t
-   use planar_system, only: planar_system_t
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism, only: mechanism_t
    use recorder, only: summary_t
    use scene_fixture, only: nl, start_text
    use text, only: to_text
@@ -60,7 +60,7 @@ contains
    subroutine test_gains(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call check_gains("none", 0.0_wp, 0.0_wp)
@@ -91,7 +91,7 @@ contains
          real(wp), intent(in) :: alpha        !! gain on the rate [1/s]
          real(wp), intent(in) :: beta         !! gain on the violation [1/s]
 
-         type(planar_system_t) :: held
+         type(mechanism_t) :: held
          real(wp), allocatable :: start(:)
 
          if (allocated(error)) return

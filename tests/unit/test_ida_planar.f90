@@ -6,7 +6,7 @@ module test_ida_planar
    use integrator_registry, only: find_integrator
    use kinds, only: pi, wp
    use ode_examples, only: new_pendulum, pendulum_t
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: nl, slider_crank, start_text
    implicit none (type, external)
    private
@@ -31,7 +31,7 @@ contains
    subroutine test_residual_vanishes(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: lambda(:), r_lambda(:), r_mu(:), r_y(:), y(:), ydot(:), zero(:)
       integer :: status
 
@@ -53,7 +53,7 @@ contains
    subroutine test_multipliers(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: at_rest(:), lambda(:), moved(:), other(:), r_lambda(:), r_mu(:), r_y(:), y(:), ydot(:), zero(:)
       real(wp) :: power
       integer :: k, m, nq, status
@@ -91,7 +91,7 @@ contains
       real(wp), parameter :: t_end = 3.0_wp, amplitude = 2.0_wp
       class(integrator_t), allocatable :: method
       type(pendulum_t) :: closed
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: exact(:), y(:)
       real(wp) :: angle, errors(3), frequency, modulus, period, rate, violation(2)
       integer :: k, status
@@ -181,7 +181,7 @@ contains
 
       real(wp), parameter :: t_end = 0.06_wp
       class(integrator_t), allocatable :: method
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: change(:), y(:)
       real(wp) :: violation(2)
       integer :: status
@@ -212,7 +212,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       class(integrator_t), allocatable :: method
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       integer :: status
 

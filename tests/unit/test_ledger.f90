@@ -5,8 +5,8 @@ module test_ledger
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, wp
-   use planar_energy, only: energy_of, energy_t
-   use planar_system, only: planar_system_t, work_drive, work_load, work_stabilisation
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism, only: mechanism_t, work_drive, work_load, work_stabilisation
    use scene_fixture, only: channel_of, nl, slider_crank, start_text, system_of_text
    implicit none (type, external)
    private
@@ -27,7 +27,7 @@ contains
 
    !> Rate of kinetic and potential energy from the accelerations.
    real(wp) function mechanical_rate(system, y, ydot) result(rate)
-      type(planar_system_t), intent(in) :: system  !! the system
+      type(mechanism_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: y(:)                 !! (n) state [any]
       real(wp), intent(in) :: ydot(:)              !! (n) its derivative [any]
 
@@ -45,7 +45,7 @@ contains
    !> What comes in by drivers, loads and stabilisation is what the bodies and contacts gain and what is lost.
    subroutine check_powers(error, system, t, y, what)
       type(error_t), allocatable, intent(inout) :: error   !! first failure
-      type(planar_system_t), intent(inout) :: system       !! the system
+      type(mechanism_t), intent(inout) :: system       !! the system
       real(wp), intent(in) :: t                            !! time [s]
       real(wp), intent(in) :: y(:)                         !! (n) state [any]
       character(*), intent(in) :: what                     !! for messages
@@ -92,7 +92,7 @@ contains
    subroutine test_powers_on_the_constraints(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:), ydot(:)
       integer :: status
 
@@ -113,7 +113,7 @@ contains
 
       character(*), parameter :: gains(2) = ["stabilise = none                              ", &
                                              "stabilise = baumgarte alpha=50s^-1 beta=80s^-1"]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       real(wp), allocatable :: start(:), y(:), ydot(:)
       integer :: k, gain, status
@@ -139,7 +139,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: laws(2) = ["hertz ", "damped"], frictions(2) = ["none   ", "rubbing"]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       real(wp), allocatable :: start(:), y(:)
       integer :: friction, k, law
@@ -167,7 +167,7 @@ contains
    subroutine test_powers_of_loads(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       real(wp), allocatable :: y(:), ydot(:)
       integer :: k, status
@@ -202,7 +202,7 @@ contains
    subroutine test_energies(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(energy_t) :: energy
       real(wp), allocatable :: y(:)
 
@@ -228,7 +228,7 @@ contains
    subroutine test_without_ledger(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: bare, system
+      type(mechanism_t) :: bare, system
       real(wp), allocatable :: y(:), y_bare(:), ydot(:), ydot_bare(:)
       type(energy_t) :: energy
       integer :: status

@@ -4,7 +4,7 @@ module test_memory
    use errors, only: error_t
    use kinds, only: i8, wp
    use memory, only: get, put
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: slider_crank, start_text
    implicit none (type, external)
    private
@@ -78,7 +78,7 @@ contains
    subroutine test_system(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: fresh, system
+      type(mechanism_t) :: fresh, system
       real(wp), allocatable :: row(:), y(:), ydot(:), ydot_fresh(:)
       integer :: place, status
 

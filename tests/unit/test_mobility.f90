@@ -5,7 +5,7 @@ module test_mobility
    use errors, only: error_t
    use kinds, only: wp
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: nl, system_of_text
    implicit none (type, external)
    private
@@ -33,7 +33,7 @@ contains
    !> Mobility of the bar with joints.
    subroutine look(joints, system, mobility, error)
       character(*), intent(in) :: joints                     !! tables of joints and drivers
-      type(planar_system_t), intent(out) :: system           !! the system, rows evaluated
+      type(mechanism_t), intent(out) :: system           !! the system, rows evaluated
       type(mobility_t), intent(out) :: mobility              !! what was found
       type(error_t), allocatable, intent(inout) :: error     !! what failed
 
@@ -48,7 +48,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mobility_t) :: mobility
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call look("", system, mobility, error)
       if (allocated(error)) return
@@ -62,7 +62,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mobility_t) :: mobility
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call look("[joint.revolute]"//nl//"name i j"//nl//"a g1 b1"//nl//"b g2 b2"//nl//"c g3 b3"//nl//"d g4 mid"//nl, &
                 system, mobility, error)
@@ -77,7 +77,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mobility_t) :: mobility
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call look("[joint.revolute]"//nl//"name i j"//nl//"once g1 b1"//nl//"again g1 b1"//nl//"d g4 mid"//nl, &
                 system, mobility, error)
@@ -90,7 +90,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mobility_t) :: mobility
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
 
       call look("[joint.translational]"//nl//"name i j axis"//nl//"left g1 b1 x"//nl//"right g3 b3 x"//nl// &
                 "[joint.rigid]"//nl//"name i j"//nl//"weld g4 mid"//nl, system, mobility, error)
@@ -105,7 +105,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(mobility_t) :: mobility
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       character(*), parameter :: pins = "[joint.revolute]"//nl//"name i j"//nl//"a g1 b1"//nl//"d g4 mid"//nl// &
          "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"one a 1"//nl
 

@@ -4,7 +4,7 @@ module test_prescribed_motion
    use errors, only: error_t
    use inverse_dynamics, only: find_reactions
    use kinds, only: wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, open_rows, singular, solve_positions, solve_rates, solved
    use scene_fixture, only: nl, system_of_text
    implicit none (type, external)
@@ -38,7 +38,7 @@ contains
    !> The slider-crank driven by an expression.
    subroutine driven(angle, system, error)
       character(*), intent(in) :: angle                      !! of the driver, an expression
-      type(planar_system_t), intent(out) :: system           !! the system
+      type(mechanism_t), intent(out) :: system           !! the system
       type(error_t), allocatable, intent(inout) :: error     !! what failed
 
       call system_of_text(crank//"[driver.angle]"//nl//"name joint angle"//nl//"motor main {"//angle//"}"//nl, system, error)
@@ -50,7 +50,7 @@ contains
 
       real(wp), parameter :: h = 1.0e-4_wp  ! of the differences, central [s]
       type(newton_t) :: newton
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: a(9, -1:1), q(9, -1:1), t, v(9, -1:1)
       integer :: k, n, outcome
 
@@ -80,7 +80,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(newton_t) :: newton
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: q(9)
       integer :: outcome
 
@@ -97,7 +97,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(newton_t) :: newton
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: q(9)
       integer :: outcome
 
@@ -114,7 +114,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(newton_t) :: newton
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: q(9), rest(9), unbalanced
       integer :: outcome
 
@@ -132,7 +132,7 @@ contains
 
    !> Moment of the only driver on the crank.
    real(wp) function motor_moment(system) result(moment)
-      type(planar_system_t), intent(in) :: system   !! the system, lambda set
+      type(mechanism_t), intent(in) :: system   !! the system, lambda set
 
       integer :: k
 
@@ -148,7 +148,7 @@ contains
    subroutine test_unbalanced(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: a(3), unbalanced
 
       call system_of_text("[scene]"//nl//"gravity = 0 -9.81 m/s^2"//nl// &
@@ -171,7 +171,7 @@ contains
 
    !> Rows and loads of the level pendulum.
    subroutine set_level(system)
-      type(planar_system_t), intent(inout) :: system   !! rows and loads are set
+      type(mechanism_t), intent(inout) :: system   !! rows and loads are set
 
       type(newton_t) :: newton
       real(wp) :: q(3)

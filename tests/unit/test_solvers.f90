@@ -4,7 +4,7 @@ module test_solvers
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: channel_of, channel_pair, nl, slider_crank, start_text, system_of_text
    implicit none (type, external)
    private
@@ -31,7 +31,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: words(3) = ["auto  ", "schur ", "lapack"], chosen(3) = ["schur ", "schur ", "lapack"]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       integer :: k
 
       do k = 1, 3
@@ -55,7 +55,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: levels(2) = ["ideal    ", "clearance"]
-      type(planar_system_t) :: full, schur
+      type(mechanism_t) :: full, schur
       type(random_t) :: random
       real(wp), allocatable :: start(:), y(:), ydot(:), ydot_full(:)
       integer :: k, level, status(2)
@@ -93,7 +93,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: words(2) = ["schur ", "lapack"]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       real(wp), allocatable :: y(:), ydot(:)
       real(wp) :: left(3, 3), mass(3, 3), right, row_left
@@ -140,7 +140,7 @@ contains
    subroutine test_contradicting_rows(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:), ydot(:)
       integer :: k, solver, status
 
@@ -165,7 +165,7 @@ contains
    subroutine test_redundant_rows(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:), ydot(:)
       integer :: solver
 
@@ -204,7 +204,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       character(*), parameter :: words(2) = ["schur ", "lapack"]
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:), ydot(:)
       integer :: solver, status
 

@@ -8,7 +8,7 @@ module test_sparse_start
    use errors, only: error_t, exit_assembly
    use fixed_random, only: random_t
    use kinds, only: i8, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
    use scene, only: scene_t
    use scene_fixture, only: nl, read_scene_text
@@ -96,7 +96,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error  !! what differs
 
       type(assembly_t) :: dense, sparse
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       real(wp), allocatable :: q(:), q_sparse(:), v(:), v_sparse(:)
       integer :: k
@@ -183,7 +183,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(scene_t) :: scene
       real(wp), allocatable :: q(:), v(:)
 
@@ -224,7 +224,7 @@ contains
 
       type(assembly_t) :: report
       type(error_t), allocatable :: refusal
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(scene_t) :: scene
       real(wp), allocatable :: q(:), v(:)
       integer :: k

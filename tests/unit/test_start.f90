@@ -5,7 +5,7 @@ module test_start
    use errors, only: error_t, exit_assembly, exit_internal, set_error
    use fixed_random, only: random_t
    use kinds, only: i8, pi, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: channel_of, nl, slider_crank, start_text
    use start_state, only: redundancy_text
    use text, only: real_text, replace
@@ -57,7 +57,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       character(*), parameter :: levels(2) = ["ideal    ", "clearance"]
       real(wp) :: delta(1), rate(1)
@@ -93,7 +93,7 @@ contains
    subroutine test_far_away(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       character(:), allocatable :: deck
       real(wp), allocatable :: y(:), ydot(:)
       integer :: status
@@ -112,7 +112,7 @@ contains
    subroutine test_least_velocities(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m] vx[m/s] vy[m/s] omega[rad/s]"//nl// &
@@ -130,7 +130,7 @@ contains
    subroutine test_least_positions(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(assembly_t) :: report
       real(wp), allocatable :: y(:)
 
@@ -149,7 +149,7 @@ contains
    subroutine test_free_body(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       character(:), allocatable :: deck
       type(random_t) :: random
       real(wp), allocatable :: y(:)
@@ -166,7 +166,7 @@ contains
    subroutine test_given_start(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(assembly_t) :: report
       real(wp) :: delta(1), rate(1)
       real(wp), allocatable :: y(:)
@@ -186,7 +186,7 @@ contains
    subroutine test_rigid_joint(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:), ydot(:)
       integer :: status
 
@@ -212,7 +212,7 @@ contains
    subroutine test_angle_driver(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m] angle[rad] omega[rad/s]"//nl// &
@@ -234,7 +234,7 @@ contains
       character(*), intent(in) :: words                 !! what the message must say, each part before a `|`
 
       type(error_t), allocatable :: reason
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       if (allocated(error)) return
       call start_text(deck, system, y, reason)
@@ -335,7 +335,7 @@ contains
          character(*), intent(in) :: expected                 !! parts of the text, each ended by a bar; blank: nothing is said
 
          type(assembly_t) :: report
-         type(planar_system_t) :: system
+         type(mechanism_t) :: system
          real(wp), allocatable :: y(:)
 
          call start_text(pendulum(tables), system, y, error, report)
@@ -354,7 +354,7 @@ contains
    subroutine test_overlap(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
       character(:), allocatable :: deck
 

@@ -4,7 +4,7 @@ module test_static
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, pi, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_positions
    use scene_fixture, only: nl, system_of_text
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, square_frequencies
@@ -37,7 +37,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(balance_t) :: balance
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: exact(2), q(6)
 
       call system_of_text(rods, system, error)
@@ -59,7 +59,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(balance_t) :: balance
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp) :: angle, q(3)
       integer :: k
 
@@ -87,7 +87,7 @@ contains
 
       type(balance_t) :: balance
       type(newton_t) :: newton
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(random_t) :: random
       real(wp) :: lower, q(6), upper
       integer :: k, outcome, steps

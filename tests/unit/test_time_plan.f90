@@ -5,7 +5,7 @@ module test_time_plan
    use deck_reader, only: diagnostics_t
    use errors, only: error_t
    use kinds, only: pi, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene, only: scene_t
    use scene_fixture, only: nl, read_scene_text
    use source_text, only: source_t
@@ -52,7 +52,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error  !! first failure; mistakes
 
       type(diagnostics_t) :: mistakes
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       type(scene_t) :: scene
       type(source_t) :: none(0)
 

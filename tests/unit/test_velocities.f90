@@ -4,7 +4,7 @@ module test_velocities
    use consistent_start, only: assembly_t
    use errors, only: error_t
    use kinds, only: pi, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: nl, start_text
    implicit none (type, external)
    private
@@ -64,7 +64,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(rods(1, "omega[rad/s]", ["5"]), system, y, error, report)
@@ -79,7 +79,7 @@ contains
    subroutine test_one_component(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(rods(1, "vy[m/s]", ["1.2"]), system, y, error)
@@ -94,7 +94,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(rods(2, "omega[rad/s]", [character(2) :: "2", "-3"]), system, y, error, report)
@@ -111,7 +111,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(rods(2, "omega[rad/s]", [character(2) :: "-", "-3"]), system, y, error, report)
@@ -127,7 +127,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(rods(1, "vx[m/s] vy[m/s]", ["{3 m/s*cos(30 deg)} {3 m/s*sin(30 deg)}"]), system, y, error, report)
@@ -143,7 +143,7 @@ contains
 
       character(*), parameter :: motor = "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor pin 7"
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(rods(1, "omega[rad/s]", ["5"])//motor, system, y, error, report)
@@ -168,7 +168,7 @@ contains
          "[clearance.revolute]"//nl//"name bearing journal bearing_radius[mm] clearance[mm] material law"//nl// &
          "ring hole centre 10 0.5 steel hertz"//nl//"[analysis.dynamic]"//nl//"coordinates = full"//nl//"end = 1 s"//nl
       type(assembly_t) :: report
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: y(:)
 
       call start_text(deck//"start = ideal", system, y, error, report)

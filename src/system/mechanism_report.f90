@@ -1,5 +1,5 @@
 !> What a planar scene reports: its catalogue of channels, and their values at a state.
-module planar_report
+module mechanism_report
    use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
       room_joints
    use bodies, only: bodies_info
@@ -7,8 +7,8 @@ module planar_report
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
    use motion, only: cross
-   use planar_energy, only: energy_of, energy_t
-   use planar_system, only: planar_system_t
+   use mechanism_energy, only: energy_of, energy_t
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: build_catalogue, energy_info, fill_catalogue, joint_channels, report_state
@@ -44,7 +44,7 @@ contains
 
    !> All items and channels of a system.
    subroutine build_catalogue(system, catalogue)
-      class(planar_system_t), intent(in) :: system    !! the system
+      class(mechanism_t), intent(in) :: system    !! the system
       type(catalogue_t), intent(out) :: catalogue     !! what it can report
 
       type(kind_info_t) :: contact_info, info, joint_info
@@ -102,7 +102,7 @@ contains
 
    !> Joints, or drivers, in the order of their columns.
    subroutine add_joint_items(system, is_driver, catalogue)
-      class(planar_system_t), intent(in) :: system        !! the system
+      class(mechanism_t), intent(in) :: system        !! the system
       logical, intent(in) :: is_driver                    !! drivers, not joints
       type(catalogue_t), intent(inout) :: catalogue       !! items are added
 
@@ -157,7 +157,7 @@ contains
 
    !> Fill the catalogue with the values at a state: evaluates the right-hand side there.
    subroutine report_state(system, t, y, ydot, residual, catalogue, status)
-      class(planar_system_t), intent(inout) :: system   !! the system
+      class(mechanism_t), intent(inout) :: system   !! the system
       real(wp), intent(in) :: t                         !! time [s]
       real(wp), intent(in) :: y(:)                      !! (n) state [any]
       real(wp), intent(out) :: ydot(:)                  !! (n) its derivative [any]
@@ -175,7 +175,7 @@ contains
    !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
    !> violations, multipliers, states of the contacts.
    subroutine fill_catalogue(system, t, y, residual, catalogue)
-      class(planar_system_t), intent(in) :: system      !! the system at the state
+      class(mechanism_t), intent(in) :: system      !! the system at the state
       real(wp), intent(in) :: t                         !! time [s]
       real(wp), intent(in) :: y(:)                      !! (n) state; without a ledger positions and velocities suffice [any]
       real(wp), intent(in) :: residual                  !! of the ledger at the last step [J]
@@ -221,7 +221,7 @@ contains
 
    !> Values of a channel of the joints, or of the drivers.
    subroutine report_joints(system, is_driver, channel, has, values)
-      class(planar_system_t), intent(in) :: system  !! the system
+      class(mechanism_t), intent(in) :: system  !! the system
       logical, intent(in) :: is_driver              !! drivers, not joints
       character(*), intent(in) :: channel           !! the channel
       logical, intent(in) :: has(:)                 !! (items) whether each item has the channel
@@ -272,7 +272,7 @@ contains
 
    !> Reaction of a joint on body i: force, and moment about the joint's reaction point.
    subroutine reaction_on_i(system, set, item, force, moment)
-      class(planar_system_t), intent(in) :: system  !! the system
+      class(mechanism_t), intent(in) :: system  !! the system
       class(joint_set_t), intent(in) :: set         !! the joint's set
       integer, intent(in) :: item                   !! item of the set
       real(wp), intent(out) :: force(3)             !! (3) force on body i, world frame [N]
@@ -293,7 +293,7 @@ contains
 
    !> Values of a channel of the joints with clearance, loose ones first, then those taken as ideal.
    subroutine report_clearances(system, channel, values)
-      class(planar_system_t), intent(in) :: system  !! the system
+      class(mechanism_t), intent(in) :: system  !! the system
       character(*), intent(in) :: channel           !! the channel
       real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
 
@@ -320,7 +320,7 @@ contains
 
    !> Values of a channel of the force elements.
    subroutine report_forces(system, t, channel, values)
-      class(planar_system_t), intent(in) :: system  !! the system
+      class(mechanism_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: t                     !! time [s]
       character(*), intent(in) :: channel           !! the channel
       real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
@@ -356,4 +356,4 @@ contains
       end select
    end function energy_value
 
-end module planar_report
+end module mechanism_report

@@ -1,5 +1,5 @@
 !> The powers of the ledger, as of the last evaluation.
-submodule(planar_system) planar_powers
+submodule(mechanism) mechanism_powers
    use known_motion, only: power_of_known
    implicit none (type, external)
 
@@ -34,4 +34,4 @@ contains
       end do
    end procedure ledger_rates
 
-end submodule planar_powers
+end submodule mechanism_powers

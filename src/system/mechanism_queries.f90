@@ -1,5 +1,5 @@
 !> What is asked of a planar scene beside its evaluation: event functions.
-submodule(planar_system) planar_queries
+submodule(mechanism) mechanism_queries
    use contact_memory, only: rests
    use gap_noise, only: find_gap_noise
    implicit none (type, external)
@@ -7,7 +7,7 @@ submodule(planar_system) planar_queries
 contains
 
    !> Event functions: penetrations of free contacts, their negatives of touching ones.
-   module procedure planar_events
+   module procedure mechanism_events
       if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) then
          call self%friction_events(t, y, g, rate)
       else
@@ -15,19 +15,19 @@ contains
       end if
       if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
-   end procedure planar_events
+   end procedure mechanism_events
 
    !> The same at the present motion.
-   module procedure planar_last_events
+   module procedure mechanism_last_events
       if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) call self%friction_events(t, y, g, rate)
       if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
-   end procedure planar_last_events
+   end procedure mechanism_last_events
 
    !> Event functions of contacts whose law jumps where the penetration turns: the rate of the penetration falls to zero while they
    !> approach, rises to zero while they part, and leaves its range where they rest.
    subroutine turn_events(self, t, y, g, rate)
-      class(planar_system_t), intent(inout) :: self  !! the system
+      class(mechanism_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(:)                   !! (n) state [any]
       real(wp), intent(inout) :: g(:)                !! (n_event) event functions, those of turns are set [m/s]
@@ -60,7 +60,7 @@ contains
    end subroutine turn_events
 
    !> Rates of all penetrations and their rates.
-   module procedure planar_turns
+   module procedure mechanism_turns
       real(wp) :: delta(self%n_contact), moment, ydot(size(y))
       integer :: k, status
 
@@ -75,11 +75,11 @@ contains
          call self%clearances(k)%set%gaps(self%linkage%motion, delta, rate)
       end do
       acceleration = (acceleration - rate)/moment
-   end procedure planar_turns
+   end procedure mechanism_turns
 
    !> Event functions of the contacts at the present motion.
    subroutine contact_events(self, g, rate)
-      class(planar_system_t), intent(in) :: self     !! the system
+      class(mechanism_t), intent(in) :: self     !! the system
       real(wp), intent(inout) :: g(:)                !! (n_event) event functions [m]
       real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s]
 
@@ -100,7 +100,7 @@ contains
    end subroutine contact_events
 
    !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
-   module procedure planar_event_noise
+   module procedure mechanism_event_noise
       real(wp) :: rate_noise(self%n_contact), shared
       integer :: k
 
@@ -117,24 +117,24 @@ contains
          end associate
       end do
       if (self%first_turn > 0) noise(self%first_turn + 1:) = rate_noise
-   end procedure planar_event_noise
+   end procedure mechanism_event_noise
 
    !> Whether event k, as things stand, is the onset of a contact.
-   module procedure planar_is_onset
+   module procedure mechanism_is_onset
       integer :: item, slot
 
       is_onset = .false.
       if (k > self%n_contact) return
       call self%find_contact(k, slot, item)
       is_onset = .not. self%clearances(slot)%set%contact(item)%is_touching
-   end procedure planar_is_onset
+   end procedure mechanism_is_onset
 
    !> Set of a contact and its place there by its number.
-   module procedure planar_find_contact
+   module procedure mechanism_find_contact
       do slot = 1, size(self%clearances)
          contact = mod(number - 1, self%n_contact) + 1 - self%clearances(slot)%set%first_contact
          if (contact <= self%clearances(slot)%set%n_contact) return
       end do
-   end procedure planar_find_contact
+   end procedure mechanism_find_contact
 
-end submodule planar_queries
+end submodule mechanism_queries

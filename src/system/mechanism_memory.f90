@@ -1,12 +1,12 @@
 !> What a planar scene remembers, for checkpoints.
-submodule(planar_system) planar_memory
+submodule(mechanism) mechanism_memory
    use memory, only: get, put
    implicit none (type, external)
 
 contains
 
    !> Numbers that a checkpoint needs: the memory of all sets, the counters, the pace and the stretch of smooth time.
-   module procedure planar_memory_size
+   module procedure mechanism_memory_size
       integer :: k
 
       n = 9 + self%way%memory_size()
@@ -19,10 +19,10 @@ contains
       do k = 1, size(self%clearances)
          n = n + self%clearances(k)%set%memory_size()
       end do
-   end procedure planar_memory_size
+   end procedure mechanism_memory_size
 
    !> Write what the system remembers.
-   module procedure planar_save
+   module procedure mechanism_save
       integer :: k
 
       call put(row, place, self%n_evaluations)
@@ -42,10 +42,10 @@ contains
       do k = 1, size(self%clearances)
          call self%clearances(k)%set%save(row, place)
       end do
-   end procedure planar_save
+   end procedure mechanism_save
 
    !> Read what the system remembers.
-   module procedure planar_load
+   module procedure mechanism_load
       integer :: k
 
       call get(row, place, self%n_evaluations)
@@ -67,6 +67,6 @@ contains
       do k = 1, size(self%clearances)
          call self%clearances(k)%set%load(row, place)
       end do
-   end procedure planar_load
+   end procedure mechanism_load
 
-end submodule planar_memory
+end submodule mechanism_memory

@@ -8,10 +8,10 @@
 !> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|.
 !>
 !> Events: one function per contact of a loose joint, the penetration while free, its negative while touching; with friction
-!> that sticks, another one per contact (`planar_friction`). Contacts with bristles have a state each, after the rates.
+!> that sticks, another one per contact (`mechanism_friction`). Contacts with bristles have a state each, after the rates.
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
-module planar_system
+module mechanism
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use clearance_set, only: clearance_slot_t
    use dae_system, only: dae_system_t
@@ -23,7 +23,7 @@ module planar_system
    use loading, only: loading_t, start_loads
    implicit none (type, external)
    private
-   public :: planar_system_t
+   public :: mechanism_t
    public :: lost_damper, n_ledger, work_drive, work_load, work_stabilisation
 
    integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
@@ -33,7 +33,7 @@ module planar_system
    integer, parameter :: n_ledger = 4            !! quadratures before those of the contacts
 
    !> A planar scene.
-   type, extends(dae_system_t) :: planar_system_t
+   type, extends(dae_system_t) :: mechanism_t
       type(linkage_t) :: linkage                            !! bodies, ideal joints and drivers, and the solution of the equations
       type(loading_t) :: loading                            !! gravity and force elements
       type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
@@ -48,223 +48,223 @@ module planar_system
       integer(i8) :: n_evaluations = 0                      !! evaluations made
       real(wp), allocatable, private :: held(:)             !! (positions + rates) state corrected for an evaluation [any]
    contains
-      procedure :: evaluate => planar_evaluate, dae_residual => planar_dae_residual
-      procedure :: dae_pattern => planar_dae_pattern, dae_spread => planar_dae_spread, weights => planar_weights
-      procedure :: evaluate_loads => planar_evaluate_loads, multipliers => planar_multipliers
+      procedure :: evaluate => mechanism_evaluate, dae_residual => mechanism_dae_residual
+      procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread, weights => mechanism_weights
+      procedure :: evaluate_loads => mechanism_evaluate_loads, multipliers => mechanism_multipliers
       procedure, private :: evaluate_terms, ledger_rates
-      procedure :: begin_pace => planar_begin_pace, follow_pace => planar_follow_pace, time_of_difference
-      procedure :: events => planar_events, last_events => planar_last_events
-      procedure :: event_noise => planar_event_noise, set_step => planar_set_step
-      procedure :: hold => planar_hold, mend => planar_mend, take_way => planar_take_way
-      procedure :: find_contact => planar_find_contact, is_onset => planar_is_onset
-      procedure :: take_bristles => planar_take_bristles, bristle_rates => planar_bristle_rates
-      procedure :: stick => planar_stick, decide_slip => planar_decide_slip, bristle_weights => planar_bristle_weights
-      procedure :: friction_events => planar_friction_events, turns => planar_turns
-      procedure :: memory_size => planar_memory_size, save => planar_save, load => planar_load
-   end type planar_system_t
+      procedure :: begin_pace => mechanism_begin_pace, follow_pace => mechanism_follow_pace, time_of_difference
+      procedure :: events => mechanism_events, last_events => mechanism_last_events
+      procedure :: event_noise => mechanism_event_noise, set_step => mechanism_set_step
+      procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
+      procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset
+      procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
+      procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
+      procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
+      procedure :: memory_size => mechanism_memory_size, save => mechanism_save, load => mechanism_load
+   end type mechanism_t
 
    interface
       !> Correct a state at the end of a step; what that does to the energy is work of the stabilisation.
-      module subroutine planar_hold(self, t, y, status)
+      module subroutine mechanism_hold(self, t, y, status)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                      !! time [s]
          real(wp), intent(inout) :: y(:)                !! (n) state [any]
          integer, intent(out) :: status                 !! 0: done
-      end subroutine planar_hold
+      end subroutine mechanism_hold
 
       !> Bring a state that was made by interpolation onto the constraints, by projection.
-      module subroutine planar_mend(self, t, y, status)
+      module subroutine mechanism_mend(self, t, y, status)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                      !! time [s]
          real(wp), intent(inout) :: y(:)                !! (n) state [any]
          integer, intent(out) :: status                 !! 0: done
-      end subroutine planar_mend
+      end subroutine mechanism_mend
 
       !> Whether event k, as things stand, is the onset of a contact.
-      module logical function planar_is_onset(self, k) result(is_onset)
+      module logical function mechanism_is_onset(self, k) result(is_onset)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self     !! the system
+         class(mechanism_t), intent(in) :: self     !! the system
          integer, intent(in) :: k                       !! number of the event function
-      end function planar_is_onset
+      end function mechanism_is_onset
 
       !> Forces of the contacts that stick, and the accelerations with them.
-      module subroutine planar_stick(self, status)
+      module subroutine mechanism_stick(self, status)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system, accelerations without these forces found
+         class(mechanism_t), intent(inout) :: self  !! the system, accelerations without these forces found
          integer, intent(out) :: status                 !! 0: found
-      end subroutine planar_stick
+      end subroutine mechanism_stick
 
       !> Deflections of bristles from a state into the contacts.
-      module subroutine planar_take_bristles(self, y)
+      module subroutine mechanism_take_bristles(self, y)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: y(:)                   !! (n) state [any]
-      end subroutine planar_take_bristles
+      end subroutine mechanism_take_bristles
 
       !> Rates of these deflections, as of the last evaluation.
-      module subroutine planar_bristle_rates(self, ydot)
+      module subroutine mechanism_bristle_rates(self, ydot)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self     !! the system
+         class(mechanism_t), intent(in) :: self     !! the system
          real(wp), intent(inout) :: ydot(:)             !! (n) derivative of the state [any]
-      end subroutine planar_bristle_rates
+      end subroutine mechanism_bristle_rates
 
       !> Their scales, for error norms.
-      module subroutine planar_bristle_weights(self, scale)
+      module subroutine mechanism_bristle_weights(self, scale)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self     !! the system
+         class(mechanism_t), intent(in) :: self     !! the system
          real(wp), intent(inout) :: scale(:)            !! (n) scales [any]
-      end subroutine planar_bristle_weights
+      end subroutine mechanism_bristle_weights
 
       !> Event functions of friction: slip that ends, and sticking that gives way. Evaluates the system at the state.
-      module subroutine planar_friction_events(self, t, y, g, rate)
+      module subroutine mechanism_friction_events(self, t, y, g, rate)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
          real(wp), intent(inout) :: g(:), rate(:)       !! (n_event) functions and rates, those of friction set [any]
-      end subroutine planar_friction_events
+      end subroutine mechanism_friction_events
 
       !> Rates of all penetrations and their rates, by a difference along the motion. The system is evaluated at the state.
-      module subroutine planar_turns(self, t, y, rate, acceleration)
+      module subroutine mechanism_turns(self, t, y, rate, acceleration)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
          real(wp), intent(out) :: rate(:), acceleration(:)  !! (n_contact) rates of the penetrations, and theirs [any]
-      end subroutine planar_turns
+      end subroutine mechanism_turns
 
       !> Decide whether a contact slips, which way, or sticks, at a state.
-      module subroutine planar_decide_slip(self, t, y, slot, k)
+      module subroutine mechanism_decide_slip(self, t, y, slot, k)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
          integer, intent(in) :: slot, k                 !! set of the contact, and its number there
-      end subroutine planar_decide_slip
+      end subroutine mechanism_decide_slip
 
       !> Numbers that a checkpoint needs: the memory of all sets and the counters.
-      module integer function planar_memory_size(self) result(n)
+      module integer function mechanism_memory_size(self) result(n)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self     !! the system
-      end function planar_memory_size
+         class(mechanism_t), intent(in) :: self     !! the system
+      end function mechanism_memory_size
 
       !> Write what the system remembers.
-      module subroutine planar_save(self, row, place)
+      module subroutine mechanism_save(self, row, place)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self     !! the system
+         class(mechanism_t), intent(in) :: self     !! the system
          real(wp), intent(inout) :: row(:)              !! (any) checkpoint [any]
          integer, intent(inout) :: place                !! last place used
-      end subroutine planar_save
+      end subroutine mechanism_save
 
       !> Read what the system remembers.
-      module subroutine planar_load(self, row, place)
+      module subroutine mechanism_load(self, row, place)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
          integer, intent(inout) :: place                !! last place used
-      end subroutine planar_load
+      end subroutine mechanism_load
 
       !> What is left of the equations in the stabilised form of index 2.
-      module subroutine planar_dae_residual(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
+      module subroutine mechanism_dae_residual(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t                      !! time [s]
          real(wp), intent(in), contiguous :: y(:), ydot(:)  !! (n) state and its derivative [any]
          real(wp), intent(in) :: lambda(:), mu(:)       !! (rows) multipliers of velocities and of positions [any]
          real(wp), intent(out), contiguous :: r_y(:)    !! (n) of the differential equations [any]
          real(wp), intent(out) :: r_lambda(:), r_mu(:)  !! (rows) rates of the violation, and violations [any]
          integer, intent(out) :: status                 !! outcome
-      end subroutine planar_dae_residual
+      end subroutine mechanism_dae_residual
 
       !> Which parts of the residual depend on which unknowns.
-      module subroutine planar_dae_pattern(self, column, row)
+      module subroutine mechanism_dae_pattern(self, column, row)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self        !! the system
+         class(mechanism_t), intent(in) :: self        !! the system
          integer, allocatable, intent(out) :: column(:)    !! (n + 2 rows + 1) place of the first entry of each column, from 0
          integer, allocatable, intent(out) :: row(:)       !! (entries) rows, from 0
-      end subroutine planar_dae_pattern
+      end subroutine mechanism_dae_pattern
 
       !> Entries of the columns of the multipliers.
-      module subroutine planar_dae_spread(self, values)
+      module subroutine mechanism_dae_spread(self, values)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self   !! the system
+         class(mechanism_t), intent(in) :: self   !! the system
          real(wp), intent(out) :: values(:)           !! (n_v for each side of an unknown body) in the order of the pattern [any]
-      end subroutine planar_dae_spread
+      end subroutine mechanism_dae_spread
 
       !> Powers of the ledger.
       pure module subroutine ledger_rates(self, power)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self  !! the system
+         class(mechanism_t), intent(in) :: self  !! the system
          real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
       end subroutine ledger_rates
 
       !> Error scales.
-      module subroutine planar_weights(self, y, scale)
+      module subroutine mechanism_weights(self, y, scale)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self  !! the system
+         class(mechanism_t), intent(in) :: self  !! the system
          real(wp), intent(in) :: y(:)                !! (n) state [any]
          real(wp), intent(out) :: scale(:)           !! (n) scales [any]
-      end subroutine planar_weights
+      end subroutine mechanism_weights
 
       !> The pace at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
-      module subroutine planar_begin_pace(self, t, y, end)
+      module subroutine mechanism_begin_pace(self, t, y, end)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:), end           !! time [s], (n) state [any], and end of the run [s]
-      end subroutine planar_begin_pace
+      end subroutine mechanism_begin_pace
 
       !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
-      pure module subroutine planar_follow_pace(self, y, jump)
+      pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: y(:)                   !! (n) state [any]
          real(wp), intent(in), optional :: jump(:)      !! (n) jump of its derivative [any]
-      end subroutine planar_follow_pace
+      end subroutine mechanism_follow_pace
 
       !> Distance in time of differences along the motion that give rates.
       pure module real(wp) function time_of_difference(self, t)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self     !! the system
+         class(mechanism_t), intent(in) :: self     !! the system
          real(wp), intent(in) :: t                      !! time [s]
       end function time_of_difference
 
       !> Event functions: penetrations of free contacts, their negatives of touching ones.
-      module subroutine planar_events(self, t, y, g, rate)
+      module subroutine mechanism_events(self, t, y, g, rate)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
          real(wp), intent(out) :: g(:), rate(:)         !! (n_event) event functions and their rates [m, m/s]
-      end subroutine planar_events
+      end subroutine mechanism_events
 
       !> The same at the present motion.
-      module subroutine planar_last_events(self, t, y, g, rate)
+      module subroutine mechanism_last_events(self, t, y, g, rate)
          implicit none (type, external)
-         class(planar_system_t), intent(inout) :: self  !! the system
+         class(mechanism_t), intent(inout) :: self  !! the system
          real(wp), intent(in) :: t, y(:)                !! time of the last evaluation [s] and (n) its state [any]
          real(wp), intent(out) :: g(:), rate(:)         !! (n_event) event functions and their rates [m, m/s]
-      end subroutine planar_last_events
+      end subroutine mechanism_last_events
 
       !> Round-off of the event functions of contacts and turns at the present motion.
-      module subroutine planar_event_noise(self, noise)
+      module subroutine mechanism_event_noise(self, noise)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self  !! the system
+         class(mechanism_t), intent(in) :: self  !! the system
          real(wp), intent(out) :: noise(:)           !! (n_event) bounds; zero of friction, which has no positions [m or m/s]
-      end subroutine planar_event_noise
+      end subroutine mechanism_event_noise
 
       !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.
-      module subroutine planar_find_contact(self, number, slot, contact)
+      module subroutine mechanism_find_contact(self, number, slot, contact)
          implicit none (type, external)
-         class(planar_system_t), intent(in) :: self  !! the system
+         class(mechanism_t), intent(in) :: self  !! the system
          integer, intent(in) :: number               !! event function: a block in the order of the sets for each kind
          integer, intent(out) :: slot, contact       !! its set, and its number there
-      end subroutine planar_find_contact
+      end subroutine mechanism_find_contact
 
    end interface
 
 contains
 
    !> Right-hand side. Status 1: singular or not a number, try a smaller step.
-   subroutine planar_evaluate(self, t, y, ydot, status)
-      class(planar_system_t), intent(inout) :: self  !! the system
+   subroutine mechanism_evaluate(self, t, y, ydot, status)
+      class(mechanism_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(self%n)              !! (n) state [any]
       real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
@@ -307,44 +307,44 @@ contains
       end associate
       if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
       if (self%with_ledger) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
-   end subroutine planar_evaluate
+   end subroutine mechanism_evaluate
 
    !> Take a way of holding the constraints. The coordinates are counted.
-   subroutine planar_take_way(self, way)
-      class(planar_system_t), intent(inout) :: self            !! the system
+   subroutine mechanism_take_way(self, way)
+      class(mechanism_t), intent(inout) :: self            !! the system
       class(hold_t), allocatable, intent(inout) :: way         !! the way, configured; gone afterwards
 
       call move_alloc(way, self%way)
       self%holds = self%way%at_steps
       self%follows_step = self%way%follows_step
       allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
-   end subroutine planar_take_way
+   end subroutine mechanism_take_way
 
    !> The length of the step that begins, for gains that follow it.
-   subroutine planar_set_step(self, h)
-      class(planar_system_t), intent(inout) :: self  !! the system
+   subroutine mechanism_set_step(self, h)
+      class(mechanism_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: h                      !! length of the step [s]
 
       if (h < huge(1.0_wp)) self%grips%h = h
       call self%way%begin_step(self%linkage, h)
-   end subroutine planar_set_step
+   end subroutine mechanism_set_step
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
    subroutine evaluate_terms(self, t, status)
-      class(planar_system_t), intent(inout) :: self  !! the system, its motion set
+      class(mechanism_t), intent(inout) :: self  !! the system, its motion set
       real(wp), intent(in) :: t                      !! time, in the smooth stretch [s]
       integer, intent(out) :: status                 !! outcome
 
       self%linkage%solution%bad_row = 0
       status = merge(0, 1, self%linkage%reduced%known%is_finite)
       if (status /= 0) return
-      call planar_evaluate_loads(self, t)
+      call mechanism_evaluate_loads(self, t)
       if (self%linkage%rows%n_solve > 0) call self%linkage%evaluate_rows(t)
    end subroutine evaluate_terms
 
    !> Loads of gravity, force elements and touching contacts at the present motion.
-   subroutine planar_evaluate_loads(self, t)
-      class(planar_system_t), intent(inout) :: self  !! the system, its motion set
+   subroutine mechanism_evaluate_loads(self, t)
+      class(mechanism_t), intent(inout) :: self  !! the system, its motion set
       real(wp), intent(in) :: t                      !! time [s]
 
       real(wp) :: inside
@@ -362,14 +362,14 @@ contains
          end do
          call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
       end associate
-   end subroutine planar_evaluate_loads
+   end subroutine mechanism_evaluate_loads
 
    !> Multipliers of the last evaluation.
-   subroutine planar_multipliers(self, lambda)
-      class(planar_system_t), intent(in) :: self     !! the system
+   subroutine mechanism_multipliers(self, lambda)
+      class(mechanism_t), intent(in) :: self     !! the system
       real(wp), intent(out) :: lambda(:)             !! (m) multipliers [N or N.m]
 
       lambda = self%linkage%solution%lambda(:size(lambda))
-   end subroutine planar_multipliers
+   end subroutine mechanism_multipliers
 
-end module planar_system
+end module mechanism

@@ -1,25 +1,25 @@
 !> Properties of the equations as a system of differential equations: stabilisation, turns, error scales.
-module test_planar_system
+module test_mechanism
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use floors, only: idle_part
    use kinds, only: two_pi, wp
-   use planar_system, only: planar_system_t
+   use mechanism, only: mechanism_t
    use scene_fixture, only: nl, slider_crank, start_text, system_of_text
    use text, only: replace
    implicit none (type, external)
    private
-   public :: run_test_planar_system
+   public :: run_test_mechanism
 
 contains
 
-   subroutine run_test_planar_system(suite)
+   subroutine run_test_mechanism(suite)
       type(suite_t), intent(inout) :: suite  !! where tests are registered
 
       call suite%test("stabilised_right_side", test_stabilised_right_side)
       call suite%test("whole_turns", test_whole_turns)
       call suite%test("error_scales", test_error_scales)
-   end subroutine run_test_planar_system
+   end subroutine run_test_mechanism
 
    !> Baumgarte: Phi'' = -2 alpha Phi' - beta^2 Phi at a state that violates the constraints; none: Phi'' = 0.
    subroutine test_stabilised_right_side(error)
@@ -38,7 +38,7 @@ contains
          real(wp), intent(in) :: alpha        !! gain on the rate [1/s]
          real(wp), intent(in) :: beta         !! gain on the violation [1/s]
 
-         type(planar_system_t) :: system
+         type(mechanism_t) :: system
          real(wp), allocatable :: y(:), ydot(:)
          integer :: status
 
@@ -62,7 +62,7 @@ contains
    subroutine test_whole_turns(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: turned(:), y(:), ydot(:), ydot_turned(:)
       integer :: status
 
@@ -86,7 +86,7 @@ contains
    subroutine test_error_scales(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(planar_system_t) :: system
+      type(mechanism_t) :: system
       real(wp), allocatable :: scale(:), scale_turned(:), y(:)
       integer :: k
 
@@ -126,7 +126,7 @@ contains
          real(wp), intent(in) :: expected     !! size of the bodies [m]
          logical, intent(in) :: falls         !! whether it has a weight
 
-         type(planar_system_t) :: stone
+         type(mechanism_t) :: stone
 
          if (allocated(error)) return
          call system_of_text("[scene]"//nl//"gravity = 0 "//trim(merge("-9.81", "0    ", falls))//" m/s^2"//nl// &
@@ -143,4 +143,4 @@ contains
 
    end subroutine test_error_scales
 
-end module test_planar_system
+end module test_mechanism

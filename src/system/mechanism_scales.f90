@@ -5,7 +5,7 @@
 !> that small and slow mechanisms are computed as large and fast ones are. The pace begins with the greatest of: the rate at the
 !> start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start lead; one millionth of 1/end, so that what
 !> never moves has one too. Where a load jumps, the accelerations lead anew.
-submodule(planar_system) planar_scales
+submodule(mechanism) mechanism_scales
    use coordinates, only: most_rates
    use floors, only: idle_part, late, remembered, shortest_difference
    implicit none (type, external)
@@ -22,7 +22,7 @@ contains
    !> all scales are a tenth: what an impact gives back is the difference of two large energies, and
    !> its dozen steps add up. Then no rate is asked for that round-off does not allow: a contact that swings with w makes speeds
    !> of w times what a length as the mechanism's size is rounded by.
-   module procedure planar_weights
+   module procedure mechanism_weights
       real(wp), parameter :: touching = 0.1_wp  ! scales during contact [1]
       real(wp) :: rate, swing
       integer :: i, k, n
@@ -56,11 +56,11 @@ contains
          scale(:nq) = touching*scale(:nq)
          scale(nq + 1:nq + n) = touching*rate*scale(nq + 1:nq + n)
       end associate
-   end procedure planar_weights
+   end procedure mechanism_weights
 
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
-      class(planar_system_t), intent(in) :: self  !! the system
+      class(mechanism_t), intent(in) :: self  !! the system
       real(wp), intent(in), contiguous :: y(:)    !! (n) state [any]
 
       integer :: k
@@ -80,14 +80,14 @@ contains
    end function rate_of
 
    !> Raise the pace to that of a state.
-   module procedure planar_follow_pace
+   module procedure mechanism_follow_pace
       self%linkage%scales%pace = max(self%linkage%scales%pace, rate_of(self, y))
       if (present(jump)) self%linkage%scales%pace = max(self%linkage%scales%pace, rate_to_come(self, jump))
-   end procedure planar_follow_pace
+   end procedure mechanism_follow_pace
 
    !> The rate to which accelerations lead, sqrt(|a|/L) and sqrt(|alpha|); of bodies whose motion is known they are not looked at.
    pure real(wp) function rate_to_come(self, ydot) result(rate)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       real(wp), intent(in), contiguous :: ydot(:)  !! (n) derivative of a state, or what it jumps by [any]
 
       integer :: k
@@ -103,7 +103,7 @@ contains
    end function rate_to_come
 
    !> The pace at the start.
-   module procedure planar_begin_pace
+   module procedure mechanism_begin_pace
       real(wp) :: acceleration(most_rates), delta(self%n_contact), rate(self%n_contact), ydot(size(y))
       integer(i8) :: n_evaluations, n_factorisations
       integer :: i, k, status
@@ -135,11 +135,11 @@ contains
             scales%pace = max(scales%pace, sqrt(coordinates%greatest_rate(1, acceleration, scales%length)))
          end do
       end associate
-   end procedure planar_begin_pace
+   end procedure mechanism_begin_pace
 
    !> Part of the step in hand, but more than time is rounded by.
    module procedure time_of_difference
       time_of_difference = max(part*self%grips%h, shortest_difference*epsilon(1.0_wp)*abs(t))
    end procedure time_of_difference
 
-end submodule planar_scales
+end submodule mechanism_scales

@@ -1,22 +1,22 @@
 !> The correction of states at the ends of steps, with its place in the ledger.
-submodule(planar_system) planar_holding
+submodule(mechanism) mechanism_holding
    use hold_projection, only: hold_projection_t
-   use planar_energy, only: mechanical_energy
+   use mechanism_energy, only: mechanical_energy
    implicit none (type, external)
 
 contains
 
    !> Correct a state at the end of a step.
-   module procedure planar_hold
+   module procedure mechanism_hold
       real(wp) :: before
 
       before = energy_before(self, t, y)
       call self%way%correct_step(self%linkage, t, y, status)
       if (status == 0) call book(self, before, y)
-   end procedure planar_hold
+   end procedure mechanism_hold
 
    !> Project a state that was made by interpolation, in whatever way the constraints are held.
-   module procedure planar_mend
+   module procedure mechanism_mend
       type(hold_projection_t) :: projection
       real(wp) :: before
 
@@ -25,11 +25,11 @@ contains
       before = energy_before(self, t, y)
       call projection%correct_step(self%linkage, t, y, status)
       if (status == 0) call book(self, before, y)
-   end procedure planar_mend
+   end procedure mechanism_mend
 
    !> Mechanical energy of a state that is to be corrected; nothing without a ledger. The motion is set.
    real(wp) function energy_before(self, t, y) result(before)
-      class(planar_system_t), intent(inout) :: self     !! the system
+      class(mechanism_t), intent(inout) :: self     !! the system
       real(wp), intent(in) :: t                         !! time [s]
       real(wp), intent(in) :: y(:)                      !! (n) state [any]
 
@@ -40,7 +40,7 @@ contains
 
    !> What a correction did to the energy is work of the stabilisation.
    subroutine book(self, before, y)
-      class(planar_system_t), intent(inout) :: self     !! the system, its motion that of the corrected state
+      class(mechanism_t), intent(inout) :: self     !! the system, its motion that of the corrected state
       real(wp), intent(in) :: before                    !! energy before the correction [J]
       real(wp), intent(inout) :: y(:)                   !! (n) state [any]
 
@@ -51,4 +51,4 @@ contains
       y(z) = y(z) + (mechanical_energy(self) - before)
    end subroutine book
 
-end submodule planar_holding
+end submodule mechanism_holding

@@ -6,7 +6,7 @@
 !>
 !> with G their tangential rows (`contact_grip`), a_0 the accelerations without these forces and K the augmented matrix: one
 !> solution of the augmented equations for each of them and one with all loads. kappa, a multiple of the mechanism's pace
-!> (`planar_scales`), keeps the sliding velocity at round-off.
+!> (`mechanism_scales`), keeps the sliding velocity at round-off.
 !> Where contacts share a load, as two corners of one block do, each takes the same part of what it can hold.
 !>
 !> Sliding that drivers prescribe no force can keep back: such a contact sticks only while it is at rest, where friction is any
@@ -14,7 +14,7 @@
 !>
 !> Source: Flores et al. (2008), eqs. (3.13), (3.14); F. Pfeiffer and C. Glocker, Multibody Dynamics with Unilateral Contacts
 !> (1996), section 5.3. Limits: contacts change one after another, each for the others as they are.
-submodule(planar_system) planar_friction
+submodule(mechanism) mechanism_friction
    use clearance_set, only: loss_friction
    use contact_grip, only: sticks
    use coordinates, only: most_rates
@@ -26,7 +26,7 @@ submodule(planar_system) planar_friction
 contains
 
    !> Forces of the contacts that stick, and the accelerations with them.
-   module procedure planar_stick
+   module procedure mechanism_stick
       integer :: c, d, k, m
 
       status = 0
@@ -79,11 +79,11 @@ contains
          end do
       end associate
       call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
-   end procedure planar_stick
+   end procedure mechanism_stick
 
    !> Part of the rate of the sliding velocity of a contact on the list that comes from the accelerations.
    pure real(wp) function sliding_acceleration(self, c, with_known) result(a)
-      class(planar_system_t), intent(in) :: self   !! the system, accelerations found
+      class(mechanism_t), intent(in) :: self   !! the system, accelerations found
       integer, intent(in) :: c                     !! place on the list of contacts that stick
       logical, intent(in) :: with_known            !! with those of bodies whose motion is known
 
@@ -92,7 +92,7 @@ contains
 
    !> The same for any contact.
    pure real(wp) function tangential(self, slot, k, with_known) result(a)
-      class(planar_system_t), intent(in) :: self   !! the system, accelerations found
+      class(mechanism_t), intent(in) :: self   !! the system, accelerations found
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: k                     !! contact of the set
       logical, intent(in) :: with_known            !! with those of bodies whose motion is known
@@ -118,7 +118,7 @@ contains
 
    !> What a unit force would do to the sliding acceleration of a contact on the list if the bodies were free.
    pure real(wp) function mobility_of(self, c) result(mobility)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: c                     !! place on the list of contacts that stick
 
       real(wp) :: row(most_rates)
@@ -138,7 +138,7 @@ contains
 
    !> Add the pair of tangential forces of a contact on the list to loads on the rates.
    pure subroutine add_pair(self, c, force, g)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self       !! the system
       integer, intent(in) :: c                     !! place on the list of contacts that stick
       real(wp), intent(in) :: force                !! on body j along t [N]
       real(wp), intent(inout) :: g(:, 0:)          !! (n_v, 0:bodies) loads [N or N.m]
@@ -159,7 +159,7 @@ contains
 
    !> What the rates of one of its bodies add to the sliding velocity of a contact, of j relative to i.
    pure subroutine sliding_row(self, slot, k, side, row)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: k                     !! contact of the set
       integer, intent(in) :: side                  !! 1: body i, 2: body j
@@ -176,7 +176,7 @@ contains
    end subroutine sliding_row
 
    !> Deflections of bristles from a state into the contacts.
-   module procedure planar_take_bristles
+   module procedure mechanism_take_bristles
       integer :: k, place
 
       do k = 1, size(self%clearances)
@@ -186,10 +186,10 @@ contains
             set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
          end associate
       end do
-   end procedure planar_take_bristles
+   end procedure mechanism_take_bristles
 
    !> Rates of these deflections; a contact that is free keeps its deflection.
-   module procedure planar_bristle_rates
+   module procedure mechanism_bristle_rates
       integer :: k, place
 
       do k = 1, size(self%clearances)
@@ -199,10 +199,10 @@ contains
             ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
          end associate
       end do
-   end procedure planar_bristle_rates
+   end procedure mechanism_bristle_rates
 
    !> Their scales: the greatest deflections that last.
-   module procedure planar_bristle_weights
+   module procedure mechanism_bristle_weights
       integer :: k, place
 
       do k = 1, size(self%clearances)
@@ -212,6 +212,6 @@ contains
             scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
          end associate
       end do
-   end procedure planar_bristle_weights
+   end procedure mechanism_bristle_weights
 
-end submodule planar_friction
+end submodule mechanism_friction

@@ -1,6 +1,6 @@
-!> Where the residual of `planar_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
+!> Where the residual of `mechanism_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
 !> contacts with. All bodies have all their coordinates, as many as rates, and contacts no states of their own.
-submodule(planar_system) planar_pattern
+submodule(mechanism) mechanism_pattern
    implicit none (type, external)
 
    !> Neighbours of bodies, of each those of a list.
@@ -13,7 +13,7 @@ submodule(planar_system) planar_pattern
 contains
 
    !> Column by column: coordinates, rates, quadratures, both sets of multipliers.
-   module procedure planar_dae_pattern
+   module procedure mechanism_dae_pattern
       type(couplings_t) :: near
       integer :: body, first, i, k, level, m, n, n_entry, n_v, pass, place(0:self%linkage%bodies%n)
 
@@ -82,10 +82,10 @@ contains
          end do
       end subroutine add_body
 
-   end procedure planar_dae_pattern
+   end procedure mechanism_dae_pattern
 
    !> M^{-1} Phi_q^T, row by row, the first body of each before the second.
-   module procedure planar_dae_spread
+   module procedure mechanism_dae_spread
       integer :: body, i, k, n
 
       n = 0
@@ -100,11 +100,11 @@ contains
             end do
          end do
       end associate
-   end procedure planar_dae_spread
+   end procedure mechanism_dae_spread
 
    !> Which bodies depend on which: pairs that joints, forces and contacts name, each in both directions and once.
    subroutine find_couplings(self, place, near)
-      class(planar_system_t), intent(in) :: self   !! the system
+      class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: place(0:)             !! (0:bodies) number of each among the unknown ones, 0: none
       type(couplings_t), intent(out) :: near       !! the neighbours
 
@@ -187,4 +187,4 @@ contains
 
    end subroutine find_couplings
 
-end submodule planar_pattern
+end submodule mechanism_pattern

@@ -2,14 +2,14 @@
 !>
 !> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
 !> Limits: coordinates whose derivatives are the rates.
-submodule(planar_system) planar_dae
-   use rows, only: rows_t
+submodule(mechanism) mechanism_dae
+   use rows, only: place_in_row, rows_t
    implicit none (type, external)
 
 contains
 
    !> What is left of the equations.
-   module procedure planar_dae_residual
+   module procedure mechanism_dae_residual
       integer :: m, n, n_state
 
       n = self%linkage%n_position
@@ -41,7 +41,7 @@ contains
          r_mu = rows%phi(:m)
       end associate
       if (.not. all(ieee_is_finite(r_y(:n_state)))) status = 1
-   end procedure planar_dae_residual
+   end procedure mechanism_dae_residual
 
    !> M^{-1} Phi_q^T x.
    pure subroutine spread_rows(rows, m, inverse_mass, x, z)
@@ -56,7 +56,7 @@ contains
       z = 0.0_wp
       do k = 1, rows%n_side
          row = rows%side(1, k)
-         place = rows%side(2, k) - size(rows%jac, 1)*(row - 1)
+         place = place_in_row(rows%n_v, row, rows%side(2, k))
          body = rows%side(3, k)
          z(:, body) = z(:, body) + rows%jac(place + 1:place + size(z, 1), row)*x(row)
       end do
@@ -101,4 +101,4 @@ contains
       end do
    end subroutine add_positions
 
-end submodule planar_dae
+end submodule mechanism_dae

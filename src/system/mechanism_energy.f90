@@ -3,10 +3,10 @@
 !> residual = E - E_0 - (drive + load + stabilisation work) + (lost in contacts, by friction and in dampers),
 !> E = kinetic + potential + elastic. It is zero but for the error of the integration: an error
 !> measure that needs no reference solution.
-module planar_energy
+module mechanism_energy
    use cut_off, only: lost_by_damping
    use kinds, only: wp
-   use planar_system, only: lost_damper, n_ledger, planar_system_t, work_drive, work_load, work_stabilisation
+   use mechanism, only: lost_damper, n_ledger, mechanism_t, work_drive, work_load, work_stabilisation
    implicit none (type, external)
    private
    public :: energy_t, energy_of, mechanical_energy
@@ -56,7 +56,7 @@ contains
 
    !> Mechanical energy of the present motion.
    real(wp) function mechanical_energy(system) result(total)
-      class(planar_system_t), intent(in) :: system     !! the system, its motion set
+      class(mechanism_t), intent(in) :: system     !! the system, its motion set
 
       type(energy_t) :: energy
 
@@ -66,7 +66,7 @@ contains
 
    !> Kinetic, potential and elastic energy of the present motion.
    subroutine add_mechanical(system, energy)
-      class(planar_system_t), intent(in) :: system     !! the system, its motion set
+      class(mechanism_t), intent(in) :: system     !! the system, its motion set
       type(energy_t), intent(inout) :: energy          !! energies
 
       integer :: k
@@ -88,7 +88,7 @@ contains
 
    !> Energies at a state. Works without a ledger too; then the work terms are zero.
    function energy_of(system, y) result(energy)
-      class(planar_system_t), intent(in) :: system     !! the system; its motion must be that of the state
+      class(mechanism_t), intent(in) :: system     !! the system; its motion must be that of the state
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       type(energy_t) :: energy                         !! energies
 
@@ -114,7 +114,7 @@ contains
 
    !> Whether any contact is touching.
    pure logical function any_touching(system)
-      class(planar_system_t), intent(in) :: system  !! the system
+      class(mechanism_t), intent(in) :: system  !! the system
 
       integer :: k
 
@@ -124,4 +124,4 @@ contains
       end do
    end function any_touching
 
-end module planar_energy
+end module mechanism_energy
