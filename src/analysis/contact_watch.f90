@@ -317,6 +317,7 @@ contains
       integer :: i, k
 
       is_open = .false.
+      if (.not. allocated(method%step%y1)) return  ! the run did not begin
       call system%linkage%set_motion(method%t, method%step%y1)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)

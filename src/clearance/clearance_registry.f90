@@ -1,5 +1,6 @@
 !> The geometries of joints with clearance: two lines each (`use`, `case`).
 module clearance_registry
+   use clearance_discs, only: clearance_discs_t
    use clearance_plane, only: clearance_plane_t
    use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: clearance_set_t
@@ -8,7 +9,7 @@ module clearance_registry
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 3  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 4  !! number of geometries
 
 contains
 
@@ -21,6 +22,7 @@ contains
       case (1); allocate (clearance_revolute_t :: set)
       case (2); allocate (clearance_plane_t :: set)
       case (3); allocate (clearance_translational_t :: set)
+      case (4); allocate (clearance_discs_t :: set)
       end select
    end subroutine new_clearance_set
 

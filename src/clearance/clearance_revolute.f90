@@ -6,7 +6,8 @@
 !>
 !> Signs: the reported force is that on the journal, world frame; the friction force is its
 !> component along t; the eccentricity is the journal's centre from the bearing's, world frame.
-!> With e = 0 the normal is taken along e' and delta = -c.
+!> With e = 0 the normal is taken along e' and delta = -c. Beside a disc (`clearance_discs`) |e|, n, c and the disc's radius have
+!> the other sign, and all of this holds as it stands.
 !>
 !> Source: Flores et al. (2008), section 4.2, corrected: the book differentiates the geometric
 !> contact point, (4.7) and (4.9), so that a spinning journal does not slide, and lets f_i act at
@@ -26,7 +27,7 @@ module clearance_revolute
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: clearance_revolute_t, contact_t, measure, measure_sliding
+   public :: clearance_revolute_t, contact_t, journal_t, measure, measure_sliding
 
    integer, parameter :: column_radius = 3            !! column of bearing_radius
    integer, parameter :: column_clearance = 4         !! column of clearance
@@ -37,8 +38,10 @@ module clearance_revolute
 
    !> The surfaces of one joint.
    type :: journal_t
-      real(wp) :: radius_i = 0.0_wp         !! radius of the bearing [m]
+      real(wp) :: radius_i = 0.0_wp         !! radius of the bearing; negative: a disc that the journal touches from outside [m]
       real(wp) :: radius_j = 0.0_wp         !! radius of the journal [m]
+      real(wp) :: clearance = 0.0_wp        !! radius_i less radius_j [m]
+      real(wp) :: side = 1.0_wp             !! 1: the journal is in a hole; -1: beside a disc, distance and normal reversed [1]
       real(wp) :: share = 0.5_wp            !! part of the penetration from a surface to where the forces act [1]
       logical :: is_book = .false.          !! formulas as the book prints them
    end type journal_t
@@ -46,7 +49,8 @@ module clearance_revolute
    !> Kinematics of one contact.
    type :: contact_t
       real(wp) :: e(2) = 0.0_wp             !! (2) eccentricity, world frame [m]
-      real(wp) :: normal(2) = 0.0_wp        !! (2) unit vector from bearing to journal [1]
+      real(wp) :: normal(2) = 0.0_wp        !! (2) unit vector from bearing to journal, reversed beside a disc [1]
+      real(wp) :: distance = 0.0_wp         !! of the centres, negative beside a disc [m]
       real(wp) :: delta = 0.0_wp            !! penetration [m]
       real(wp) :: rate = 0.0_wp             !! penetration rate [m/s]
       real(wp) :: v_t = 0.0_wp              !! sliding velocity of the journal along t, for the friction law [m/s]
@@ -73,6 +77,7 @@ module clearance_revolute
       procedure, nopass :: info => revolute_info
       procedure, nopass :: ideal_kind => revolute_ideal_kind
       procedure :: prepare => revolute_prepare
+      procedure :: make_room => revolute_make_room
       procedure, nopass :: mistake => revolute_mistake
       procedure, nopass :: describe => revolute_describe
       procedure :: evaluate => revolute_evaluate
@@ -182,19 +187,27 @@ contains
       integer :: k
 
       self%is_round = .true.
-      allocate (self%journal(self%n), self%kinematics(self%n))
-      allocate (self%delta(self%n), self%rate(self%n), self%impact_speed(self%n), self%speed(self%n), self%f_n(self%n), &
-                self%f_elastic(self%n), self%df_ddelta(self%n), self%df_drate(self%n), self%f_t(self%n), source=0.0_wp)
+      call self%make_room()
       do k = 1, self%n
          associate (values => items(k)%values, journal => self%journal(k))
             self%clearance(k) = values(column_clearance)%number
             journal%radius_i = values(column_radius)%number
             journal%radius_j = journal%radius_i - self%clearance(k)
+            journal%clearance = self%clearance(k)
             journal%is_book = values(column_form)%text == "book"
             if (journal%is_book) journal%share = 0.0_wp
          end associate
       end do
    end subroutine revolute_prepare
+
+   !> Room for surfaces and the scratch of an evaluation.
+   subroutine revolute_make_room(self)
+      class(clearance_revolute_t), intent(inout) :: self  !! the set
+
+      allocate (self%journal(self%n), self%kinematics(self%n))
+      allocate (self%delta(self%n), self%rate(self%n), self%impact_speed(self%n), self%speed(self%n), self%f_n(self%n), &
+                self%f_elastic(self%n), self%df_ddelta(self%n), self%df_drate(self%n), self%f_t(self%n), source=0.0_wp)
+   end subroutine revolute_make_room
 
    !> A pin in a hole.
    pure subroutine revolute_describe(item, materials, pair)
@@ -239,16 +252,15 @@ contains
       type(motion_t), intent(in) :: motion             !! positions and velocities
       type(contact_t), intent(inout) :: contact        !! kinematics; v_t is left alone
 
-      call measure_journal(self%body(:, k), self%s_i(:, k), self%s_j(:, k), self%clearance(k), self%journal(k), &
+      call measure_journal(self%body(:, k), self%s_i(:, k), self%s_j(:, k), self%journal(k), &
                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, contact)
    end subroutine measure
 
    !> The same on plain arrays.
-   pure subroutine measure_journal(body, s_bearing, s_journal, clearance, journal, n_body, r, rot, v, omega, contact)
+   pure subroutine measure_journal(body, s_bearing, s_journal, journal, n_body, r, rot, v, omega, contact)
       integer, intent(in) :: body(2)                 !! (2) bodies of bearing and journal
       real(wp), intent(in) :: s_bearing(3)           !! (3) centre of the bearing, frame of its body [m]
       real(wp), intent(in) :: s_journal(3)           !! (3) centre of the journal, frame of its body [m]
-      real(wp), intent(in) :: clearance              !! radial clearance [m]
       type(journal_t), intent(in) :: journal         !! the surfaces
       integer, intent(in) :: n_body                  !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)         !! (3, 0:bodies) centres of mass [m]
@@ -270,8 +282,8 @@ contains
       e(2) = r(2, j) + s_j(2) - r(2, i) - s_i(2)
       e_dot(1) = v(1, j) - omega(3, j)*s_j(2) - v(1, i) + omega(3, i)*s_i(2)
       e_dot(2) = v(2, j) + omega(3, j)*s_j(1) - v(2, i) - omega(3, i)*s_i(1)
-      distance = sqrt(e(1)**2 + e(2)**2)
-      if (distance > tiny(1.0_wp)) then
+      distance = journal%side*sqrt(e(1)**2 + e(2)**2)
+      if (abs(distance) > tiny(1.0_wp)) then
          normal(1) = e(1)/distance
          normal(2) = e(2)/distance
       else
@@ -283,7 +295,8 @@ contains
       contact%e(2) = e(2)
       contact%normal(1) = normal(1)
       contact%normal(2) = normal(2)
-      contact%delta = distance - clearance
+      contact%distance = distance
+      contact%delta = distance - journal%clearance
       contact%rate = e_dot(1)*normal(1) + e_dot(2)*normal(2)
       contact%arm_i(1) = s_i(1) + (journal%radius_i + journal%share*contact%delta)*normal(1)
       contact%arm_i(2) = s_i(2) + (journal%radius_i + journal%share*contact%delta)*normal(2)
@@ -292,14 +305,13 @@ contains
    end subroutine measure_journal
 
    !> Kinematics of the touching items; at the others the law is to find no penetration.
-   pure subroutine measure_touching(n, memory, body, s_i, s_j, clearance, journal, n_body, r, rot, v, omega, contact, delta, &
+   pure subroutine measure_touching(n, memory, body, s_i, s_j, journal, n_body, r, rot, v, omega, contact, delta, &
                                     rate, impact_speed, losses)
       integer, intent(in) :: n                         !! number of items
       type(contact_memory_t), intent(in) :: memory(n)  !! (n) state of the contacts
       integer, intent(in) :: body(2, n)                !! (2, n) bodies of bearing and journal
       real(wp), intent(in) :: s_i(3, n)                !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), intent(in) :: s_j(3, n)                !! (3, n) centre of the journal, frame of its body [m]
-      real(wp), intent(in) :: clearance(n)             !! (n) radial clearance [m]
       type(journal_t), intent(in) :: journal(n)        !! (n) the surfaces
       integer, intent(in) :: n_body                    !! number of bodies
       real(wp), intent(in) :: r(3, 0:n_body)           !! (3, 0:bodies) centres of mass [m]
@@ -323,7 +335,7 @@ contains
             impact_speed(k) = 1.0_wp
             cycle
          end if
-         call measure_journal(body(:, k), s_i(:, k), s_j(:, k), clearance(k), journal(k), n_body, r, rot, v, omega, contact(k))
+         call measure_journal(body(:, k), s_i(:, k), s_j(:, k), journal(k), n_body, r, rot, v, omega, contact(k))
          delta(k) = contact(k)%delta
          rate(k) = contact(k)%rate
          impact_speed(k) = memory(k)%impact_speed
@@ -383,7 +395,7 @@ contains
       if (self%journal(k)%is_book) then
          ! of the geometric contact points: delta times the rate of the normal's direction
          contact%v_t = contact%v_t_work - self%journal(k)%radius_j*motion%omega(3, j) + self%journal(k)%radius_i*motion%omega(3, i)
-         contact%v_t = contact%v_t*contact%delta/max(contact%delta + self%clearance(k), tiny(1.0_wp))
+         contact%v_t = contact%v_t*contact%delta/max(contact%distance, tiny(1.0_wp))
       end if
    end subroutine measure_sliding
 
@@ -401,7 +413,7 @@ contains
          return
       end if
       n_body = ubound(motion%angle, 1)
-      call measure_touching(self%n, self%contact, self%body, self%s_i, self%s_j, self%clearance, self%journal, n_body, motion%r, &
+      call measure_touching(self%n, self%contact, self%body, self%s_i, self%s_j, self%journal, n_body, motion%r, &
                             motion%rot, motion%v, motion%omega, self%kinematics, self%delta, self%rate, self%impact_speed, &
                             losses(:, self%first_contact + 1:))
       call self%press(1, self%n, self%delta, self%rate, self%impact_speed, self%f_n, self%df_ddelta, self%df_drate, self%f_elastic)

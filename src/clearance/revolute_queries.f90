@@ -24,8 +24,8 @@ contains
       call find_centres(self, k, motion, s_i, s_j)
       p_i = motion%omega(3, i)*[-s_i(2), s_i(1)]  ! of the centres, from those of mass
       p_j = motion%omega(3, j)*[-s_j(2), s_j(1)]
-      turn = dot_product(motion%v(1:2, j) + p_j - motion%v(1:2, i) - p_i, tangent%t)/max(contact%delta + self%clearance(k), &
-                                                                                          tiny(1.0_wp))
+      turn = dot_product(motion%v(1:2, j) + p_j - motion%v(1:2, i) - p_i, tangent%t) &
+             /(self%journal(k)%side*max(abs(contact%distance), tiny(1.0_wp)))
       tangent%drift = -turn*contact%rate + motion%omega(3, j)*(dot_product(contact%normal, p_j) - longer) &
                       - motion%omega(3, i)*(dot_product(contact%normal, p_i) + longer)
    end procedure revolute_lie
@@ -61,7 +61,7 @@ contains
                      + motion%alpha(3, j)*[-arm_j(2), arm_j(1)] - motion%omega(3, j)**2*arm_j &
                      - motion%alpha(3, i)*[-arm_i(2), arm_i(1)] + motion%omega(3, i)**2*arm_i
       force_rate = df_ddelta*rate + df_drate*(contact%normal(1)*acceleration(1) + contact%normal(2)*acceleration(2) &
-                   + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/max(delta + self%clearance(k), tiny(1.0_wp)))
+                   + (e_dot(1)**2 + e_dot(2)**2 - rate**2)/(self%journal(k)%side*max(abs(contact%distance), tiny(1.0_wp))))
    end procedure revolute_watch
 
    !> Values of a channel for all items.

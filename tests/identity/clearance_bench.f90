@@ -159,6 +159,8 @@ contains
          call set_number(info, "bearing_radius", hole, items(k))
          call set_number(info, "clearance", gap, items(k))
          call set_number(info, "radius", hole, items(k))
+         call set_number(info, "radius_i", hole, items(k))
+         call set_number(info, "radius_j", 0.5_wp*hole, items(k))
          call set_number(info, "length", 50.0e-3_wp, items(k))
          call set_number(info, "height", 40.0e-3_wp, items(k))
          call set_number(info, "width", 30.0e-3_wp, items(k))

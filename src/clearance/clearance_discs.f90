@@ -1,0 +1,115 @@
+!> Two discs or balls that touch from outside: rollers, billiard balls, the stop on a pin.
+!>
+!> delta = R_i + R_j - |e|,  e = r_j^P - r_i^P,  n = -e / |e|: that of a pin in a hole of radius -R_i, see
+!> `clearance_revolute`, which has forces, sliding velocities and rates.
+!>
+!> Signs: the reported force is that on the second disc, world frame; the friction force is its component along t = R90 n.
+!> Source: Flores et al. (2008), sections 3.1 and 4.2; (3.3) for the stiffness of two balls. Limits: stiffness of the balls of these
+!> radii, also for discs, unless a law says otherwise; centres that coincide have no normal.
+module clearance_discs
+   use bodies, only: material_t
+   use clearance_revolute, only: clearance_revolute_t
+   use item, only: item_t
+   use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
+   use kinds, only: wp
+   use surfaces, only: set_materials, shape_external, surfaces_t
+   implicit none (type, external)
+   private
+   public :: clearance_discs_t
+
+   integer, parameter :: column_radius_i = 3      !! column of radius_i
+   integer, parameter :: column_radius_j = 4      !! column of radius_j
+   integer, parameter :: column_material = 5      !! column of material
+   integer, parameter :: column_material_j = 6    !! column of material_j
+
+   !> Pairs of discs.
+   type, extends(clearance_revolute_t) :: clearance_discs_t
+   contains
+      procedure, nopass :: info => discs_info
+      procedure, nopass :: ideal_kind => discs_ideal_kind
+      procedure :: prepare => discs_prepare
+      procedure, nopass :: mistake => discs_mistake
+      procedure, nopass :: describe => discs_describe
+   end type clearance_discs_t
+
+contains
+
+   !> What the geometry says of itself.
+   function discs_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "clearance.discs"
+      info%help = "two discs or balls that touch from outside; without an ideal twin, so that --ideal keeps their contact"
+      info%source = "Flores et al. (2008), sections 3.1 and 4.2"
+      call add_reference(info, "i", "points", "centre of the first disc")
+      call add_reference(info, "j", "points", "centre of the second disc")
+      call add_number(info, "radius_i", dim_length, "radius of the first disc", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "radius_j", dim_length, "radius of the second disc", lower=0.0_wp, open_lower=.true.)
+      call add_reference(info, "material", "material", "material of both discs")
+      call add_reference(info, "material_j", "material", "material of the second disc, if another", default="none")
+      call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
+      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second disc from that of the first")
+      call add_channel(info, "force", "N", "world", 2, "force on the second disc")
+      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
+      call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching")
+      call add_channel(info, "normal_force", "N", "none", 1, "normal contact force")
+      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the second disc along t = R90 n")
+      call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
+   end function discs_info
+
+   !> Nothing holds them together.
+   function discs_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! blank: no ideal joint
+
+      kind = ""
+   end function discs_ideal_kind
+
+   !> Radii of each item.
+   subroutine discs_prepare(self, items)
+      class(clearance_discs_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)             !! (n) rows of the table
+
+      integer :: k
+
+      call self%make_room()
+      do k = 1, self%n
+         associate (values => items(k)%values, journal => self%journal(k))
+            journal%side = -1.0_wp
+            journal%radius_i = -values(column_radius_i)%number
+            journal%radius_j = values(column_radius_j)%number
+            journal%clearance = journal%radius_i - journal%radius_j
+            self%clearance(k) = -journal%clearance
+         end associate
+      end do
+   end subroutine discs_prepare
+
+   !> Any row makes sense.
+   subroutine discs_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! 0: all is well
+      character(:), allocatable, intent(out) :: message      !! blank
+      character(:), allocatable, intent(out) :: help         !! blank
+
+      column = 0
+      message = repeat("", len(item%name))
+      help = ""
+   end subroutine discs_mistake
+
+   !> Two convex surfaces.
+   pure subroutine discs_describe(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      integer :: material_j
+
+      pair%shape = shape_external
+      pair%radius_i = item%values(column_radius_i)%number
+      pair%radius_j = item%values(column_radius_j)%number
+      material_j = item%values(column_material_j)%index
+      if (material_j == 0) material_j = item%values(column_material)%index
+      call set_materials(pair, materials(item%values(column_material)%index), materials(material_j))
+   end subroutine discs_describe
+
+end module clearance_discs
