@@ -7,6 +7,7 @@
 !>
 !> Source and limits: static_problem.
 module static
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use build_system, only: levels_ideal, new_system
    use catalogue, only: catalogue_t
    use columns, only: column_of
@@ -23,7 +24,8 @@ module static
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use scene, only: scene_t
    use static_kinsol, only: polish
-   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale, square_frequencies
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, &
+      square_frequencies
    use static_relaxation, only: least_unbalance, relax
    use text, only: append_text, real_text, to_text
    implicit none (type, external)
@@ -72,6 +74,9 @@ contains
       most = nint(scene%static%values(column_of(scene%static_kind, "maximum_iterations"))%number)
       call assemble_at_rest(scene, system, q, report, error)
       if (allocated(error)) return
+      call look_at(system, q)
+      call check_loads(system, error)
+      if (allocated(error)) return
       call relax(system, max(rough, equilibrium%tolerance), most, q, balance, equilibrium%steps, is_settled)
       if (is_settled) then
          call try_to_polish(system, q, balance, equilibrium)
@@ -91,6 +96,21 @@ contains
       call cpu_time(cpu_1)
       equilibrium%cpu_seconds = cpu_1 - cpu_0
    end subroutine find_equilibrium
+
+   !> Loads that are no finite numbers have no equilibrium.
+   subroutine check_loads(system, error)
+      class(mechanism_t), intent(in) :: system              !! the system, loads evaluated
+      type(error_t), allocatable, intent(out) :: error      !! names the body
+
+      integer :: k
+
+      do k = 1, system%linkage%bodies%n
+         if (all(ieee_is_finite(system%loading%g(:, k)))) cycle
+         call set_error(error, exit_assembly, "no static equilibrium can be found: the load on '"// &
+                        system%linkage%bodies%names(k)%s//"' is not a finite number at t = 0")
+         return
+      end do
+   end subroutine check_loads
 
    !> Positions to begin with.
    subroutine assemble_at_rest(scene, system, q, report, error)

@@ -259,3 +259,13 @@ def test_figures_are_left_out(gudgeon):
     result = run(gudgeon, text)
     assert any("figures left out" in warning for warning in result.summary["warnings"])
     assert not (result.directory / "figures").exists()
+
+
+@pytest.mark.parametrize("build", ["release", "debug"])
+def test_load_that_is_no_number(gudgeon, gudgeon_debug, build):
+    """A load without a value at t = 0 has no equilibrium: the body is named at once, in both builds, without words of LAPACK."""
+    text = (ROOT / "inputs/hanging_chain.deck").read_text().replace("(t - 0.5s)/1s", "(t - 0.5s)/0.0s")
+    program = gudgeon if build == "release" else gudgeon_debug
+    done = call(program, "check", written(scratch(), text), expect=4)
+    assert "the load on 'l4' is not a finite number at t = 0" in done.stderr
+    assert "DLASCL" not in done.stdout + done.stderr
