@@ -9,6 +9,7 @@
 module clearance_discs
    use bodies, only: material_t
    use clearance_revolute, only: clearance_revolute_t
+   use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
    use kinds, only: wp
@@ -26,9 +27,9 @@ module clearance_discs
    type, extends(clearance_revolute_t) :: clearance_discs_t
    contains
       procedure, nopass :: info => discs_info
-      procedure, nopass :: ideal_kind => discs_ideal_kind
+      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => discs_prepare
-      procedure, nopass :: mistake => discs_mistake
+      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => discs_describe
    end type clearance_discs_t
 
@@ -58,13 +59,6 @@ contains
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
    end function discs_info
 
-   !> Nothing holds them together.
-   function discs_ideal_kind() result(kind)
-      character(:), allocatable :: kind  !! blank: no ideal joint
-
-      kind = ""
-   end function discs_ideal_kind
-
    !> Radii of each item.
    subroutine discs_prepare(self, items)
       class(clearance_discs_t), intent(inout) :: self  !! the set
@@ -83,18 +77,6 @@ contains
          end associate
       end do
    end subroutine discs_prepare
-
-   !> Any row makes sense.
-   subroutine discs_mistake(item, column, message, help)
-      type(item_t), intent(in) :: item                       !! the row
-      integer, intent(out) :: column                         !! 0: all is well
-      character(:), allocatable, intent(out) :: message      !! blank
-      character(:), allocatable, intent(out) :: help         !! blank
-
-      column = 0
-      message = repeat("", len(item%name))
-      help = ""
-   end subroutine discs_mistake
 
    !> Two convex surfaces.
    pure subroutine discs_describe(item, materials, pair)

@@ -9,6 +9,7 @@
 !> put right. Limits: a plane without ends; the ball is a half space of its radius for the stiffness.
 module clearance_plane
    use bodies, only: material_t
+   use clearance_set, only: no_ideal_kind, no_mistake
    use flat_contacts, only: add_contact_channels, flat_contacts_t
    use item, only: item_t
    use joint_translational, only: add_axis_columns
@@ -29,9 +30,9 @@ module clearance_plane
    type, extends(flat_contacts_t) :: clearance_plane_t
    contains
       procedure, nopass :: info => plane_info
-      procedure, nopass :: ideal_kind => plane_ideal_kind
+      procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => plane_prepare
-      procedure, nopass :: mistake => plane_mistake
+      procedure, nopass :: mistake => no_mistake
       procedure, nopass :: describe => plane_describe
    end type clearance_plane_t
 
@@ -56,13 +57,6 @@ contains
       call add_contact_channels(info, "ball")
    end function plane_info
 
-   !> A plane does not hold a ball.
-   function plane_ideal_kind() result(kind)
-      character(:), allocatable :: kind  !! blank: no ideal joint
-
-      kind = ""
-   end function plane_ideal_kind
-
    !> Normal and radius of each item.
    subroutine plane_prepare(self, items)
       class(clearance_plane_t), intent(inout) :: self  !! the set
@@ -84,18 +78,6 @@ contains
          end associate
       end do
    end subroutine plane_prepare
-
-   !> Any row makes sense.
-   subroutine plane_mistake(item, column, message, help)
-      type(item_t), intent(in) :: item                       !! the row
-      integer, intent(out) :: column                         !! 0: all is well
-      character(:), allocatable, intent(out) :: message      !! blank
-      character(:), allocatable, intent(out) :: help         !! blank
-
-      column = 0
-      message = repeat("", len(item%name))
-      help = ""
-   end subroutine plane_mistake
 
    !> A ball on a plane.
    pure subroutine plane_describe(item, materials, pair)

@@ -23,6 +23,7 @@ module clearance_set
    implicit none (type, external)
    private
    public :: clearance_fit_law, clearance_set_t, clearance_slot_t, loss_contact, loss_friction
+   public :: no_ideal_kind, no_mistake
 
    integer, parameter :: loss_contact = 1   !! power taken by contact damping
    integer, parameter :: loss_friction = 2  !! power taken by friction
@@ -325,6 +326,25 @@ contains
          losses(loss_friction, self%first_contact + k) = -f_t(k)*self%grip%tangent(k)%v
       end do
    end subroutine clearance_rub
+
+   !> Of geometries that hold nothing together: no ideal joint.
+   function no_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! blank
+
+      kind = ""
+   end function no_ideal_kind
+
+   !> Of geometries of which any row makes sense.
+   subroutine no_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! 0: all is well
+      character(:), allocatable, intent(out) :: message      !! blank
+      character(:), allocatable, intent(out) :: help         !! blank
+
+      column = 0
+      message = repeat("", len(item%name))
+      help = ""
+   end subroutine no_mistake
 
    !> Fit the normal law to the surfaces. A law that does not fit was a mistake of the deck, unless the joint is an ideal
    !> one that is taken as loose for its channels only: no contact is evaluated then. A body that drivers move cannot be pushed;
