@@ -18,6 +18,7 @@ module deck_scene
    use scratch_deck, only: remove_scratch, write_scratch
    use start_state, only: find_start
    use step_check, only: check_steps
+   use subsystems, only: new_subsystems, subsystem_t
    use text, only: append_text, text_t
    use time_plan, only: new_time_plan, time_plan_t
    use verb_run, only: new_method
@@ -97,7 +98,7 @@ contains
       call mistakes%to_error(deck%sources, error)
       if (allocated(error)) return
       call new_method(loaded%scene, loaded%method)
-      call find_start(loaded%scene, loaded%system, loaded%y, assembly, error)
+      call find_start(loaded%scene, levels_as_written, loaded%system, loaded%y, assembly, error)
    end subroutine load_file
 
    !> Load a deck given as text.
@@ -122,10 +123,12 @@ contains
       type(limits_t), intent(in), optional :: limits         !! what the results must fulfil
 
       type(limits_t) :: bounds
+      type(subsystem_t), allocatable :: subsystems(:)
 
       if (present(limits)) bounds = limits
       call new_guards(loaded%scene, loaded%system, bounds%guards)
-      call run_dynamic(loaded%system, loaded%method, loaded%y, loaded%plan, bounds, keeper, summary, error)
+      call new_subsystems(loaded%scene, levels_as_written, loaded%system, loaded%method, loaded%plan%end, subsystems)
+      call run_dynamic(loaded%system, loaded%method, subsystems, loaded%y, loaded%plan, bounds, keeper, summary, error)
    end subroutine run_to_end
 
    subroutine keeper_start(self, catalogue, error)

@@ -67,7 +67,7 @@ contains
       call read_scene_text(text, scene, error)
       if (allocated(error)) return
       call new_system(scene, levels_as_written, system)
-      call find_start(scene, system, y, assembly, error)
+      call find_start(scene, levels_as_written, system, y, assembly, error)
       if (present(report)) report = assembly
    end subroutine start_text
 

@@ -8,7 +8,7 @@ module contact_peaks
    use mechanism, only: mechanism_t
    implicit none (type, external)
    private
-   public :: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   public :: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, peak_t, trend_t
 
    real(wp), parameter :: near_depth = 3.0e-5_wp  !! what a parabola may add to a maximum of the penetration, of it [1]
    real(wp), parameter :: near_force = 1.0e-8_wp  !! what may be missing to a maximum of the force, of it [1]
@@ -143,6 +143,21 @@ contains
       list(place) = peak
       n = n + 1
    end subroutine add_peak
+
+   !> Take peaks up to a time off a list.
+   subroutine drop_peaks(t, list, n)
+      real(wp), intent(in) :: t                  !! the time [s]
+      type(peak_t), intent(inout) :: list(:)     !! (n or more) peaks by time
+      integer, intent(inout) :: n                !! how many
+
+      integer :: k, n_told
+
+      n_told = count(list(:n)%t <= t)
+      n = n - n_told
+      do k = 1, n
+         list(k) = list(k + n_told)
+      end do
+   end subroutine drop_peaks
 
    !> Put a place in for that end of the bracket that is on its side of the maximum.
    pure subroutine narrow(place, here, bracket)

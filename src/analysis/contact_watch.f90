@@ -4,7 +4,7 @@
 !> told at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or a
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
-   use contact_peaks, only: add_peak, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, peak_t, trend_t
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
@@ -38,6 +38,7 @@ module contact_watch
    contains
       procedure :: after_step
       procedure :: note_row
+      procedure :: drop_peaks => watch_drop_peaks
       procedure :: foresee
       procedure :: after_restart
       procedure :: handle_event
@@ -151,6 +152,14 @@ contains
       end subroutine tell
 
    end subroutine keep_force
+
+   !> Peaks up to a time are told.
+   subroutine watch_drop_peaks(self, t)
+      class(contact_watch_t), intent(inout) :: self     !! the watch
+      real(wp), intent(in) :: t                         !! the time [s]
+
+      call drop_peaks(t, self%peaks, self%n_peak)
+   end subroutine watch_drop_peaks
 
    !> A row was written at the present state: nothing is owed.
    subroutine note_row(self)

@@ -61,6 +61,8 @@ module guards
       type(breach_t), allocatable :: travel(:)   !! (bodies) ways beyond
       character(:), allocatable :: reason        !! why the run must end; unallocated: it need not
    contains
+      procedure :: share => guards_share
+      procedure :: gather => guards_gather
       procedure :: begin => guards_begin
       procedure :: look => guards_look
       procedure :: look_at_energy => guards_look_at_energy
@@ -132,6 +134,34 @@ contains
          end associate
       end do
    end subroutine set_limits
+
+   !> The guards of a part of the mechanism: those of its contacts, measured by the whole.
+   subroutine guards_share(self, contacts, part)
+      class(guards_t), intent(in) :: self    !! guards of the whole
+      integer, intent(in) :: contacts(:)     !! (contacts of the part) their numbers in the whole
+      type(guards_t), intent(out) :: part    !! guards of the part
+
+      part%is_set = self%is_set
+      part%stops = self%stops
+      if (allocated(self%limit)) part%limit = self%limit(:, contacts)
+      part%penetration = self%penetration
+      part%energy = self%energy
+      part%speed = self%speed
+      part%way = self%way
+      part%size = self%size
+   end subroutine guards_share
+
+   !> What the guards of a part have seen.
+   subroutine guards_gather(self, part, bodies, contacts)
+      class(guards_t), intent(inout) :: self   !! guards of the whole, begun
+      type(guards_t), intent(in) :: part       !! guards of the part
+      integer, intent(in) :: bodies(:)         !! (bodies of the part) their numbers in the whole
+      integer, intent(in) :: contacts(:)       !! (contacts of the part) their numbers in the whole
+
+      if (.not. allocated(part%breach) .or. .not. allocated(self%breach)) return
+      self%breach(:, contacts) = part%breach
+      self%travel(bodies) = part%travel
+   end subroutine guards_gather
 
    !> Before the first step.
    subroutine guards_begin(self, system)

@@ -1,6 +1,6 @@
 !> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
-   use build_system, only: levels_as_written, levels_ideal, new_system
+   use build_system, only: levels_ideal, new_system
    use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
@@ -27,9 +27,10 @@ contains
    !> only the ideal joints; both move the bodies as little as possible, with what holds only at the start there while
    !> assembling, then no more. `start = static` searches the equilibrium at t = 0. Rows of the system that runs may depend
    !> on one another: it is told.
-   subroutine find_start(scene, system, y, report, error, shift)
+   subroutine find_start(scene, levels, system, y, report, error, shift)
       type(scene_t), intent(in) :: scene                    !! the scene
-      type(mechanism_t), intent(inout) :: system        !! the system that will run
+      integer, intent(in) :: levels                         !! of joints with clearance, as of `system`
+      type(mechanism_t), intent(inout) :: system            !! the system that will run
       real(wp), allocatable, intent(out) :: y(:)            !! (n) state [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or overlap
@@ -37,27 +38,27 @@ contains
 
       type(mechanism_t) :: twin
       real(wp), allocatable :: q(:), v(:)
-      integer :: levels
+      integer :: at_start
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
       associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
-         levels = levels_as_written
-         if (system%n_loose == 0 .or. start == "ideal") levels = levels_ideal
+         at_start = levels
+         if (start == "ideal") at_start = levels_ideal
          if (start == "static") call start_at_rest(scene, system, q, v, report, error)
       end associate
       if (allocated(error)) return
-      call new_system(scene, levels, twin, is_for_start=.true.)
+      call new_system(scene, at_start, twin, is_for_start=.true.)
       call assemble(twin%linkage, q, v, report, error)
       if (allocated(error)) then
          call system%linkage%deck_state(q, v)
-         call name_conflict(scene, levels, q, v, error)
+         call name_conflict(scene, at_start, q, v, error)
          return
       end if
       if (present(shift)) then
          call system%linkage%coordinates%add_change(system%linkage%bodies%n, shift%q, q)
          v = v + shift%v
-         call new_system(scene, levels_as_written, twin, is_for_start=.true.)
+         call new_system(scene, levels, twin, is_for_start=.true.)
          call assemble(twin%linkage, q, v, report, error)
          if (allocated(error)) return
       end if

@@ -73,6 +73,7 @@ module clearance_set
       procedure :: fit_law => clearance_fit_law
       procedure :: begin_contact => clearance_begin_contact
       procedure :: note_swing => clearance_note_swing
+      procedure :: adopt => clearance_adopt
       procedure :: end_contact => clearance_end_contact
       procedure :: contact_time => clearance_contact_time
       procedure :: memory_size => clearance_memory_size
@@ -404,6 +405,19 @@ contains
       end associate
       if (time > 0.0_wp) self%contact(k)%swing = pi/time
    end subroutine clearance_note_swing
+
+   !> Take over what a contact of another set of the same laws remembers; deflections of bristles are in the state.
+   subroutine clearance_adopt(self, k, other, k_other)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                       !! contact of the set
+      class(clearance_set_t), intent(in) :: other    !! the other set
+      integer, intent(in) :: k_other                 !! contact of it
+
+      self%n_touching = self%n_touching + merge(1, 0, other%contact(k_other)%is_touching) &
+                        - merge(1, 0, self%contact(k)%is_touching)
+      self%contact(k) = other%contact(k_other)
+      call self%grip%adopt(k, other%grip, k_other)
+   end subroutine clearance_adopt
 
    !> A contact ends, or the run ends within it: tell its story in one row.
    subroutine clearance_end_contact(self, k, t, release_speed, loss, is_over, event)

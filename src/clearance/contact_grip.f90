@@ -47,6 +47,7 @@ module contact_grip
       type(tangent_t), allocatable :: tangent(:)     !! (contacts) of the last evaluation
    contains
       procedure :: forget
+      procedure :: adopt
       procedure :: save => grip_save
       procedure :: load => grip_load
    end type grip_t
@@ -80,6 +81,20 @@ contains
       self%z_rate(k) = 0.0_wp
       self%tangent(k) = tangent_t()
    end subroutine forget
+
+   !> Take over what is remembered of a contact of another grip of the same law.
+   pure subroutine adopt(self, k, other, k_other)
+      class(grip_t), intent(inout) :: self  !! the grip
+      integer, intent(in) :: k              !! contact of its set
+      type(grip_t), intent(in) :: other     !! the other grip
+      integer, intent(in) :: k_other        !! contact of that set
+
+      if (self%memory == memory_none) return
+      self%slip(k) = other%slip(k_other)
+      self%band(k) = other%band(k_other)
+      self%since(k) = other%since(k_other)
+      self%origin(k) = other%origin(k_other)
+   end subroutine adopt
 
    !> Friction force of a touching contact on body j along t; none of one that sticks, which is found with the accelerations.
    subroutine slip_force(self, law, k)

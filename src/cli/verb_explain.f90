@@ -2,7 +2,7 @@
 module verb_explain
    use columns, only: column_of
    use console, only: say
-   use build_system, only: levels_ideal, new_system
+   use build_system, only: levels_as_written, levels_ideal, new_system
    use clearance_set, only: clearance_set_t
    use consistent_start, only: assembly_t
    use deck_reader, only: all_defaults
@@ -24,6 +24,7 @@ module verb_explain
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use start_state, only: find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium
+   use subsystems, only: grouping_words
    use text, only: real_text, replace, text_t, to_text
    use time_plan, only: last_instant
    implicit none (type, external)
@@ -85,7 +86,7 @@ contains
          call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case default
-         call find_start(loaded%scene, loaded%system, y, assembly, error)
+         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error)
       end select
    end subroutine find_begin
 
@@ -375,6 +376,8 @@ contains
                " s every "//to_text(loaded%plan%every)//" s, "// &
                counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
       words = contact_rows_text(loaded%scene, loaded%system)
+      if (len(words) > 0) call say(words, 2)
+      words = grouping_words(loaded%scene)
       if (len(words) > 0) call say(words, 2)
    end subroutine explain_times
 

@@ -1,7 +1,7 @@
 !> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
 module verb_run
    use build_info, only: compiler, git_sha1
-   use build_system, only: levels_ideal, new_system
+   use build_system, only: levels_as_written, levels_ideal, new_system
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
@@ -19,6 +19,7 @@ module verb_run
    use libraries, only: library_versions
    use load, only: load_deck, loaded_t
    use mobility, only: mobility_t
+   use memory_purpose, only: memory_is_for
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
@@ -36,6 +37,7 @@ module verb_run
    use start_state, only: find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
+   use subsystems, only: new_subsystems, subsystem_t
    use text, only: append_text, real_text, starts_with, text_list_t, text_t, to_text
    use version, only: program_version
    implicit none (type, external)
@@ -79,6 +81,7 @@ contains
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(run_recorder_t) :: keeper
+      type(subsystem_t), allocatable :: subsystems(:)
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)
 
@@ -86,10 +89,10 @@ contains
       if (options%member > 0) then
          call check_member(options, loaded, error)
          if (allocated(error)) return
-         call find_start(loaded%scene, loaded%system, y, assembly, error, &
+         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
                          new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member))
       else
-         call find_start(loaded%scene, loaded%system, y, assembly, error)
+         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error)
       end if
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
@@ -103,7 +106,9 @@ contains
       call build_catalogue(loaded%system, catalogue)
       call limits_of(loaded%scene, loaded%system, catalogue, limits, plan%warnings)
       keeper%plan = plan
-      call run_dynamic(loaded%system, method, y, loaded%plan, limits, keeper, summary, error)
+      call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")
+      call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
+      call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error)
       call directory%close()
    end subroutine run_motion
 
@@ -202,12 +207,13 @@ contains
       type(assembly_t) :: assembly
       type(mechanism_t) :: system
       type(run_recorder_t) :: keeper
+      type(subsystem_t), allocatable :: subsystems(:)
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)
 
       call new_system(loaded%scene, levels_ideal, system)
       if (size(system%linkage%ideal) == 0) return  ! no joint is another without clearance
-      call find_start(loaded%scene, system, y, assembly, error)
+      call find_start(loaded%scene, levels_ideal, system, y, assembly, error)
       if (allocated(error)) return
       call new_method(loaded%scene, method)
       keeper%plan = plan
@@ -217,7 +223,9 @@ contains
       keeper%plan%with_figures = .false.
       keeper%plan%with_progress = .false.
       keeper%plan%show = show_nothing
-      call run_dynamic(system, method, y, loaded%plan, twin_limits(loaded%scene, system), keeper, summary, error)
+      call new_subsystems(loaded%scene, levels_ideal, system, method, loaded%plan%end, subsystems)
+      call run_dynamic(system, method, subsystems, y, loaded%plan, twin_limits(loaded%scene, system), keeper, summary, &
+                       error)
    end subroutine run_twin
 
    !> What the recorder is told.

@@ -22,6 +22,7 @@ module coordinates
       procedure(read_start_interface), deferred :: read_start
       procedure(find_masses_interface), deferred :: find_masses
       procedure(move_interface), deferred :: move
+      procedure(read_motion_interface), deferred :: read_motion
       procedure(accelerate_interface), deferred :: accelerate
       procedure(rates_interface), deferred :: rates
       procedure(gather_interface), deferred :: gather
@@ -71,6 +72,17 @@ module coordinates
          real(wp), intent(in) :: v(self%n_v, n)     !! (n_v, n) their rates [any]
          type(motion_t), intent(inout) :: motion    !! the motion
       end subroutine move_interface
+
+      !> Coordinates and rates of a body from its motion, the inverse of `move`.
+      pure subroutine read_motion_interface(self, motion, body, q, v)
+         import :: coordinates_t, motion_t, wp
+         implicit none (type, external)
+         class(coordinates_t), intent(in) :: self   !! the coordinates
+         type(motion_t), intent(in) :: motion       !! the motion
+         integer, intent(in) :: body                !! the body
+         real(wp), intent(out) :: q(self%n_q)       !! (n_q) its coordinates [any]
+         real(wp), intent(out) :: v(self%n_v)       !! (n_v) its rates [any]
+      end subroutine read_motion_interface
 
       !> Accelerations of some bodies from the derivatives of their rates.
       pure subroutine accelerate_interface(self, n, body, a, motion)

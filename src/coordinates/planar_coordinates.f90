@@ -21,6 +21,7 @@ module planar_coordinates
       procedure :: read_start => planar_read_start
       procedure :: find_masses => planar_find_masses
       procedure :: move => planar_move
+      procedure :: read_motion => planar_read_motion
       procedure :: accelerate => planar_accelerate
       procedure :: rates => planar_rates
       procedure :: gather => planar_gather
@@ -86,6 +87,18 @@ contains
 
       call fill_planar(n, body, ubound(motion%angle, 1), q, v, motion%r, motion%rot, motion%v, motion%omega, motion%angle)
    end subroutine planar_move
+
+   !> Coordinates and rates of a body from its motion.
+   pure subroutine planar_read_motion(self, motion, body, q, v)
+      class(planar_coordinates_t), intent(in) :: self   !! the coordinates
+      type(motion_t), intent(in) :: motion              !! the motion
+      integer, intent(in) :: body                       !! the body
+      real(wp), intent(out) :: q(self%n_q)              !! (3) x, y, angle [m, m, rad]
+      real(wp), intent(out) :: v(self%n_v)              !! (3) their rates [m/s, m/s, rad/s]
+
+      q = [motion%r(1:2, body), motion%angle(body)]
+      v = [motion%v(1:2, body), motion%omega(3, body)]
+   end subroutine planar_read_motion
 
    !> The same for all bodies, without an object.
    pure subroutine set_planar_motion(n, q, v, motion)

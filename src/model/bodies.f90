@@ -11,7 +11,7 @@ module bodies
    implicit none (type, external)
    private
    public :: bodies_info, bodies_t, material_info, material_t, points_info, points_t
-   public :: new_bodies, new_materials, new_points
+   public :: new_bodies, new_materials, new_points, take_bodies
 
    !> Rigid bodies in deck order.
    type :: bodies_t
@@ -124,6 +124,23 @@ contains
          bodies%is_rate_given(:, k) = items(k)%values(6:8)%given
       end do
    end subroutine new_bodies
+
+   !> Some of the bodies.
+   pure subroutine take_bodies(all, chosen, some)
+      type(bodies_t), intent(in) :: all      !! bodies
+      integer, intent(in) :: chosen(:)       !! (any) numbers of those to be taken
+      type(bodies_t), intent(out) :: some    !! these, in the order of the numbers
+
+      some%n = size(chosen)
+      some%names = all%names(chosen)
+      some%mass = all%mass(chosen)
+      some%inertia = all%inertia(chosen)
+      some%r = all%r(:, chosen)
+      some%angle = all%angle(chosen)
+      some%v = all%v(:, chosen)
+      some%omega = all%omega(chosen)
+      some%is_rate_given = all%is_rate_given(:, chosen)
+   end subroutine take_bodies
 
    !> Points from their rows, whose bodies have been resolved.
    subroutine new_points(items, points)

@@ -56,6 +56,7 @@ module recorder
       real(wp) :: tolerance = 0.0_wp               !! local error tolerance, 0 with fixed steps [1]
       real(wp) :: time_start = 0.0_wp              !! first instant [s]
       real(wp) :: time_end = 0.0_wp                !! last instant reached [s]
+      integer :: groups = 1                        !! groups of bodies integrated apart; 1: all together
       integer(i8) :: steps = 0                     !! accepted steps
       integer(i8) :: rejected_steps = 0            !! rejected steps
       integer(i8) :: rhs_evaluations = 0           !! evaluations of the right-hand side, all of them

@@ -30,6 +30,7 @@ contains
       call real_attribute(group, "tolerance", summary%tolerance, status)
       call real_attribute(group, "time_start", summary%time_start, status)
       call real_attribute(group, "time_end", summary%time_end, status)
+      call long_attribute(group, "groups", int(summary%groups, i8), status)
       call long_attribute(group, "steps", summary%steps, status)
       call long_attribute(group, "rejected_steps", summary%rejected_steps, status)
       call long_attribute(group, "rhs_evaluations", summary%rhs_evaluations, status)

@@ -138,6 +138,7 @@ contains
       each = seconds_per_rhs(summary)
       if (ieee_is_finite(each)) call lines%add(", "//real_text(1.0e9_wp*each, 3)//" ns each")
       call lines%line(", "//to_text(summary%factorisations)//" factorisations")
+      if (summary%groups > 1) call lines%line("           "//to_text(summary%groups)//" groups of bodies integrated apart")
    end subroutine cost_lines
 
    !> How right the run is.
@@ -275,6 +276,7 @@ contains
       call json%put_real("tolerance", summary%tolerance)
       call json%put_real("time_start", summary%time_start)
       call json%put_real("time_end", summary%time_end)
+      call json%put_integer("groups", int(summary%groups, i8))
       call json%put_integer("steps", summary%steps)
       call json%put_integer("rejected_steps", summary%rejected_steps)
       call json%put_integer("rhs_evaluations", summary%rhs_evaluations)

@@ -80,6 +80,7 @@ module scene
       logical :: has_ensemble = .false.                      !! whether there are runs from perturbed starts
       type(kind_info_t) :: ensemble_kind                     !! keys of the ensemble
       type(item_t) :: ensemble                               !! its settings
+      real(wp) :: size_of_whole = 0.0_wp                     !! size of the bodies of what this is a group of; 0: all is here [m]
    end type scene_t
 
 end module scene

@@ -11,13 +11,14 @@ module scene_size
 contains
 
    !> Size of the bodies: the greatest distance of a point from its body's centre of mass; the greatest radius of gyration
-   !> if all points are there. It does not depend on where the mechanism stands.
+   !> if all points are there. It does not depend on where the mechanism stands. A group of bodies is measured by the whole.
    pure real(wp) function size_of_bodies(scene) result(length)
       type(scene_t), intent(in) :: scene  !! the scene
 
       integer :: k
 
-      length = 0.0_wp
+      length = scene%size_of_whole
+      if (length > 0.0_wp) return
       do k = 1, scene%points%n
          if (scene%points%body(k) > 0) length = max(length, norm2(scene%points%s(:, k)))
       end do

@@ -64,6 +64,8 @@ contains
                     options="alpha beta target penalty omega mu")
       call add_word(info, "coordinates", "fewest: driven bodies are known functions of time, a body that one joint holds has one " &
                     //"coordinate; full: three for every body", default="fewest", choices="fewest full")
+      call add_word(info, "groups", "bodies that nothing joins: apart, each group of them with its own steps; together, with the " &
+                    //"steps of the fastest", default="apart", choices="apart together")
       call add_flag(info, "ledger", "whether the energy ledger is kept", default="on")
       call add_number(info, "energy_limit", dim_none, "greatest ledger residual allowed, of the largest energy; 0: none", &
                       default="0", lower=0.0_wp)

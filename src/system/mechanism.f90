@@ -58,6 +58,7 @@ module mechanism
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
       procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
+      procedure :: bristle_place => mechanism_bristle_place
       procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
       procedure :: memory_size => mechanism_memory_size, save => mechanism_save, load => mechanism_load
@@ -95,6 +96,13 @@ module mechanism
          class(mechanism_t), intent(inout) :: self  !! the system, accelerations without these forces found
          integer, intent(out) :: status                 !! 0: found
       end subroutine mechanism_stick
+
+      !> Place of the deflection of a contact in the state; contact 0 is before the first one of its set.
+      pure module integer function mechanism_bristle_place(self, slot, contact) result(place)
+         implicit none (type, external)
+         class(mechanism_t), intent(in) :: self     !! the system
+         integer, intent(in) :: slot, contact           !! its set, whose law has bristles, and its number there
+      end function mechanism_bristle_place
 
       !> Deflections of bristles from a state into the contacts.
       module subroutine mechanism_take_bristles(self, y)

@@ -175,6 +175,11 @@ contains
       end associate
    end subroutine sliding_row
 
+   !> Place of the deflection of a contact in the state.
+   module procedure mechanism_bristle_place
+      place = self%linkage%n_position + self%linkage%n_rate + self%clearances(slot)%set%grip%first_bristle + contact
+   end procedure mechanism_bristle_place
+
    !> Deflections of bristles from a state into the contacts.
    module procedure mechanism_take_bristles
       integer :: k, place
@@ -182,7 +187,7 @@ contains
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
+            place = self%bristle_place(k, 0)
             set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
          end associate
       end do
@@ -195,7 +200,7 @@ contains
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
+            place = self%bristle_place(k, 0)
             ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
          end associate
       end do
@@ -208,7 +213,7 @@ contains
       do k = 1, size(self%clearances)
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
+            place = self%bristle_place(k, 0)
             scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
          end associate
       end do

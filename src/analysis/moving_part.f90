@@ -1,0 +1,277 @@
+!> The whole of a mechanism, or a group of its bodies that nothing joins to the others, in motion: one step, and what follows it.
+!>
+!> A step ends at the latest at an instant at which functions of time are not smooth, and at an event. What happens there is
+!> handled by `handle_part_events` and `pass_part_instant`, when the other parts have come as far.
+module moving_part
+   use contact_watch, only: contact_watch_t
+   use errors, only: error_t
+   use guards, only: guards_t
+   use instants, only: instants_t
+   use integrator, only: advance_failed_evaluation, integrator_t
+   use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use mechanism_energy, only: energy_of, energy_t
+   use recorder, only: event_t, recorder_t
+   use run_failure, only: constraints_lost, describe_failure, events_without_end
+   use run_tally, only: run_tally_t
+   use slip_watch, only: decide_next, note_jumps
+   use velocity_jumps, only: velocity_jumps_t
+   implicit none (type, external)
+   private
+   public :: advance_part, begin_part, handle_part_events, moving_part_t, pass_part_instant
+
+   integer, parameter :: most_idle = 1000          !! events that may follow one another while hardly any time passes
+   integer, parameter :: idle_each = 10            !! and so many more for each event function
+   real(wp), parameter :: idle = 1.0e-12_wp        !! hardly any time: part of the present time [1]
+   real(wp), parameter :: lost_length = 0.1_wp     !! violation beyond all measure: a length, of the size of the bodies [1]
+   real(wp), parameter :: lost_angle = 1.0_wp      !! an angle [rad]
+
+   !> A part in motion.
+   type :: moving_part_t
+      type(mechanism_t), pointer :: system => null()       !! its equations
+      class(integrator_t), pointer :: method => null()     !! its integrator
+      type(contact_watch_t) :: watch                       !! its contacts
+      type(guards_t) :: guards                             !! what no mechanism does
+      type(instants_t) :: instants                         !! when its functions of time are not smooth
+      type(velocity_jumps_t) :: jumps                      !! drivers whose velocity jumps there
+      integer :: status = 0                                !! how its last step ended; an event, until it is handled
+      integer :: n_idle = 0                                !! events since the last time that time passed
+      real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]
+      real(wp) :: balance_0 = 0.0_wp                       !! balance of the ledger at the start [J]
+      real(wp) :: potential_0 = 0.0_wp                     !! potential energy at the start [J]
+      real(wp) :: residual = 0.0_wp                        !! of the ledger at the last step [J]
+      real(wp) :: level = 0.0_wp                           !! kinetic + elastic energy + |change of potential| there [J]
+      real(wp) :: magnitude = 0.0_wp                       !! of what the ledger adds up there [J]
+      real(wp) :: lost = 0.0_wp                            !! what its contacts have lost by then [J]
+      real(wp) :: worst = 0.0_wp                           !! greatest violation so far, over the size of the bodies or a radian [1]
+      integer :: worst_row = 0                             !! the row it belongs to
+      logical :: is_lost = .false.                         !! whether a violation is beyond all measure
+   end type moving_part_t
+
+contains
+
+   !> Begin at a state at t = 0.
+   subroutine begin_part(part, y, end, tally, recorder, error)
+      type(moving_part_t), intent(inout) :: part          !! the part: system, integrator, watch, guards and instants are set
+      real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
+      real(wp), intent(in) :: end                         !! end of the motion [s]
+      type(run_tally_t), intent(inout) :: tally           !! of the run
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! it cannot begin
+
+      type(energy_t) :: energy
+      integer :: status
+
+      associate (system => part%system, method => part%method)
+         call part%instants%begin(end, system%linkage%piece)
+         call system%begin_pace(0.0_wp, y, end)
+         call system%linkage%set_motion(0.0_wp, y)
+         call decide_slips(part, 0.0_wp, y, recorder, error)
+         if (allocated(error)) return
+         call method%start(system, 0.0_wp, y, end, status)
+         if (status /= 0) then
+            call describe_failure(system, method, status, error)
+            return
+         end if
+         call part%guards%begin(system)
+         energy = energy_of(system, y)
+         part%balance_0 = energy%balance()
+         part%potential_0 = energy%potential
+         call look_at_step(part, tally)
+         call look_at_energy(part, tally)
+         if (system%n_loose > 0) call part%watch%after_restart(system, method)
+      end associate
+   end subroutine begin_part
+
+   !> One step, and what is seen at its end.
+   subroutine advance_part(part, tally, error)
+      type(moving_part_t), intent(inout) :: part          !! the part
+      type(run_tally_t), intent(inout) :: tally           !! of the run
+      type(error_t), allocatable, intent(out) :: error    !! the integration failed
+
+      real(wp) :: t_stop
+
+      associate (system => part%system, method => part%method)
+         call part%instants%stop_after(system, method, t_stop)
+         call method%advance(system, t_stop, part%status)
+         if (part%status < 0) then
+            call describe_failure(system, method, part%status, error)
+            return
+         end if
+         call look_at_step(part, tally)
+         if (part%is_lost) then
+            call describe_failure(system, method, constraints_lost, error)
+            return
+         end if
+         if (system%n_loose > 0) call part%watch%after_step(system, method)
+         call look_at_energy(part, tally)
+         call part%guards%look(system, method%t)
+      end associate
+   end subroutine advance_part
+
+   !> Handle the events at the end of the last step, and go on from there.
+   subroutine handle_part_events(part, tally, recorder, error)
+      type(moving_part_t), intent(inout) :: part          !! the part
+      type(run_tally_t), intent(inout) :: tally           !! of the run
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+
+      type(event_t) :: row
+      real(wp) :: cpu_0, cpu_1, hint, step_hint
+      integer :: k, status
+      logical :: is_over
+
+      associate (system => part%system, method => part%method)
+         part%status = 0
+         part%n_idle = merge(part%n_idle + 1, 0, method%t - part%t_event <= idle*method%t)
+         part%t_event = method%t
+         if (part%n_idle > most_idle + idle_each*system%n_event) then
+            call describe_failure(system, method, events_without_end, error)
+            return
+         end if
+         step_hint = 0.0_wp
+         do k = 1, method%n_happened
+            call part%watch%handle_event(system, method, method%happened(k), is_over, row, hint)
+            if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
+            tally%events = tally%events + 1
+            if (is_over) then
+               call cpu_time(cpu_0)
+               call recorder%event(row, error)
+               if (allocated(error)) return
+               call cpu_time(cpu_1)
+               tally%aside = tally%aside + (cpu_1 - cpu_0)
+            else if (method%happened(k) <= system%n_contact) then
+               tally%contacts = tally%contacts + 1
+            end if
+         end do
+         call decide_slips(part, method%t, method%step%y1, recorder, error)
+         if (allocated(error)) return
+         call method%restart(system, step_hint, status)
+         if (status /= 0) then
+            call describe_failure(system, method, status, error)
+            return
+         end if
+         call part%watch%after_restart(system, method)
+      end associate
+   end subroutine handle_part_events
+
+   !> Pass an instant at which functions of time are not smooth. Events that this brings about wait in `method%happened`.
+   subroutine pass_part_instant(part, tally, recorder, error)
+      type(moving_part_t), intent(inout) :: part          !! the part, at the instant
+      type(run_tally_t), intent(inout) :: tally           !! of the run
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
+
+      real(wp), allocatable :: before(:)
+      integer :: status
+
+      associate (system => part%system, method => part%method)
+         method%g = method%g1
+         before = method%step%f1
+         call part%jumps%before_instant(system, method)
+         call part%instants%pass(system%linkage%piece)
+         call part%jumps%after_instant(system, method, status)
+         if (status /= 0) then
+            call describe_failure(system, method, advance_failed_evaluation, error)
+            return
+         end if
+         call decide_slips(part, method%t, method%step%y1, recorder, error)
+         if (allocated(error)) return
+         call method%restart(system, 0.0_wp, status)
+         if (status /= 0) then
+            call describe_failure(system, method, status, error)
+            return
+         end if
+         call system%follow_pace(method%step%y1, method%step%f1 - before)
+         call look_at_step(part, tally)  ! a jump of a driver is seen here, before the stabilisation acts
+         call look_at_energy(part, tally)
+         if (part%is_lost) then
+            call describe_failure(system, method, constraints_lost, error)
+            return
+         end if
+         call part%watch%after_restart(system, method)
+         call note_jumps(system, method)
+      end associate
+   end subroutine pass_part_instant
+
+   !> Pace and constraint violation at the end of a step.
+   subroutine look_at_step(part, tally)
+      type(moving_part_t), intent(inout) :: part   !! the part, its system last evaluated at the end of the step
+      type(run_tally_t), intent(inout) :: tally    !! maxima are raised
+
+      real(wp) :: scaled
+      integer :: k
+
+      associate (linkage => part%system%linkage)
+         call part%system%follow_pace(part%method%step%y1)
+         do k = 1, linkage%rows%n_solve
+            scaled = linkage%solution%row_weight(k)*abs(linkage%rows%phi(k))
+            part%is_lost = part%is_lost .or. scaled > merge(lost_angle, lost_length, linkage%rows%is_angle(k))
+            if (scaled > part%worst) then
+               part%worst = scaled
+               part%worst_row = k
+            end if
+            tally%violation_max = max(tally%violation_max, abs(linkage%rows%phi(k)))
+            tally%violation_rate_max = max(tally%violation_rate_max, abs(linkage%solution%phi_dot(k)))
+         end do
+      end associate
+   end subroutine look_at_step
+
+   !> Energy balance at the end of a step, after `watch` has looked at it.
+   subroutine look_at_energy(part, tally)
+      type(moving_part_t), intent(inout) :: part   !! the part, its motion that of the end of the step
+      type(run_tally_t), intent(inout) :: tally    !! sums follow, maxima are raised
+
+      type(energy_t) :: energy
+
+      if (.not. part%system%with_ledger) return
+      energy = energy_of(part%system, part%method%step%y1)
+      call follow(energy%balance() - part%balance_0, part%residual, tally%residual)
+      call follow(energy%dissipated_contact, part%lost, tally%lost)
+      call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%potential_0), part%level, tally%level)
+      call follow(energy%magnitude(), part%magnitude, tally%magnitude)
+      tally%least_lost = min(tally%least_lost, tally%lost)
+      tally%residual_max = max(tally%residual_max, abs(tally%residual))
+      tally%energy_max = max(tally%energy_max, tally%level)
+      call part%guards%look_at_energy(tally%residual, tally%energy_max, tally%magnitude)
+
+   contains
+
+      !> A number of the part takes a new value, and the sum over all parts with it.
+      pure subroutine follow(new, value, total)
+         real(wp), intent(in) :: new         !! the new value [J]
+         real(wp), intent(inout) :: value    !! that of the part [J]
+         real(wp), intent(inout) :: total    !! the sum [J]
+
+         real(wp) :: others   ! the sum over the other parts [J]
+
+         others = total - value
+         if (.not. abs(others) > 0.0_wp) others = 0.0_wp  ! none, or energies without bound
+         total = others + new
+         value = new
+      end subroutine follow
+
+   end subroutine look_at_energy
+
+   !> Decide whether contacts that have just begun slip or stick.
+   subroutine decide_slips(part, t, y, recorder, error)
+      type(moving_part_t), intent(inout) :: part          !! the part, its motion that of the state
+      real(wp), intent(in) :: t                           !! time [s]
+      real(wp), intent(in) :: y(:)                        !! (n) state [any]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+
+      type(event_t) :: row
+      logical :: has_row, is_found
+
+      if (part%system%grips%n_slip == 0) return
+      do
+         call decide_next(part%system, t, y, is_found, has_row, row)
+         if (.not. is_found) exit
+         if (.not. has_row) cycle
+         call recorder%event(row, error)
+         if (allocated(error)) return
+      end do
+   end subroutine decide_slips
+
+end module moving_part

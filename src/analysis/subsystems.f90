@@ -1,0 +1,164 @@
+!> Groups of bodies that nothing joins, as systems of their own: each is integrated with its own steps, so that what happens to one
+!> costs the others nothing.
+module subsystems
+   use build_system, only: new_system
+   use columns, only: column_of
+   use instants, only: instants_t, new_instants
+   use integrator, only: integrator_t
+   use integrator_registry, only: find_integrator
+   use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use name_table, only: name_table_t
+   use scene, only: scene_t
+   use scene_groups, only: begin_group_scene, find_groups, groups_t, set_group_scene
+   use text, only: text_t, to_text
+   implicit none (type, external)
+   private
+   public :: grouping_words, new_subsystems, subsystem_t
+
+   !> A group of bodies, and where its parts are in the whole.
+   type :: subsystem_t
+      type(mechanism_t) :: system                       !! its equations
+      class(integrator_t), allocatable :: method        !! its integrator, not started
+      type(instants_t) :: instants                      !! when its functions of time are not smooth
+      integer, allocatable :: body(:)                   !! (bodies) numbers in the whole
+      integer, allocatable :: slot(:)                   !! (contacts) sets of the whole
+      integer, allocatable :: contact(:)                !! (contacts) contacts of these sets
+   end type subsystem_t
+
+contains
+
+   !> The subsystems of a scene; none if all of it is one, or must be integrated as one.
+   subroutine new_subsystems(scene, levels, system, method, end, subsystems)
+      type(scene_t), intent(in) :: scene                               !! the scene
+      integer, intent(in) :: levels                                    !! of joints with clearance, as of `system`
+      type(mechanism_t), intent(in) :: system                          !! the whole, with its start
+      class(integrator_t), intent(in) :: method                        !! the integrator, not started
+      real(wp), intent(in) :: end                                      !! end of the motion [s]
+      type(subsystem_t), allocatable, intent(out) :: subsystems(:)     !! (groups or 0) the groups apart
+
+      type(groups_t) :: groups
+      type(scene_t) :: one
+      type(name_table_t) :: table
+      integer, allocatable :: item(:), slot(:)
+      integer :: g
+
+      if (reason_to_stay(scene) == "") call find_groups(scene, groups)
+      if (groups%n <= 1) then
+         allocate (subsystems(0))
+         return
+      end if
+      allocate (subsystems(groups%n))
+      call list_loose(system, table, slot, item)
+      call begin_group_scene(scene, one)
+      do g = 1, groups%n
+         call set_group_scene(scene, groups, g, one)
+         associate (subsystem => subsystems(g))
+            subsystem%body = groups%bodies_of(g)
+            call new_system(one, levels, subsystem%system)
+            subsystem%system%linkage%solution%is_redundant = system%linkage%solution%is_redundant
+            call find_contacts(system, table, slot, item, subsystem)
+            call find_integrator(word_of(scene, "method"), subsystem%method)
+            subsystem%method%controls = method%controls
+            call new_instants(one, end, subsystem%system%n_loose > 0, subsystem%instants)
+         end associate
+      end do
+   end subroutine new_subsystems
+
+   !> Why a scene is integrated as one whatever its groups are; blank if it need not.
+   function reason_to_stay(scene) result(reason)
+      type(scene_t), intent(in) :: scene      !! the scene
+      character(:), allocatable :: reason     !! in words
+
+      reason = ""
+      if (word_of(scene, "groups") == "together") then
+         reason = "groups = together"
+      else if (size(scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions) > 0) then
+         reason = "a condition that ends the run looks at all of them"
+      else if (number_of(scene, "maximum_steps") > 0.0_wp .or. number_of(scene, "maximum_evaluations") > 0.0_wp) then
+         reason = "their steps or evaluations are counted together"
+      end if
+   end function reason_to_stay
+
+   !> How the bodies of a scene are integrated, blank if they are one group.
+   function grouping_words(scene) result(words)
+      type(scene_t), intent(in) :: scene      !! the scene
+      character(:), allocatable :: words      !! as in `3 groups of bodies that nothing joins, integrated apart`
+
+      type(groups_t) :: groups
+      character(:), allocatable :: reason
+
+      words = ""
+      call find_groups(scene, groups)
+      if (groups%n <= 1) return
+      reason = reason_to_stay(scene)
+      words = to_text(groups%n)//" groups of bodies that nothing joins, integrated apart"
+      if (reason /= "") words = to_text(groups%n)//" groups of bodies that nothing joins, integrated together ("//reason//")"
+   end function grouping_words
+
+   !> A word of the settings of the analysis.
+   function word_of(scene, key) result(word)
+      type(scene_t), intent(in) :: scene     !! the scene
+      character(*), intent(in) :: key        !! its key
+      character(:), allocatable :: word      !! the word
+
+      word = scene%dynamic%values(column_of(scene%dynamic_kind, key))%text
+   end function word_of
+
+   !> A number of the settings of the analysis.
+   real(wp) function number_of(scene, key) result(number)
+      type(scene_t), intent(in) :: scene     !! the scene
+      character(*), intent(in) :: key        !! its key
+
+      number = scene%dynamic%values(column_of(scene%dynamic_kind, key))%number
+   end function number_of
+
+   !> The loose joints of the whole, by name.
+   subroutine list_loose(system, table, slot, item)
+      type(mechanism_t), intent(in) :: system            !! the whole
+      type(name_table_t), intent(out) :: table           !! their names
+      integer, allocatable, intent(out) :: slot(:)       !! (loose joints) set of each
+      integer, allocatable, intent(out) :: item(:)       !! (loose joints) its number there
+
+      type(text_t), allocatable :: names(:)
+      integer :: i, k, n
+
+      allocate (names(system%n_loose), slot(system%n_loose), item(system%n_loose))
+      n = 0
+      do k = 1, size(system%clearances)
+         do i = 1, system%clearances(k)%set%n
+            n = n + 1
+            names(n)%s = system%clearances(k)%set%names(i)%s
+            slot(n) = k
+            item(n) = i
+         end do
+      end do
+      call table%list(names)
+   end subroutine list_loose
+
+   !> Where the contacts of a subsystem are in the whole; what they remember is taken over.
+   subroutine find_contacts(system, table, slot, item, subsystem)
+      type(mechanism_t), intent(in) :: system            !! the whole
+      type(name_table_t), intent(in) :: table            !! names of its loose joints
+      integer, intent(in) :: slot(:)                     !! (loose joints) set of each
+      integer, intent(in) :: item(:)                     !! (loose joints) its number there
+      type(subsystem_t), intent(inout) :: subsystem      !! its places are set
+
+      integer :: i, joint, k, m
+
+      allocate (subsystem%slot(subsystem%system%n_contact), subsystem%contact(subsystem%system%n_contact))
+      m = 0
+      do k = 1, size(subsystem%system%clearances)
+         associate (set => subsystem%system%clearances(k)%set)
+            do i = 1, set%n_contact
+               m = m + 1
+               joint = table%find(set%names(set%item_of(i))%s)
+               subsystem%slot(m) = slot(joint)
+               subsystem%contact(m) = (item(joint) - 1)*set%n_contact_item + modulo(i - 1, set%n_contact_item) + 1
+               call set%adopt(i, system%clearances(subsystem%slot(m))%set, subsystem%contact(m))
+            end do
+         end associate
+      end do
+   end subroutine find_contacts
+
+end module subsystems
