@@ -22,7 +22,8 @@ module load
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
-   use text, only: append_text, join, nearest_word, text_t, to_text
+   use spelling, only: nearest_word
+   use text, only: append_text, join, text_t, to_text
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private

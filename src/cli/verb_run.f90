@@ -11,7 +11,8 @@ module verb_run
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
-   use integrator, only: integrator_t, read_controls
+   use integrator, only: integrator_t
+   use integrator_controls, only: read_controls
    use integrator_registry, only: find_integrator
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
@@ -36,7 +37,8 @@ module verb_run
    use start_state, only: find_start, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
-   use text, only: append_text, real_text, starts_with, text_list_t, text_t, to_text
+   use text, only: append_text, real_text, starts_with, text_t, to_text
+   use text_list, only: text_list_t
    use version, only: program_version
    implicit none (type, external)
    private

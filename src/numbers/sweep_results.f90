@@ -10,7 +10,8 @@ module sweep_results
    use hdf5_read, only: has_dataset, read_reals, read_texts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
-   use text, only: append_text, buffer_t, exact_text, replace, text_t, to_text
+   use text, only: append_text, exact_text, replace, text_t, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: case_numbers, cases_csv, n_spread, run_result_t, runs_csv, spread_names, sweep_results_t

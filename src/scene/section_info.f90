@@ -1,6 +1,7 @@
 !> The sections of settings of a deck: [scene], [analysis.*], [output].
 module section_info
-   use integrator, only: add_control_columns, integrator_t
+   use integrator, only: integrator_t
+   use integrator_controls, only: add_control_columns
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: add_duration, add_flag, add_number, add_vector, add_word, add_words, dim_acceleration, dim_length, &
       dim_none, dim_time, kind_info_t
