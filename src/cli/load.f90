@@ -4,7 +4,9 @@ module load
    use catalogue, only: catalogue_t
    use channels, only: list_scalars, select_channels, selection_t
    use columns, only: column_of, find_column
-   use deck_reader, only: deck_t, diagnostics_t, read_deck, read_sweep, sweep_t
+   use deck_file, only: read_deck
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures, figure_bifurcation, figure_portrait, figure_section, figure_statistics, figure_t, &
       new_figure
@@ -12,17 +14,18 @@ module load
    use item, only: item_t, location_t, value_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use mechanism_report, only: build_catalogue
    use memory_purpose, only: memory_is_for
    use options, only: options_t
-   use mechanism_report, only: build_catalogue
-   use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
+   use spelling, only: nearest_word
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
-   use spelling, only: nearest_word
+   use sweep_values, only: read_sweep, sweep_t
    use text, only: append_text, join, text_t, to_text
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)

@@ -3,7 +3,6 @@
 !> A run is `gudgeon run DECK --set ... --member K`, so that it gives the very numbers of that command. One that fails is
 !> recorded with its exit code and its message, its directory is kept, and the others go on.
 module sweep_runs
-   use deck_reader, only: sweep_t
    use errors, only: error_t
    use kinds, only: i8, wp
    use load, only: loaded_t
@@ -14,6 +13,7 @@ module sweep_runs
    use processes, only: start_program, wait_any
    use progress, only: progress_t
    use recorder, only: status_running
+   use sweep_values, only: sweep_t
    use sweep_work, only: sweep_work_t, write_results
    use text, only: append_text, text_t, to_text
    use text_file, only: fail_file

@@ -2,7 +2,7 @@
 module sweep_work
    use build_info, only: compiler, git_sha1
    use columns, only: column_of
-   use deck_reader, only: deck_text, get_includes
+   use deck_texts, only: deck_text, get_includes
    use errors, only: error_t
    use libraries, only: library_versions
    use load, only: loaded_t

@@ -2,9 +2,9 @@
 module verb_explain
    use build_system, only: levels_ideal, new_system
    use columns, only: column_of
-   use console, only: say
    use consistent_start, only: assembly_t
-   use deck_reader, only: all_defaults
+   use console, only: say
+   use echo, only: all_defaults
    use errors, only: error_t
    use explain_dropped, only: say_dropped
    use explain_floors, only: floors_of_scene

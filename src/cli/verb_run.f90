@@ -7,25 +7,25 @@ module verb_run
    use channels, only: find_scalars, item_finder_t
    use columns, only: column_of
    use consistent_start, only: assembly_t
-   use deck_reader, only: deck_text, get_includes
+   use deck_texts, only: deck_text, get_includes
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
    use integrator, only: integrator_t
    use integrator_controls, only: read_controls
    use integrator_registry, only: find_integrator
+   use kinds, only: wp
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
-   use kinds, only: wp
    use libraries, only: library_versions
    use load, only: load_deck, loaded_t
+   use mechanism, only: mechanism_t
+   use mechanism_report, only: build_catalogue
    use mobility, only: mobility_t
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
    use perturbation, only: new_shift
-   use mechanism_report, only: build_catalogue
-   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t
    use recorder, only: summary_t
    use row_plan, only: contact_rows_text, has_contact_rows
