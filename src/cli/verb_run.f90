@@ -34,7 +34,7 @@ module verb_run
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
-   use start_state, only: find_start, redundancy_text
+   use start_state, only: find_start, ideal_start_t, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
    use text, only: append_text, real_text, starts_with, text_t, to_text
@@ -77,6 +77,7 @@ contains
       type(assembly_t) :: assembly
       type(catalogue_t) :: catalogue
       type(error_t), allocatable :: twin_error
+      type(ideal_start_t) :: ideal
       type(limits_t) :: limits
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
@@ -89,16 +90,16 @@ contains
          call check_member(options, loaded, error)
          if (allocated(error)) return
          call find_start(loaded%scene, loaded%system, y, assembly, error, &
-                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member))
+                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member), ideal=ideal)
       else
-         call find_start(loaded%scene, loaded%system, y, assembly, error)
+         call find_start(loaded%scene, loaded%system, y, assembly, error, ideal=ideal)
       end if
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, plan)
       if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%n_loose > 0) then
-         call run_twin(loaded, plan, twin_error)
+         call run_twin(loaded, plan, ideal, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))
       end if
@@ -195,9 +196,10 @@ contains
    end subroutine new_method
 
    !> The mechanism with ideal joints, text files only, for the figures.
-   subroutine run_twin(loaded, plan, error)
+   subroutine run_twin(loaded, plan, ideal, error)
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(output_plan_t), intent(in) :: plan              !! plan of the run proper
+      type(ideal_start_t), intent(inout) :: ideal          !! the start with ideal joints, if the run proper has found it
       type(error_t), allocatable, intent(out) :: error     !! there is no twin
 
       class(integrator_t), allocatable :: method
@@ -209,7 +211,7 @@ contains
 
       call new_system(loaded%scene, levels_ideal, system)
       if (size(system%linkage%ideal) == 0) return  ! no joint is another without clearance
-      call find_start(loaded%scene, system, y, assembly, error)
+      call find_start(loaded%scene, system, y, assembly, error, ideal=ideal)
       if (allocated(error)) return
       call new_method(loaded%scene, method)
       keeper%plan = plan
