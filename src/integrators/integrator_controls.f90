@@ -5,11 +5,11 @@
 !> maximum_steps, MXFCN maximum_evaluations, INORM norm, FLOOR floor.
 module integrator_controls
    use item, only: item_t
-   use kind_info, only: add_number, add_word, dim_none, dim_time, kind_info_t
+   use kind_info, only: add_number, add_word, dim_length, dim_none, dim_time, kind_info_t
    use kinds, only: i8, least_tolerance, wp
    implicit none (type, external)
    private
-   public :: add_control_columns, controls_t, read_controls
+   public :: add_control_columns, add_onset_options, controls_t, read_controls
    public :: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    public :: onset_interpolate, onset_located, onset_reject, onset_uncontrolled
 
@@ -79,6 +79,15 @@ contains
       call add_number(info, "inorm", dim_none, "IMSL number of the norm, 0 to 3; -1: the word of norm", default="-1", &
                       lower=-1.0_wp, upper=3.0_wp)
    end subroutine add_control_columns
+
+   !> The options of a word of `contact_onset`, as columns.
+   subroutine add_onset_options(word, info)
+      character(*), intent(in) :: word          !! as in `contact_onset = word`
+      type(kind_info_t), intent(inout) :: info  !! its options
+
+      if (word /= "reject") return
+      call add_number(info, "limit", dim_length, "greatest penetration at an onset", default="", lower=0.0_wp, open_lower=.true.)
+   end subroutine add_onset_options
 
    !> The controls from a section of settings that has the columns of `add_control_columns`; the scene
    !> has folded IMSL's names into the plain ones.
