@@ -4,7 +4,9 @@ module deck_scene
    use catalogue, only: catalogue_t
    use check, only: check_true
    use consistent_start, only: assembly_t
-   use deck_reader, only: deck_t, diagnostics_t, read_deck
+   use deck_file, only: read_deck
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_file, set_error
    use guards, only: new_guards

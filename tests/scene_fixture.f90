@@ -3,11 +3,13 @@ module scene_fixture
    use build_system, only: levels_as_written, new_system
    use catalogue, only: catalogue_t
    use consistent_start, only: assembly_t
-   use deck_reader, only: deck_t, diagnostics_t, read_deck
+   use deck_file, only: read_deck
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
    use errors, only: error_t
    use kinds, only: not_a_number, wp
-   use mechanism_report, only: build_catalogue, report_state
    use mechanism, only: mechanism_t
+   use mechanism_report, only: build_catalogue, report_state
    use read_scene, only: scene_from_deck
    use scene, only: scene_t
    use scratch_deck, only: remove_scratch, write_scratch

@@ -8,7 +8,8 @@ module contact_watch
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
-   use integrator, only: integrator_t, onset_located
+   use integrator, only: integrator_t
+   use integrator_controls, only: onset_located
    use kinds, only: not_a_number, pi, wp
    use memory, only: get, put
    use mechanism, only: n_ledger, mechanism_t

@@ -2,7 +2,7 @@
 module function_range
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use curve, only: beyond_error
-   use deck_reader, only: diagnostics_t
+   use diagnostics, only: diagnostics_t
    use expression, only: expression_t
    use expression_compile, only: evaluate_safely
    use kind_info, only: cell_expression

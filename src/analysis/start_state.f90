@@ -15,9 +15,16 @@ module start_state
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: find_start, redundancy_text
+   public :: find_start, ideal_start_t, redundancy_text
 
    real(wp), parameter :: touching = 1.0e-9_wp  !! overlap that counts as none, of the clearance [1]
+
+   !> Where the mechanism with ideal joints begins; nothing is allocated until it was assembled.
+   type :: ideal_start_t
+      real(wp), allocatable :: q(:)   !! (n_q bodies) positions [any]
+      real(wp), allocatable :: v(:)   !! (n_v bodies) velocities [m/s or rad/s]
+      type(assembly_t) :: report      !! how the assembly went
+   end type ideal_start_t
 
 contains
 
@@ -26,8 +33,9 @@ contains
    !> `start = ideal` assembles the mechanism with its loose joints taken as ideal, `start = given`
    !> only the ideal joints; both move the bodies as little as possible, with what holds only at the start there while
    !> assembling, then no more. `start = static` searches the equilibrium at t = 0. Rows of the system that runs may depend
-   !> on one another: it is told.
-   subroutine find_start(scene, levels, system, y, report, error, shift)
+   !> on one another: it is told. A mechanism that was assembled with ideal joints before, for a system with other ones, is not
+   !> assembled again.
+   subroutine find_start(scene, levels, system, y, report, error, shift, ideal)
       type(scene_t), intent(in) :: scene                    !! the scene
       integer, intent(in) :: levels                         !! of joints with clearance, as of `system`
       type(mechanism_t), intent(inout) :: system            !! the system that will run
@@ -35,25 +43,36 @@ contains
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or overlap
       type(shift_t), intent(in), optional :: shift          !! a perturbation, after which the mechanism is assembled anew
+      type(ideal_start_t), intent(inout), optional :: ideal !! with ideal joints: taken if it is there, kept if it was found
 
       type(mechanism_t) :: twin
       real(wp), allocatable :: q(:), v(:)
       integer :: at_start
+      logical :: is_shared, starts_ideal
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
       associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
-         at_start = levels
-         if (start == "ideal") at_start = levels_ideal
+         starts_ideal = start == "ideal"
+         at_start = merge(levels_ideal, levels, starts_ideal)
          if (start == "static") call start_at_rest(scene, system, q, v, report, error)
       end associate
       if (allocated(error)) return
-      call new_system(scene, at_start, twin, is_for_start=.true.)
-      call assemble(twin%linkage, q, v, report, error)
-      if (allocated(error)) then
-         call system%linkage%deck_state(q, v)
-         call name_conflict(scene, at_start, q, v, error)
-         return
+      is_shared = .false.
+      if (present(ideal)) is_shared = allocated(ideal%q) .and. starts_ideal
+      if (is_shared) then
+         q = ideal%q
+         v = ideal%v
+         report = ideal%report
+      else
+         call new_system(scene, at_start, twin, is_for_start=.true.)
+         call assemble(twin%linkage, q, v, report, error)
+         if (allocated(error)) then
+            call system%linkage%deck_state(q, v)
+            call name_conflict(scene, at_start, q, v, error)
+            return
+         end if
+         if (present(ideal) .and. starts_ideal) ideal = ideal_start_t(q, v, report)
       end if
       if (present(shift)) then
          call system%linkage%coordinates%add_change(system%linkage%bodies%n, shift%q, q)

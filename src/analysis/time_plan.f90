@@ -7,7 +7,9 @@ module time_plan
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use scene, only: analysis_kinematic, analysis_static, scene_t
-   use text, only: join, nearest_word, text_list_t, to_text
+   use spelling, only: nearest_word
+   use text, only: join, to_text
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: instant, last_instant, new_time_plan, time_plan_t

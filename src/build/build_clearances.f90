@@ -17,7 +17,7 @@ module build_clearances
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: add_clearances, is_ideal, levels_as_written, levels_ideal, levels_loose
+   public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_loose
 
    integer, parameter :: levels_as_written = 0  !! every joint with clearance as its row says
    integer, parameter :: levels_ideal = 1       !! every one ideal: the ideal twin
@@ -99,6 +99,20 @@ contains
          is_ideal = levels == levels_ideal .or. (levels == levels_as_written .and. cell_text(info, item, "level") == "ideal")
       end associate
    end function is_ideal
+
+   !> Whether any row, as it is written, becomes an ideal joint.
+   logical function has_ideal(scene)
+      type(scene_t), intent(in) :: scene  !! the scene
+
+      integer :: i, k
+
+      has_ideal = .false.
+      do k = 1, n_clearance_kinds
+         do i = 1, size(scene%clearances(k)%items)
+            has_ideal = has_ideal .or. is_ideal(scene, k, scene%clearances(k)%items(i), levels_as_written)
+         end do
+      end do
+   end function has_ideal
 
    !> Rows of a geometry as the joint that it is without clearance.
    subroutine add_ideal_set(scene, kind, items, angle, slot, n_row)

@@ -2,7 +2,9 @@
 module channel_hints
    use catalogue, only: catalogue_t, n_rooms, room_contacts
    use channel_names, only: item_name
-   use text, only: append_text, join, nearest_word, text_list_t, text_t
+   use spelling, only: nearest_word
+   use text, only: append_text, join, text_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: is_same, suggestion

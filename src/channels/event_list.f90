@@ -6,7 +6,7 @@ module event_list
    use kinds, only: wp
    use recorder, only: event_t
    use name_table, only: name_table_t
-   use text, only: text_list_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: event_list_t

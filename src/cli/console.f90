@@ -3,7 +3,7 @@
 module console
    use errors, only: error_t
    use posix, only: is_pipe_gone, write_output
-   use text, only: buffer_t
+   use text_buffer, only: buffer_t
    use text_file, only: fail_file
    implicit none (type, external)
    private

@@ -1,10 +1,13 @@
 !> From a deck on disk to a scene, its system and its times; every mistake of the deck in one error.
 module load
+   use build_clearances, only: has_ideal
    use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
    use catalogue, only: catalogue_t
    use channels, only: list_scalars, select_channels, selection_t
    use columns, only: column_of, find_column
-   use deck_reader, only: deck_t, diagnostics_t, read_deck, read_sweep, sweep_t
+   use deck_file, only: read_deck
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures, figure_bifurcation, figure_portrait, figure_section, figure_statistics, figure_t, &
       new_figure
@@ -12,17 +15,19 @@ module load
    use item, only: item_t, location_t, value_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use mechanism_report, only: build_catalogue
    use memory_purpose, only: memory_is_for
    use options, only: options_t
-   use mechanism_report, only: build_catalogue
-   use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
+   use spelling, only: nearest_word
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
-   use text, only: append_text, join, nearest_word, text_t, to_text
+   use sweep_values, only: read_sweep, sweep_t
+   use text, only: append_text, join, text_t, to_text
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
@@ -49,7 +54,7 @@ contains
 
       type(catalogue_t) :: catalogue
       type(diagnostics_t) :: mistakes
-      type(mechanism_t) :: loose
+      logical :: has_all_words
 
       if (size(options%operands) /= 1) then
          call set_error(error, exit_usage, "'gudgeon "//options%verb//"' needs one deck: gudgeon "//options%verb// &
@@ -64,16 +69,16 @@ contains
       if (mistakes%count() == 0) call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
       if (allocated(error)) return
-      ! channels and figures are words of the loose joints and of the deck's first analysis, whatever this run has of them
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and what they report")
-      call new_system(loaded%scene, levels_loose, loose)
-      call build_catalogue(loose, catalogue)
+      has_all_words = runs_as_written(options, loaded%scene)
+      if (.not. has_all_words) call list_words(loaded%scene, catalogue)
       call choose_analysis(options, loaded%scene, error)
       if (allocated(error)) return
       call apply_options(options, loaded%scene, error)
       if (allocated(error)) return
       call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
                       loaded%system)
+      if (has_all_words) call build_catalogue(loaded%system, catalogue)
       call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
@@ -81,6 +86,26 @@ contains
       call check_conditions(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
+
+   !> Whether the run has all that a deck can have words for: it is the deck's first analysis, and no joint is taken as ideal.
+   logical function runs_as_written(options, scene)
+      type(options_t), intent(in) :: options  !! the command line
+      type(scene_t), intent(in) :: scene      !! the scene of the deck
+
+      runs_as_written = .not. (options%is_ideal .or. scene%analysis == analysis_kinematic .or. has_ideal(scene))
+      if (allocated(options%analysis)) runs_as_written = runs_as_written .and. options%analysis == analysis_names(scene%analysis)
+   end function runs_as_written
+
+   !> What a deck can have words for: channels and figures of loose joints and of its first analysis, whatever a run has of them.
+   subroutine list_words(scene, catalogue)
+      type(scene_t), intent(in) :: scene           !! the scene of the deck
+      type(catalogue_t), intent(out) :: catalogue  !! all that it can report
+
+      type(mechanism_t) :: loose
+
+      call new_system(scene, levels_loose, loose)
+      call build_catalogue(loose, catalogue)
+   end subroutine list_words
 
    !> Every word that a sweep gives to a parameter must make a deck without mistakes, the other parameters being the deck's own.
    subroutine check_swept_words(options, loaded, error)

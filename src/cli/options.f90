@@ -4,7 +4,8 @@ module options
    use errors, only: error_t, exit_usage, set_error
    use kinds, only: wp
    use numbers, only: number_length, read_number
-   use text, only: append_text, join, nearest_word, split_blank, starts_with, text_t
+   use spelling, only: nearest_word
+   use text, only: append_text, join, split_blank, starts_with, text_t
    implicit none (type, external)
    private
    public :: options_t, read_options, usage_error

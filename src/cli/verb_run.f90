@@ -7,25 +7,26 @@ module verb_run
    use channels, only: find_scalars, item_finder_t
    use columns, only: column_of
    use consistent_start, only: assembly_t
-   use deck_reader, only: deck_text, get_includes
+   use deck_texts, only: deck_text, get_includes
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_usage, set_error
    use figure_words, only: check_figures
-   use integrator, only: integrator_t, read_controls
+   use integrator, only: integrator_t
+   use integrator_controls, only: read_controls
    use integrator_registry, only: find_integrator
+   use kinds, only: wp
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
-   use kinds, only: wp
    use libraries, only: library_versions
    use load, only: load_deck, loaded_t
+   use mechanism, only: mechanism_t
+   use mechanism_report, only: build_catalogue
    use mobility, only: mobility_t
    use memory_purpose, only: memory_is_for
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
    use perturbation, only: new_shift
-   use mechanism_report, only: build_catalogue
-   use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t
    use recorder, only: summary_t
    use row_plan, only: contact_rows_text, has_contact_rows
@@ -34,11 +35,12 @@ module verb_run
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
-   use start_state, only: find_start, redundancy_text
+   use start_state, only: find_start, ideal_start_t, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
    use subsystems, only: new_subsystems, subsystem_t
-   use text, only: append_text, real_text, starts_with, text_list_t, text_t, to_text
+   use text, only: append_text, real_text, starts_with, text_t, to_text
+   use text_list, only: text_list_t
    use version, only: program_version
    implicit none (type, external)
    private
@@ -77,6 +79,7 @@ contains
       type(assembly_t) :: assembly
       type(catalogue_t) :: catalogue
       type(error_t), allocatable :: twin_error
+      type(ideal_start_t) :: ideal
       type(limits_t) :: limits
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
@@ -90,16 +93,16 @@ contains
          call check_member(options, loaded, error)
          if (allocated(error)) return
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
-                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member))
+                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member), ideal=ideal)
       else
-         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error)
+         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, ideal=ideal)
       end if
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, plan)
       if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%n_loose > 0) then
-         call run_twin(loaded, plan, twin_error)
+         call run_twin(loaded, plan, ideal, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))
       end if
@@ -198,9 +201,10 @@ contains
    end subroutine new_method
 
    !> The mechanism with ideal joints, text files only, for the figures.
-   subroutine run_twin(loaded, plan, error)
+   subroutine run_twin(loaded, plan, ideal, error)
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(output_plan_t), intent(in) :: plan              !! plan of the run proper
+      type(ideal_start_t), intent(inout) :: ideal          !! the start with ideal joints, if the run proper has found it
       type(error_t), allocatable, intent(out) :: error     !! there is no twin
 
       class(integrator_t), allocatable :: method
@@ -213,7 +217,7 @@ contains
 
       call new_system(loaded%scene, levels_ideal, system)
       if (size(system%linkage%ideal) == 0) return  ! no joint is another without clearance
-      call find_start(loaded%scene, levels_ideal, system, y, assembly, error)
+      call find_start(loaded%scene, levels_ideal, system, y, assembly, error, ideal=ideal)
       if (allocated(error)) return
       call new_method(loaded%scene, method)
       keeper%plan = plan

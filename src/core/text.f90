@@ -1,42 +1,19 @@
-!> Text: lists of strings, numbers as text, blanks, spelling.
+!> Text: strings of any length, numbers as text, blanks.
 !>
 !> Nothing here is used inside an evaluation.
 module text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use, intrinsic :: iso_fortran_env, only: int64
    use kinds, only: wp
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: append_text, buffer_t, exact_text, join, lower, nearest_word, printable, real_text, replace
-   public :: split_blank, starts_with, text_list_t, text_t, to_text
+   public :: append_text, counted, exact_text, join, lower, printable, real_text, replace, split_blank, starts_with, text_t, to_text
 
    !> A string of any length, so that lists of strings may be ragged.
    type :: text_t
       character(:), allocatable :: s  !! the string
    end type text_t
-
-   !> A string that grows at its end without copying itself each time.
-   type :: buffer_t
-      private
-      character(:), allocatable :: store  !! characters, more than are used
-      integer :: used = 0                 !! characters in use
-   contains
-      procedure :: add => add_to_buffer
-      procedure :: get => get_buffer
-      procedure :: length => length_of_buffer
-      procedure :: line => add_line
-   end type buffer_t
-
-   !> A list of strings that grows at its end without moving all of them each time.
-   type :: text_list_t
-      private
-      type(text_t), allocatable :: store(:)  !! strings, more than are used
-      integer, public :: n = 0               !! strings in use
-   contains
-      procedure :: add => add_to_list
-      procedure :: at => string_of_list
-      procedure :: get => get_list
-   end type text_list_t
 
    !> A number as text.
    interface to_text
@@ -44,12 +21,6 @@ module text
       module procedure :: long_text
       module procedure :: short_real_text
    end interface to_text
-
-   !> The candidate that a misspelt word probably meant, or an empty string.
-   interface nearest_word
-      module procedure :: nearest_of_list
-      module procedure :: nearest_of_blank
-   end interface nearest_word
 
 contains
 
@@ -155,6 +126,17 @@ contains
       end do
    end function exact_text
 
+   !> A number with the word for it.
+   pure function counted(n, one, many) result(words)
+      integer, intent(in) :: n               !! the number
+      character(*), intent(in) :: one        !! word for one
+      character(*), intent(in) :: many       !! word for several
+      character(:), allocatable :: words     !! as `3 bodies`
+
+      words = integer_text(n)//" "//many
+      if (n == 1) words = integer_text(n)//" "//one
+   end function counted
+
    !> Lower case (ASCII letters only).
    pure function lower(s) result(small)
       character(*), intent(in) :: s   !! any string
@@ -210,47 +192,6 @@ contains
          if (pass == 1) allocate (words(n))
       end do
    end function split_blank
-
-   !> Append a string to a list that grows by doubling.
-   pure subroutine add_to_list(self, s)
-      class(text_list_t), intent(inout) :: self  !! the list
-      character(*), intent(in) :: s              !! the new one
-
-      type(text_t), allocatable :: larger(:)
-      integer :: i
-
-      if (.not. allocated(self%store)) allocate (self%store(16))
-      if (self%n == size(self%store)) then
-         allocate (larger(2*self%n))
-         do i = 1, self%n
-            call move_alloc(self%store(i)%s, larger(i)%s)
-         end do
-         call move_alloc(larger, self%store)
-      end if
-      self%n = self%n + 1
-      self%store(self%n)%s = s
-   end subroutine add_to_list
-
-   !> The strings of a list.
-   pure function get_list(self) result(list)
-      class(text_list_t), intent(in) :: self  !! the list
-      type(text_t), allocatable :: list(:)    !! (n) all that was appended
-
-      if (allocated(self%store)) then
-         list = self%store(:self%n)
-      else
-         allocate (list(0))
-      end if
-   end function get_list
-
-   !> A string of a list.
-   pure function string_of_list(self, k) result(s)
-      class(text_list_t), intent(in) :: self  !! the list
-      integer, intent(in) :: k                !! its number
-      character(:), allocatable :: s          !! the string
-
-      s = self%store(k)%s
-   end function string_of_list
 
    !> Append a string to a short list: all others are moved.
    pure subroutine append_text(list, s)
@@ -319,109 +260,5 @@ contains
       call buffer%add(string(next:))
       s = buffer%get()
    end function replace
-
-   !> The nearest of a list.
-   pure function nearest_of_list(word, candidates) result(nearest)
-      character(*), intent(in) :: word              !! as written
-      type(text_t), intent(in) :: candidates(:)     !! (n) words that would be right
-      character(:), allocatable :: nearest          !! one of them, or empty if none is close
-
-      integer :: best, distance, i, limit
-
-      nearest = ""
-      limit = max(1, (len(word) + 1)/3)
-      best = min(limit, len(word) - 1) + 1
-      if (len(word) == 0 .or. len(word) > 80) return
-      do i = 1, size(candidates)
-         if (abs(len(candidates(i)%s) - len(word)) >= best) cycle
-         distance = edit_distance(lower(word), lower(candidates(i)%s))
-         if (distance < best .and. distance < max(len(word), len(candidates(i)%s))) then
-            best = distance
-            nearest = candidates(i)%s
-         end if
-      end do
-      if (len(nearest) > 0 .or. len(word) < 3) return
-      do i = 1, size(candidates)
-         if (starts_with(lower(candidates(i)%s), lower(word))) then
-            nearest = candidates(i)%s
-            return
-         end if
-      end do
-   end function nearest_of_list
-
-   !> The nearest of a string of blank-separated words.
-   pure function nearest_of_blank(word, candidates) result(nearest)
-      character(*), intent(in) :: word        !! as written
-      character(*), intent(in) :: candidates  !! blank-separated words that would be right
-      character(:), allocatable :: nearest    !! one of them, or empty if none is close
-
-      nearest = nearest_of_list(word, split_blank(candidates))
-   end function nearest_of_blank
-
-   !> Damerau-Levenshtein distance: letters inserted, left out, changed, or two neighbours swapped.
-   pure integer function edit_distance(a, b)
-      character(*), intent(in) :: a  !! one word
-      character(*), intent(in) :: b  !! the other
-
-      integer :: cost(0:len(a), 0:len(b)), i, j, change
-
-      do i = 0, len(a)
-         cost(i, 0) = i
-      end do
-      do j = 1, len(b)
-         cost(0, j) = j
-         do i = 1, len(a)
-            change = merge(0, 1, a(i:i) == b(j:j))
-            cost(i, j) = min(cost(i - 1, j) + 1, cost(i, j - 1) + 1, cost(i - 1, j - 1) + change)
-            if (i < 2 .or. j < 2) cycle
-            if (a(i:i) == b(j - 1:j - 1) .and. a(i - 1:i - 1) == b(j:j)) then
-               cost(i, j) = min(cost(i, j), cost(max(i - 2, 0), max(j - 2, 0)) + 1)
-            end if
-         end do
-      end do
-      edit_distance = cost(len(a), len(b))
-   end function edit_distance
-
-   !> Append a string to a buffer.
-   pure subroutine add_to_buffer(self, s)
-      class(buffer_t), intent(inout) :: self  !! the buffer
-      character(*), intent(in) :: s           !! what to append
-
-      character(:), allocatable :: larger
-
-      if (.not. allocated(self%store)) allocate (character(256) :: self%store)
-      if (self%used + len(s) > len(self%store)) then
-         allocate (character(2*(self%used + len(s))) :: larger)
-         larger(1:self%used) = self%store(1:self%used)
-         call move_alloc(larger, self%store)
-      end if
-      self%store(self%used + 1:self%used + len(s)) = s
-      self%used = self%used + len(s)
-   end subroutine add_to_buffer
-
-   !> Append a string and the end of a line.
-   pure subroutine add_line(self, s)
-      class(buffer_t), intent(inout) :: self  !! the buffer
-      character(*), intent(in) :: s           !! the line
-
-      call add_to_buffer(self, s)
-      call add_to_buffer(self, new_line("a"))
-   end subroutine add_line
-
-   !> What a buffer holds.
-   pure function get_buffer(self) result(s)
-      class(buffer_t), intent(in) :: self  !! the buffer
-      character(:), allocatable :: s       !! all that was appended
-
-      s = ""
-      if (self%used > 0) s = self%store(1:self%used)
-   end function get_buffer
-
-   !> Number of characters in a buffer.
-   pure integer function length_of_buffer(self)
-      class(buffer_t), intent(in) :: self  !! the buffer
-
-      length_of_buffer = self%used
-   end function length_of_buffer
 
 end module text

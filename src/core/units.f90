@@ -7,7 +7,8 @@ module units
    use kind_info, only: dim_t
    use kinds, only: pi, wp
    use numbers, only: number_length, read_number
-   use text, only: append_text, lower, nearest_word, starts_with, text_t, to_text
+   use spelling, only: nearest_word
+   use text, only: append_text, lower, starts_with, text_t, to_text
    implicit none (type, external)
    private
    public :: dimension_power, dimension_product, exponent_length, parse_unit, read_quantity, to_si, unit_factor, unit_t

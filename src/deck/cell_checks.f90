@@ -4,7 +4,8 @@ module cell_checks
    use item, only: location_t
    use kind_info, only: column_t, dim_angle, no_bound, same_dimension
    use kinds, only: eps, wp
-   use text, only: join, nearest_word, split_blank, text_t, to_text
+   use spelling, only: nearest_word
+   use text, only: join, split_blank, text_t, to_text
    use tokens, only: span, token_t
    implicit none (type, external)
    private

@@ -7,7 +7,9 @@ module cell_lists
    use item, only: location_t, option_t, value_t
    use kind_info, only: dim_none, same_dimension
    use quantities, only: is_numeric, quantity_t, read_bare, read_brace, word_in_brace
-   use text, only: exact_text, join, nearest_word, split_blank, text_list_t, text_t
+   use spelling, only: nearest_word
+   use text, only: exact_text, join, split_blank, text_t
+   use text_list, only: text_list_t
    use tokens, only: span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private

@@ -1,4 +1,13 @@
 !> Reads a deck with all its includes: version, sections, lines of cells, overrides, parameters.
+!>
+!> What is in it is asked for section by section; every call goes on after mistakes, so that several are reported in one go:
+!>
+!>     call read_deck(path, overrides, deck, mistakes)             here
+!>     call check_sections(deck, kinds, mistakes)                  settings
+!>     call read_settings(deck, info, item, is_present, mistakes)  settings
+!>     call read_items(deck, info, items, mistakes)                tables
+!>     call mistakes%add(location, summary, note, help)            diagnostics
+!>     call mistakes%to_error(deck%sources, error)                 diagnostics
 module deck_file
    use deck_types, only: add_line, add_section, add_source, deck_t, location_of_end, text_of
    use diagnostics, only: diagnostics_t

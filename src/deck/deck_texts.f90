@@ -4,7 +4,8 @@
 !> that the text run again without `--set` is the same run. Everything else is verbatim.
 module deck_texts
    use deck_types, only: deck_t
-   use text, only: text_list_t, text_t
+   use text, only: text_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: deck_text, get_includes

@@ -12,7 +12,8 @@ module diagnostics
    use errors, only: error_t, exit_deck, set_error
    use item, only: location_t
    use source_text, only: line_of, source_t
-   use text, only: buffer_t, printable, to_text
+   use text, only: printable, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: diagnostics_t

@@ -9,7 +9,8 @@ module echo
    use item, only: item_t, value_t
    use kind_info, only: cell_condition, cell_duration, cell_expression, cell_flag, cell_list, cell_number, &
                       & cell_vector, cell_words, column_t, dim_none, dim_t, kind_info_t, same_dimension
-   use text, only: buffer_t, exact_text, replace, text_t
+   use text, only: exact_text, replace, text_t
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters

@@ -10,7 +10,8 @@ module parameters
    use name_table, only: name_table_t
    use quantities, only: is_numeric, quantity_t, word_in_brace
    use source_text, only: line_of
-   use text, only: join, lower, nearest_word, text_t
+   use spelling, only: nearest_word
+   use text, only: join, lower, text_t
    use tokens, only: lex_line, span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private

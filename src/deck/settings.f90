@@ -7,7 +7,8 @@ module settings
    use item, only: item_t
    use kind_info, only: kind_info_t
    use table_header, only: column_index, column_list
-   use text, only: append_text, join, nearest_word, starts_with, text_t, to_text
+   use spelling, only: nearest_word
+   use text, only: append_text, join, starts_with, text_t, to_text
    use tokens, only: span, token_equals, token_t, token_word
    implicit none (type, external)
    private

@@ -18,7 +18,9 @@ module sweep_values
    use numbers, only: number_length
    use quantities, only: is_numeric, quantity_t, read_bare
    use table_header, only: column_index
-   use text, only: exact_text, join, nearest_word, text_list_t, text_t, to_text
+   use spelling, only: nearest_word
+   use text, only: exact_text, join, text_t, to_text
+   use text_list, only: text_list_t
    use tokens, only: span, token_brace, token_equals, token_quoted, token_t, token_word
    implicit none (type, external)
    private
@@ -276,11 +278,10 @@ contains
       type(swept_t), intent(inout) :: swept           !! the parameter
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
-      type(text_list_t) :: texts
       character(:), allocatable :: unit, units(:), words(:)
       integer :: at, k, length, n, n_values, status
       logical :: is_geometric, is_good
-      real(wp) :: ends(2), x
+      real(wp) :: ends(2)
 
       n = size(list)
       allocate (character(256) :: words(n), units(2))
@@ -321,6 +322,21 @@ contains
          call mistakes%add(span(list(1), list(3)), "a geometric range cannot reach or cross zero", "both ends of one sign")
          return
       end if
+      call spread_values(ends, n_values, is_geometric, unit, swept)
+   end subroutine read_range
+
+   !> The values of a range, as texts: the ends, and between them equal differences or equal ratios.
+   subroutine spread_values(ends, n_values, is_geometric, unit, swept)
+      real(wp), intent(in) :: ends(2)        !! (2) the first and the last value [unit]
+      integer, intent(in) :: n_values        !! how many there are, at least 2
+      logical, intent(in) :: is_geometric    !! equal ratios
+      character(*), intent(in) :: unit       !! their unit, or none
+      type(swept_t), intent(inout) :: swept  !! the parameter
+
+      type(text_list_t) :: texts
+      integer :: k
+      real(wp) :: x
+
       do k = 1, n_values
          associate (part => real(k - 1, wp)/real(n_values - 1, wp))
             x = ends(1) + (ends(2) - ends(1))*part
@@ -330,7 +346,7 @@ contains
          call texts%add(exact_text(x)//unit)
       end do
       swept%texts = texts%get()
-   end subroutine read_range
+   end subroutine spread_values
 
    !> The values in SI; their dimension must be that of the parameter in the deck.
    subroutine check_dimensions(deck, parameter_number, list, swept, mistakes)

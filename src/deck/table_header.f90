@@ -6,7 +6,8 @@ module table_header
    use item, only: location_t
    use kind_info, only: cell_expression, cell_list, cell_number, column_t, kind_info_t, same_dimension
    use quantities, only: read_unit
-   use text, only: append_text, join, nearest_word, text_t
+   use spelling, only: nearest_word
+   use text, only: append_text, join, text_t
    use tokens, only: span, token_equals, token_t, token_word
    use units, only: unit_t
    implicit none (type, external)

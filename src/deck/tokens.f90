@@ -7,7 +7,7 @@ module tokens
    use foreign_signs, only: find_foreign_comment, find_foreign_sign
    use item, only: location_t
    use source_text, only: line_of, source_t
-   use text, only: buffer_t
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: has_content, lex_line, span, token_brace, token_equals, token_list_t, token_quoted, token_t, token_text, token_word

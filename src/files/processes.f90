@@ -4,7 +4,8 @@
 module processes
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
    use kinds, only: i8
-   use text, only: buffer_t, text_t
+   use text, only: text_t
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: begin_process, clock_ms, end_process, start_program, wait_any, wait_group

@@ -5,6 +5,7 @@
 !> Source: Flores et al. (2008), section 2.5.
 module hold
    use item, only: option_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use linkage, only: linkage_t
    implicit none (type, external)
@@ -17,8 +18,9 @@ module hold
       logical :: follows_step = .false.  !! whether gains follow the step
       logical :: at_steps = .false.   !! whether `correct_step` is to be called
    contains
-      procedure(name_interface), nopass, deferred :: name
+      procedure(info_interface), nopass, deferred :: info
       procedure(words_interface), deferred :: words
+      procedure :: name => hold_name
       procedure :: configure => hold_configure
       procedure :: begin_step => hold_begin_step
       procedure :: correct_stage => hold_correct
@@ -29,11 +31,12 @@ module hold
    end type hold_t
 
    abstract interface
-      !> The word for it in a deck.
-      function name_interface() result(name)
+      !> What the way says of itself: the word for it in a deck, what it does, the options after the word as columns.
+      function info_interface() result(info)
+         import :: kind_info_t
          implicit none (type, external)
-         character(:), allocatable :: name  !! as in `stabilise = name`
-      end function name_interface
+         type(kind_info_t) :: info  !! name, as in `stabilise = name`, help, options
+      end function info_interface
 
       !> What is done, in words.
       function words_interface(self) result(words)
@@ -45,6 +48,17 @@ module hold
    end interface
 
 contains
+
+   !> The word for the way in a deck.
+   function hold_name(self) result(name)
+      class(hold_t), intent(in) :: self     !! the way
+      character(:), allocatable :: name     !! as in `stabilise = name`
+
+      type(kind_info_t) :: info
+
+      info = self%info()
+      name = info%name
+   end function hold_name
 
    !> Value of an option of a deck, or what stands for it.
    pure real(wp) function option_number(options, name, default) result(number)

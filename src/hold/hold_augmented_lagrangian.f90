@@ -7,6 +7,7 @@
 module hold_augmented_lagrangian
    use hold, only: hold_t, option_number
    use item, only: option_t
+   use kind_info, only: add_number, dim_frequency, dim_none, kind_info_t
    use kinds, only: wp
    use linkage, only: linkage_t
    use text, only: to_text
@@ -20,7 +21,7 @@ module hold_augmented_lagrangian
       real(wp) :: omega = 10.0_wp     !! natural frequency of a violation [1/s]
       real(wp) :: mu = 1.0_wp         !! its damping ratio [1]
    contains
-      procedure, nopass :: name => lagrangian_name
+      procedure, nopass :: info => lagrangian_info
       procedure :: words => lagrangian_words
       procedure :: configure => lagrangian_configure
       procedure :: begin_step => lagrangian_begin_step
@@ -28,12 +29,18 @@ module hold_augmented_lagrangian
 
 contains
 
-   !> The word for it in a deck.
-   function lagrangian_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function lagrangian_info() result(info)
+      type(kind_info_t) :: info  !! name, help, options
 
-      name = "augmented_lagrangian"
-   end function lagrangian_name
+      info%name = "augmented_lagrangian"
+      info%help = "penalty, and gains omega mu, omega"
+      info%source = "Flores et al. (2008), section 2.5, eqs. (2.32)-(2.35)"
+      call add_number(info, "penalty", dim_none, "of a violated row, of its inverse effective mass", default="", lower=0.0_wp, &
+                      open_lower=.true.)
+      call add_number(info, "omega", dim_frequency, "gain on the violation", default="", lower=0.0_wp)
+      call add_number(info, "mu", dim_none, "damping: the gain on the rate of violation is omega mu", default="", lower=0.0_wp)
+   end function lagrangian_info
 
    !> What is done, in words.
    function lagrangian_words(self) result(words)

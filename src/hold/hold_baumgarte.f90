@@ -6,6 +6,7 @@
 module hold_baumgarte
    use hold, only: hold_t, option_number
    use item, only: option_t
+   use kind_info, only: add_number, dim_frequency, kind_info_t
    use kinds, only: wp
    use linkage, only: linkage_t
    use text, only: to_text
@@ -18,7 +19,7 @@ module hold_baumgarte
       real(wp) :: alpha = 5.0_wp  !! gain on the rate of violation [1/s]
       real(wp) :: beta = 5.0_wp   !! gain on the violation [1/s]
    contains
-      procedure, nopass :: name => baumgarte_name
+      procedure, nopass :: info => baumgarte_info
       procedure :: words => baumgarte_words
       procedure :: configure => baumgarte_configure
       procedure :: begin_step => baumgarte_begin_step
@@ -26,12 +27,16 @@ module hold_baumgarte
 
 contains
 
-   !> The word for it in a deck.
-   function baumgarte_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function baumgarte_info() result(info)
+      type(kind_info_t) :: info  !! name, help, options
 
-      name = "baumgarte"
-   end function baumgarte_name
+      info%name = "baumgarte"
+      info%help = "constant gains alpha, beta"
+      info%source = "Flores et al. (2008), eqs. (2.23), (2.24)"
+      call add_number(info, "alpha", dim_frequency, "gain on the rate of violation", default="", lower=0.0_wp)
+      call add_number(info, "beta", dim_frequency, "gain on the violation", default="", lower=0.0_wp)
+   end function baumgarte_info
 
    !> What is done, in words.
    function baumgarte_words(self) result(words)

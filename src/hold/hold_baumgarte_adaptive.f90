@@ -15,6 +15,7 @@ module hold_baumgarte_adaptive
    use floors, only: least_hold
    use hold, only: hold_t, option_number
    use item, only: option_t
+   use kind_info, only: add_number, dim_none, kind_info_t
    use kinds, only: wp
    use memory, only: get, put
    use linkage, only: linkage_t
@@ -32,7 +33,7 @@ module hold_baumgarte_adaptive
       real(wp) :: alpha = 5.0_wp      !! present gain [1/s]
       real(wp) :: worst = 0.0_wp      !! scaled violation when it was set [1]
    contains
-      procedure, nopass :: name => adaptive_name
+      procedure, nopass :: info => adaptive_info
       procedure :: words => adaptive_words
       procedure :: configure => adaptive_configure
       procedure :: begin_step => adaptive_begin_step
@@ -43,12 +44,15 @@ module hold_baumgarte_adaptive
 
 contains
 
-   !> The word for it in a deck.
-   function adaptive_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function adaptive_info() result(info)
+      type(kind_info_t) :: info  !! name, help, options
 
-      name = "baumgarte_adaptive"
-   end function adaptive_name
+      info%name = "baumgarte_adaptive"
+      info%help = "gains that follow the violation to target"
+      info%source = "Chang and Nikravesh (1985), cited by Flores et al. (2008), section 2.5"
+      call add_number(info, "target", dim_none, "scaled violation that the gains aim at", default="", lower=0.0_wp)
+   end function adaptive_info
 
    !> What is done, in words.
    function adaptive_words(self) result(words)

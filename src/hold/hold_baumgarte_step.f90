@@ -6,6 +6,7 @@
 module hold_baumgarte_step
    use hold, only: hold_t, option_number
    use item, only: option_t
+   use kind_info, only: add_number, dim_none, kind_info_t
    use kinds, only: wp
    use linkage, only: linkage_t
    use text, only: to_text
@@ -18,7 +19,7 @@ module hold_baumgarte_step
       real(wp) :: alpha = 1.0_wp           !! factor of the gain on the rate of violation [1]
       real(wp) :: beta = sqrt(2.0_wp)      !! factor of the gain on the violation [1]
    contains
-      procedure, nopass :: name => step_name
+      procedure, nopass :: info => step_info
       procedure :: words => step_words
       procedure :: configure => step_configure
       procedure :: begin_step => step_begin_step
@@ -26,12 +27,16 @@ module hold_baumgarte_step
 
 contains
 
-   !> The word for it in a deck.
-   function step_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function step_info() result(info)
+      type(kind_info_t) :: info  !! name, help, options
 
-      name = "baumgarte_step"
-   end function step_name
+      info%name = "baumgarte_step"
+      info%help = "gains alpha/h, beta/h from the step h"
+      info%source = "Flores et al. (2008), section 2.5, table 2.3"
+      call add_number(info, "alpha", dim_none, "gain on the rate of violation, times the step", default="", lower=0.0_wp)
+      call add_number(info, "beta", dim_none, "gain on the violation, times the step", default="", lower=0.0_wp)
+   end function step_info
 
    !> What is done, in words.
    function step_words(self) result(words)

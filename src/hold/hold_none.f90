@@ -3,6 +3,7 @@
 !> Source: Flores et al. (2008), section 2.4.
 module hold_none
    use hold, only: hold_t
+   use kind_info, only: kind_info_t
    implicit none (type, external)
    private
    public :: hold_none_t
@@ -10,18 +11,20 @@ module hold_none
    !> Nothing.
    type, extends(hold_t) :: hold_none_t
    contains
-      procedure, nopass :: name => none_name
+      procedure, nopass :: info => none_info
       procedure :: words => none_words
    end type hold_none_t
 
 contains
 
-   !> The word for it in a deck.
-   function none_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function none_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "none"
-   end function none_name
+      info%name = "none"
+      info%help = "violations grow"
+      info%source = "Flores et al. (2008), section 2.4"
+   end function none_info
 
    !> What is done, in words.
    function none_words(self) result(words)

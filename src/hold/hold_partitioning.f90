@@ -14,6 +14,7 @@
 module hold_partitioning
    use hold, only: hold_t
    use item, only: option_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use lapack, only: dgels, dgeqp3, dgeqrf
    use memory, only: get, put
@@ -38,7 +39,7 @@ module hold_partitioning
       real(wp), allocatable :: right(:, :)        !! (rows or coordinates, 1) right-hand side and solution [1]
       real(wp), allocatable :: tau(:), work(:)    !! (any) scratch of LAPACK [any]
    contains
-      procedure, nopass :: name => partitioning_name
+      procedure, nopass :: info => partitioning_info
       procedure :: words => partitioning_words
       procedure :: configure => partitioning_configure
       procedure :: correct_stage => partitioning_correct
@@ -50,12 +51,14 @@ module hold_partitioning
 
 contains
 
-   !> The word for it in a deck.
-   function partitioning_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function partitioning_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "partitioning"
-   end function partitioning_name
+      info%name = "partitioning"
+      info%help = "dependent coordinates from the constraints at every evaluation"
+      info%source = "Flores et al. (2008), section 2.5, eqs. (2.25)-(2.31)"
+   end function partitioning_info
 
    !> What is done, in words.
    function partitioning_words(self) result(words)

@@ -10,6 +10,7 @@
 module hold_projection
    use hold, only: hold_t
    use item, only: option_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use linkage, only: linkage_t
    implicit none (type, external)
@@ -23,7 +24,7 @@ module hold_projection
    !> Projection.
    type, extends(hold_t) :: hold_projection_t
    contains
-      procedure, nopass :: name => projection_name
+      procedure, nopass :: info => projection_info
       procedure :: words => projection_words
       procedure :: configure => projection_configure
       procedure :: correct_step => projection_correct_step
@@ -31,12 +32,14 @@ module hold_projection
 
 contains
 
-   !> The word for it in a deck.
-   function projection_name() result(name)
-      character(:), allocatable :: name  !! as in `stabilise = name`
+   !> What the way says of itself.
+   function projection_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "projection"
-   end function projection_name
+      info%name = "projection"
+      info%help = "the least correction in kinetic energy at the end of every step"
+      info%source = "Eich (1993)"
+   end function projection_info
 
    !> What is done, in words.
    function projection_words(self) result(words)

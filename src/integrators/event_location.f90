@@ -146,7 +146,7 @@ contains
       real(wp), allocatable :: g(:), rate(:), y(:)
       real(wp) :: a, b
       integer(i8) :: n_inner
-      integer :: i, k
+      integer :: i
 
       ! the room of the integrator, while it itself is asked for states
       call move_alloc(method%scratch, y)
@@ -159,15 +159,7 @@ contains
       n_inner = ceiling(method%step%h/n_sample/method%look, i8)
       do i = 1, n_sample
          b = real(i, wp)/n_sample
-         call values_at_place(b)
-         do k = 1, system%n_event
-            if (g(k) > 0.0_wp) event = k
-         end do
-         ! a maximum between two places: look at it if it may be above zero, even if another function is by now
-         do k = 1, system%n_event
-            if (g(k) <= 0.0_wp .and. rate(k) < 0.0_wp .and. g(k) - rate(k)*method%step%h*(b - a) > 0.0_wp) call climb(k, a, b)
-         end do
-         if (n_inner > 1) call look_between(a, b)
+         call look_at(b)
          if (event /= 0) exit
          a = b
       end do
@@ -183,6 +175,23 @@ contains
       call move_alloc(rate, method%rate)
 
    contains
+
+      !> Look for an event at a place of the step, and between the place before and it.
+      subroutine look_at(s)
+         real(wp), intent(inout) :: s  !! place; one before it, if there is an event there [1]
+
+         integer :: k
+
+         call values_at_place(s)
+         do k = 1, system%n_event
+            if (g(k) > 0.0_wp) event = k
+         end do
+         ! a maximum between two places: look at it if it may be above zero, even if another function is by now
+         do k = 1, system%n_event
+            if (g(k) <= 0.0_wp .and. rate(k) < 0.0_wp .and. g(k) - rate(k)*method%step%h*(s - a) > 0.0_wp) call climb(k, a, s)
+         end do
+         if (n_inner > 1) call look_between(a, s)
+      end subroutine look_at
 
       !> Event functions at a place of the step, from its interpolant.
       subroutine values_at(s)

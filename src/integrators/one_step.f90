@@ -10,8 +10,9 @@
 !> time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
    use event_location, only: find_first_event
-   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
-      advance_too_many_steps, advance_too_small, integrator_t, onset_located, onset_reject
+   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations
+   use integrator, only: advance_too_many_steps, advance_too_small, integrator_t
+   use integrator_controls, only: onset_located, onset_reject
    use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t

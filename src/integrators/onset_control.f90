@@ -16,7 +16,8 @@
 !> (3.18)-(3.24), corrected: the printed (3.20) has the wrong sign before the fraction, (3.22) and (3.23) the wrong one in the
 !> numerators. Limits: one-step methods; with `interpolate` the time of the onset is of second order in the step.
 module onset_control
-   use integrator, only: advance_event, advance_failed_evaluation, advance_step, integrator_t, onset_interpolate
+   use integrator, only: advance_event, advance_failed_evaluation, advance_step, integrator_t
+   use integrator_controls, only: onset_interpolate
    use kinds, only: wp
    use ode_system, only: ode_system_t
    implicit none (type, external)

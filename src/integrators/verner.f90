@@ -7,7 +7,7 @@
 !> SIAM J. Numer. Anal. 15 (1978) 772-790; Hull, Enright and Jackson, DVERK (1976), whose
 !> coefficients these are. Limits: not for stiff equations.
 module verner
-   use integrator, only: norm_euclidean
+   use integrator_controls, only: norm_euclidean
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t

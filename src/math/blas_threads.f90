@@ -9,7 +9,8 @@ module blas_threads
       c_null_ptr, c_ptr
    use errors, only: error_t, exit_file, set_error
    use kinds, only: i8
-   use text, only: buffer_t, to_text
+   use text, only: to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: use_one_blas_thread

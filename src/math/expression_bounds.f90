@@ -196,14 +196,12 @@ contains
 
       real(wp), parameter :: log_of_ten = log(10.0_wp)  ! turns natural into decimal logarithms [1]
       real(wp) :: a(2), d(2), f(2)
-      integer :: i, n
+      integer :: n
 
       a = u(:, 1)
       select case (op)
       case (op_negate)
-         do i = 1, 3
-            v(:, i) = [-u(2, i), -u(1, i)]
-         end do
+         v = negative(u)
       case (op_sin)
          f = sine_of(a)
          v = chain(u, f, sine_of(a + 0.25_wp*two_pi), [-f(2), -f(1)])
@@ -219,29 +217,15 @@ contains
       case (op_atan)
          d = inverse(sum_of(one, power_of(a, 2)))
          v = chain(u, atan(a), d, times(-2.0_wp, product_of(a, power_of(d, 2))))
-      case (op_sinh, op_cosh)
-         f = sinh(a)
-         d = [1.0_wp, max(cosh(a(1)), cosh(a(2)))]
-         if (.not. holds_zero(a)) d(1) = min(cosh(a(1)), cosh(a(2)))
-         v = chain(u, f, d, f)
-         if (op == op_cosh) v = chain(u, d, f, d)
-      case (op_tanh)
-         f = tanh(a)
-         ! 1 - tanh^2 falls from 1 on both sides of zero
-         d = [1.0_wp/cosh(min(magnitude(a), 300.0_wp))**2, 1.0_wp]
-         if (.not. holds_zero(a)) d(2) = 1.0_wp/cosh(min(abs(a(1)), abs(a(2)), 300.0_wp))**2
-         v = chain(u, f, d, times(-2.0_wp, product_of(f, d)))
+      case (op_sinh, op_cosh, op_tanh)
+         v = hyperbolic(op, u)
       case (op_exp)
          f = exp(a)
          v = chain(u, f, f, f)
-      case (op_log, op_log10)
-         v = unbounded()
-         if (a(2) > 0.0_wp) then
-            f = log(max(a, 0.0_wp))
-            d = inverse([max(a(1), 0.0_wp), a(2)])
-            v = chain(u, f, d, times(-1.0_wp, power_of(d, 2)))
-         end if
-         if (op == op_log10) v = product_jet(v, constant(1.0_wp/log_of_ten))
+      case (op_log)
+         v = logarithm(u)
+      case (op_log10)
+         v = product_jet(logarithm(u), constant(1.0_wp/log_of_ten))
       case (op_sqrt)
          v = real_power(u, 0.5_wp)
       case (op_real_power)
@@ -251,20 +235,78 @@ contains
          v = chain(u, power_of(a, n), times(real(n, wp), power_of(a, n - 1)), times(real(n, wp)*(n - 1), power_of(a, n - 2)))
          if (n == 1) v = u
       case (op_abs)
-         v = u
-         if (a(2) < 0.0_wp) v = of_one(op_negate, 0.0_wp, u)
-         if (holds_zero(a)) then
-            v(:, 1) = [0.0_wp, magnitude(a)]
-            do i = 2, 3
-               v(:, i) = magnitude(u(:, i))*[-1.0_wp, 1.0_wp]
-            end do
-         end if
+         v = absolute(u)
       case default
          v = 0.0_wp
          if (a(2) >= 0.0_wp) v(2, 1) = 1.0_wp
          if (a(1) >= 0.0_wp) v(1, 1) = 1.0_wp
       end select
    end function of_one
+
+   !> The absolute value of one jet.
+   pure function absolute(u) result(v)
+      real(wp), intent(in) :: u(2, 3)  !! (2, 3) argument [any]
+      real(wp) :: v(2, 3)              !! (2, 3) result [any]
+
+      integer :: i
+
+      v = u
+      if (u(2, 1) < 0.0_wp) v = negative(u)
+      if (.not. holds_zero(u(:, 1))) return
+      v(:, 1) = [0.0_wp, magnitude(u(:, 1))]
+      do i = 2, 3
+         v(:, i) = magnitude(u(:, i))*[-1.0_wp, 1.0_wp]
+      end do
+   end function absolute
+
+   !> A jet with its sign turned.
+   pure function negative(u) result(v)
+      real(wp), intent(in) :: u(2, 3)  !! (2, 3) argument [any]
+      real(wp) :: v(2, 3)              !! (2, 3) result [any]
+
+      integer :: i
+
+      do i = 1, 3
+         v(:, i) = [-u(2, i), -u(1, i)]
+      end do
+   end function negative
+
+   !> A hyperbolic function of one jet.
+   pure function hyperbolic(op, u) result(v)
+      integer, intent(in) :: op        !! the operation
+      real(wp), intent(in) :: u(2, 3)  !! (2, 3) argument [1]
+      real(wp) :: v(2, 3)              !! (2, 3) result [1]
+
+      real(wp) :: a(2), d(2), f(2)
+
+      a = u(:, 1)
+      if (op == op_tanh) then
+         f = tanh(a)
+         ! 1 - tanh^2 falls from 1 on both sides of zero
+         d = [1.0_wp/cosh(min(magnitude(a), 300.0_wp))**2, 1.0_wp]
+         if (.not. holds_zero(a)) d(2) = 1.0_wp/cosh(min(abs(a(1)), abs(a(2)), 300.0_wp))**2
+         v = chain(u, f, d, times(-2.0_wp, product_of(f, d)))
+         return
+      end if
+      f = sinh(a)
+      d = [1.0_wp, max(cosh(a(1)), cosh(a(2)))]
+      if (.not. holds_zero(a)) d(1) = min(cosh(a(1)), cosh(a(2)))
+      v = chain(u, f, d, f)
+      if (op == op_cosh) v = chain(u, d, f, d)
+   end function hyperbolic
+
+   !> The natural logarithm of one jet; its domain is cut off at zero.
+   pure function logarithm(u) result(v)
+      real(wp), intent(in) :: u(2, 3)  !! (2, 3) argument [1]
+      real(wp) :: v(2, 3)              !! (2, 3) result [1]
+
+      real(wp) :: d(2)
+
+      v = unbounded()
+      if (.not. u(2, 1) > 0.0_wp) return
+      d = inverse([max(u(1, 1), 0.0_wp), u(2, 1)])
+      v = chain(u, log(max(u(:, 1), 0.0_wp)), d, times(-1.0_wp, power_of(d, 2)))
+   end function logarithm
 
    !> A jet that does not move.
    pure function constant(x) result(v)

@@ -6,7 +6,8 @@ module expression_state
    use expression_symbols, only: symbol_function, symbols_t
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
-   use text, only: exact_text, join, nearest_word, split_blank, text_t
+   use spelling, only: nearest_word
+   use text, only: exact_text, join, split_blank, text_t
    implicit none (type, external)
    private
    public :: advance, call_function, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion

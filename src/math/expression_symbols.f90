@@ -4,7 +4,8 @@ module expression_symbols
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
    use name_table, only: name_table_t
-   use text, only: text_list_t, text_t
+   use text, only: text_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t

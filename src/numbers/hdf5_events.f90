@@ -6,7 +6,9 @@ module hdf5_events
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5sclose_f, h5screate_simple_f
    use hdf5, only: h5sselect_hyperslab_f, h5tclose_f, h5tcreate_f, h5tinsert_f, h5s_select_set_f, h5t_compound_f
    use hdf5, only: h5t_ieee_f64le, h5t_native_double, hid_t, hsize_t, size_t
-   use hdf5_calls, only: describe, new_dataset, word_type
+   use hdf5_attributes, only: word_type
+   use hdf5_calls, only: new_dataset
+   use hdf5_datasets, only: describe
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char
    use kinds, only: i8, wp
    implicit none (type, external)

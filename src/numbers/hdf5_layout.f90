@@ -7,7 +7,9 @@ module hdf5_layout
    use channels, only: selection_t
    use hdf5, only: h5dclose_f, h5dwrite_f, h5gclose_f, h5t_ieee_f64le, h5t_native_double, h5t_std_i8le
    use hdf5, only: hid_t, hsize_t
-   use hdf5_calls, only: describe, integer_attribute, new_dataset, new_group, text_attribute, text_dataset, word_attribute
+   use hdf5_attributes, only: integer_attribute, text_attribute, word_attribute
+   use hdf5_calls, only: new_dataset, new_group
+   use hdf5_datasets, only: describe, text_dataset
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
    use kinds, only: wp
    use output_plan, only: output_plan_t

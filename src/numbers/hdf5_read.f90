@@ -5,7 +5,7 @@ module hdf5_read
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f, h5dvlen_reclaim_f, h5lexists_f
    use hdf5, only: h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5tclose_f
    use hdf5, only: h5p_default_f, h5t_native_double, hid_t, hsize_t
-   use hdf5_calls, only: string_type
+   use hdf5_attributes, only: string_type
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_ptr, c_size_t
    use kinds, only: wp
    use text, only: text_t

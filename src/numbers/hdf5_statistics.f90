@@ -4,11 +4,12 @@ module hdf5_statistics
    use channel_names, only: scalar_name, scalar_t
    use event_list, only: event_list_t
    use hdf5, only: hid_t
-   use hdf5_calls, only: integer_dataset, real_dataset, text_dataset
+   use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use kinds, only: wp
    use contact_statistics, only: histogram, joint_statistics_t, joints_of, statistics_of_joints
    use statistics, only: number_t, statistics_t
-   use text, only: join, text_list_t, text_t
+   use text, only: join, text_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: write_statistics

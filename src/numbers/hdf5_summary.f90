@@ -1,7 +1,7 @@
 !> How a run went, as attributes of run.h5.
 module hdf5_summary
    use hdf5, only: h5gclose_f, h5gopen_f, hid_t
-   use hdf5_calls, only: long_attribute, real_attribute, text_attribute
+   use hdf5_attributes, only: long_attribute, real_attribute, text_attribute
    use kinds, only: i8
    use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, summary_t
    implicit none (type, external)

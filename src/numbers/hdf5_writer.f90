@@ -11,7 +11,9 @@ module hdf5_writer
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
-   use hdf5_calls, only: is_memory_short, new_file, new_group, open_library, text_attribute, text_dataset
+   use hdf5_attributes, only: text_attribute
+   use hdf5_calls, only: is_memory_short, new_file, new_group, open_library
+   use hdf5_datasets, only: text_dataset
    use hdf5_events, only: event_table_t
    use hdf5_layout, only: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
    use hdf5_rows, only: write_rows, write_states

@@ -6,7 +6,9 @@ module sweep_file
    use hdf5, only: h5fclose_f, h5fcreate_f, h5fopen_f, h5gclose_f, h5gget_info_f, h5lget_name_by_idx_f, h5ocopy_f, h5pclose_f
    use hdf5, only: h5_index_name_f, h5_iter_inc_f, h5f_acc_rdonly_f, h5f_acc_trunc_f, h5p_default_f, h5p_file_create_f
    use hdf5, only: hid_t, hsize_t
-   use hdf5_calls, only: creation_list, integer_dataset, new_group, open_library, real_dataset, text_attribute, text_dataset
+   use hdf5_attributes, only: text_attribute
+   use hdf5_calls, only: creation_list, new_group, open_library
+   use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_layout, only: make_provenance, make_root, write_status
    use kinds, only: not_a_number, wp
    use output_marker, only: enter_file

@@ -4,13 +4,14 @@
 !> Runs are numbered case by case, so that what is written does not depend on which of them ended first. The standard
 !> deviation is that of the sample, over n - 1; of one run it is not known.
 module sweep_results
-   use deck_reader, only: sweep_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use hdf5, only: h5fclose_f, h5fopen_f, h5f_acc_rdonly_f, hid_t
    use hdf5_calls, only: open_library
    use hdf5_read, only: has_dataset, read_reals, read_texts
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
-   use text, only: append_text, buffer_t, exact_text, replace, text_t, to_text
+   use sweep_values, only: sweep_t
+   use text, only: append_text, exact_text, replace, text_t, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: case_numbers, cases_csv, n_spread, run_result_t, runs_csv, spread_names, sweep_results_t

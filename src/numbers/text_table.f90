@@ -6,7 +6,7 @@ module text_table
    use kinds, only: wp
    use output_plan, only: output_plan_t
    use recorder, only: row_kinds
-   use text, only: buffer_t
+   use text_buffer, only: buffer_t
    use text_file, only: text_file_t
    implicit none (type, external)
    private

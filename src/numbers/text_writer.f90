@@ -12,7 +12,8 @@ module text_writer
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
    use posix, only: make_directory
-   use text, only: buffer_t, text_t, to_text
+   use text, only: text_t, to_text
+   use text_buffer, only: buffer_t
    use text_file, only: fail_file, replace_file, text_file_t
    use text_table, only: file_heading, number_format, number_width, text_table_t
    implicit none (type, external)

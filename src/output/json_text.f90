@@ -3,7 +3,8 @@ module json_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: i8, wp
    use plot_text, only: valid_utf8
-   use text, only: buffer_t, exact_text, text_t, to_text
+   use text, only: exact_text, text_t, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: json_object_t, json_string

@@ -9,7 +9,8 @@ module summary_writer
    use plot_text, only: valid_utf8
    use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, status_complete, summary_t
    use statistics, only: number_t
-   use text, only: append_text, buffer_t, real_text, text_t, to_text
+   use text, only: append_text, real_text, text_t, to_text
+   use text_buffer, only: buffer_t
    use text_table, only: one_line
    implicit none (type, external)
    private

@@ -10,7 +10,8 @@ module figure_script
    use orbit_script, only: orbit_lines
    use plot_text, only: quoted
    use script_parts, only: axes_t, colours, key_below, largest_y, preamble, source
-   use text, only: buffer_t, real_text, replace
+   use text, only: real_text, replace
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: figure_text

@@ -10,7 +10,8 @@ module figure_words
    use channel_names, only: item_name, scalar_t
    use channels, only: list_scalars, match_word, selection_t
    use kinds, only: wp
-   use text, only: append_text, join, nearest_word, starts_with, text_t
+   use spelling, only: nearest_word
+   use text, only: append_text, join, starts_with, text_t
    use text_writer, only: extra_table_t
    implicit none (type, external)
    private

@@ -7,7 +7,8 @@ module orbit_script
    use kinds, only: wp
    use plot_text, only: quoted
    use script_parts, only: axes_t, colours, largest_y, preamble, source
-   use text, only: buffer_t, real_text
+   use text, only: real_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: orbit_lines

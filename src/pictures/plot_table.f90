@@ -8,7 +8,8 @@ module plot_table
    use kinds, only: wp
    use plot_text, only: quoted
    use script_parts, only: colours, key_below, preamble
-   use text, only: buffer_t, real_text, text_t, to_text
+   use text, only: real_text, text_t, to_text
+   use text_buffer, only: buffer_t
    use text_file, only: write_file
    implicit none (type, external)
    private

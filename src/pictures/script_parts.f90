@@ -3,7 +3,8 @@ module script_parts
    use display_units, only: display_unit_t
    use figure_data, only: curve_t
    use kinds, only: wp
-   use text, only: buffer_t, real_text, to_text
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: axes_t, largest_y, preamble, source

@@ -3,14 +3,14 @@
 !> Further parameters of a grid give curves of their own. Words stand at equal distances; a parameter that spans more
 !> than a decade has a logarithmic axis.
 module sweep_plots
-   use channel_names, only: scalar_name
-   use catalogue, only: catalogue_t
-   use deck_reader, only: sweep_t
-   use figure_words, only: figure_bifurcation, figure_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_name
+   use figure_words, only: figure_bifurcation, figure_t
    use kinds, only: not_a_number, wp
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
+   use sweep_values, only: sweep_t
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private

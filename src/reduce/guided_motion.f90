@@ -58,17 +58,20 @@ contains
       real(wp), intent(in) :: x_dot(guided%n)    !! (n) their rates [rad/s or m/s]
       type(motion_t), intent(inout) :: motion    !! the motion of the guided bodies is set
 
-      call place_guided(guided%n, guided%n_turning, guided%item, x, x_dot, ubound(motion%angle, 1), motion%a, motion%alpha, &
-                        motion%r, motion%rot, motion%v, motion%omega, motion%angle)
+      associate (n => guided%n_turning, n_body => ubound(motion%angle, 1))
+         call place_turning(n, guided%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
+                            motion%omega, motion%angle)
+         call place_sliding(guided%n - n, guided%item(n + 1:), x(n + 1:), x_dot(n + 1:), n_body, motion%a, motion%alpha, &
+                            motion%r, motion%rot, motion%v, motion%omega, motion%angle)
+      end associate
    end subroutine move_guided
 
-   !> The same on plain arrays.
-   pure subroutine place_guided(n, n_turning, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
-      integer, intent(in) :: n                              !! number of guided bodies
-      integer, intent(in) :: n_turning                      !! those that turn
-      type(guided_body_t), intent(inout) :: item(n)         !! (n) the bodies, moved
-      real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad or m]
-      real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [rad/s or m/s]
+   !> The bodies that turn, on plain arrays.
+   pure subroutine place_turning(n, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
+      integer, intent(in) :: n                              !! number of bodies that turn
+      type(guided_body_t), intent(inout) :: item(n)         !! (n) these bodies, moved
+      real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad]
+      real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [rad/s]
       integer, intent(in) :: n_body                         !! number of bodies
       real(wp), intent(in) :: acceleration(3, 0:n_body)     !! (3, 0:bodies) accelerations, those of the bases [m/s^2]
       real(wp), intent(in) :: alpha(3, 0:n_body)            !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
@@ -78,10 +81,10 @@ contains
       real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
       real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
 
-      real(wp) :: c, d(2), e, p(2), q(2), s, w
+      real(wp) :: c, d(2), e, p(2), s, w
       integer :: a, b, k
 
-      do k = 1, n_turning
+      do k = 1, n
          b = item(k)%body
          w = x_dot(k)
          c = cos(x(k))
@@ -116,7 +119,27 @@ contains
          item(k)%a_0(1) = item(k)%a_0(1) + acceleration(1, a) - e*p(2) - w*w*p(1)
          item(k)%a_0(2) = item(k)%a_0(2) + acceleration(2, a) + e*p(1) - w*w*p(2)
       end do
-      do k = n_turning + 1, n
+   end subroutine place_turning
+
+   !> The bodies that slide, on plain arrays.
+   pure subroutine place_sliding(n, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
+      integer, intent(in) :: n                              !! number of bodies that slide
+      type(guided_body_t), intent(inout) :: item(n)         !! (n) these bodies, moved
+      real(wp), intent(in) :: x(n)                          !! (n) coordinates [m]
+      real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [m/s]
+      integer, intent(in) :: n_body                         !! number of bodies
+      real(wp), intent(in) :: acceleration(3, 0:n_body)     !! (3, 0:bodies) accelerations, those of the bases [m/s^2]
+      real(wp), intent(in) :: alpha(3, 0:n_body)            !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
+      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(inout) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(inout) :: angle(0:n_body)            !! (0:bodies) angles [rad]
+
+      real(wp) :: d(2), e, p(2), q(2), w
+      integer :: a, b, k
+
+      do k = 1, n
          b = item(k)%body
          p(1) = item(k)%s_base(1) + x(k)*item(k)%arm(1)
          p(2) = item(k)%s_base(2) + x(k)*item(k)%arm(2)
@@ -156,7 +179,7 @@ contains
          item(k)%a_0(1) = acceleration(1, a) - e*q(2) - w*w*q(1) - 2.0_wp*w*x_dot(k)*d(2)
          item(k)%a_0(2) = acceleration(2, a) + e*q(1) - w*w*q(2) + 2.0_wp*w*x_dot(k)*d(1)
       end do
-   end subroutine place_guided
+   end subroutine place_sliding
 
    !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
    pure subroutine guided_rates(n, n_turning, item, n_body, g, x_dot, rate, x_ddot, status)

@@ -1,8 +1,9 @@
 !> Options of `stabilise` and `contact_onset` against what the word before them takes: names, units, signs.
 module option_check
    use diagnostics, only: diagnostics_t
+   use dimension_text, only: unit_text
    use item, only: option_t, value_t
-   use kind_info, only: dim_length, dim_none, dim_t, same_dimension
+   use kind_info, only: dim_none, kind_info_t, same_dimension
    use kinds, only: wp
    use quantities, only: quantity_t, report_dimension
    use section_info, only: word_options
@@ -25,7 +26,7 @@ contains
       if (.not. allocated(value%options) .or. index(" "//words//" ", " "//value%text//" ") == 0) return
       do k = 1, size(value%options)
          if (index(" "//known//" ", " "//value%options(k)%name//" ") == 0) cycle
-         call check_one(value%options(k), key, value%text, word_options(value%text), diagnostics)
+         call check_one(value%options(k), key, value%text, word_options(key, value%text), diagnostics)
       end do
    end subroutine check_options
 
@@ -34,23 +35,20 @@ contains
       type(option_t), intent(in) :: option                !! the option
       character(*), intent(in) :: key                     !! the key
       character(*), intent(in) :: word                    !! the word before it
-      character(*), intent(in) :: taken                   !! blank-separated options that the word takes, with their units
+      type(kind_info_t), intent(in) :: taken              !! options that the word takes, as columns
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
       character(:), allocatable :: help, place
-      type(dim_t) :: wanted
       type(quantity_t) :: quantity
+      integer :: k
 
       place = " of "//key//" = "//word
-      if (index(taken, " "//option%name//" ") > 0) then
-         wanted = dim_none
-      else if (index(taken, " "//option%name//"[s^-1] ") > 0) then
-         wanted = dim_t(s=-1)
-      else if (index(taken, " "//option%name//"[m] ") > 0) then
-         wanted = dim_length
-      else
+      do k = 1, size(taken%columns)
+         if (taken%columns(k)%name == option%name) exit
+      end do
+      if (k > size(taken%columns)) then
          help = word//" takes no options"
-         if (len_trim(taken) > 0) help = "options of "//word//":"//taken(:len_trim(taken))
+         if (size(taken%columns) > 0) help = "options of "//word//":"//names_of(taken)
          call diagnostics%add(option%location, "option '"//option%name//"' does not belong to "//key//" = "//word, &
                               "not an option of "//word, help)
          return
@@ -61,11 +59,29 @@ contains
       end if
       quantity = quantity_t(x=option%number, dimension=option%dimension, is_good=.true., &
                             has_unit=.not. same_dimension(option%dimension, dim_none))
-      call report_dimension(quantity, wanted, option%location, "in option '"//option%name//"'"//place, diagnostics)
+      call report_dimension(quantity, taken%columns(k)%dimension, option%location, "in option '"//option%name//"'"//place, &
+                            diagnostics)
       if (.not. quantity%is_good) return
-      if (option%number > 0.0_wp .or. (option%number >= 0.0_wp .and. index(" penalty limit ", " "//option%name//" ") == 0)) return
+      if (option%number > taken%columns(k)%lower) return
+      if (option%number >= taken%columns(k)%lower .and. .not. taken%columns(k)%open_lower) return
       call diagnostics%add(option%location, "option '"//option%name//"'"//place//" is "// &
                            trim(merge("negative", "zero    ", option%number < 0.0_wp)), "out of bounds")
    end subroutine check_one
+
+   !> The options of a word, with the units of those that have one, each after a blank.
+   function names_of(taken) result(names)
+      type(kind_info_t), intent(in) :: taken   !! options as columns
+      character(:), allocatable :: names       !! as ` alpha[s^-1] mu`
+
+      integer :: k
+
+      names = ""
+      do k = 1, size(taken%columns)
+         associate (column => taken%columns(k))
+            names = names//" "//column%name
+            if (.not. same_dimension(column%dimension, dim_none)) names = names//"["//unit_text(column%dimension)//"]"
+         end associate
+      end do
+   end function names_of
 
 end module option_check

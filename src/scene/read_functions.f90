@@ -1,11 +1,13 @@
 !> The named functions of a deck: tables of rows become curves that its expressions can call.
 module read_functions
-   use deck_reader, only: deck_t, diagnostics_t, read_items
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
    use expression_compile, only: is_reserved, name_length, symbol_broken, symbol_function, symbol_t
    use function_kind, only: function_kind_t, made_t
    use function_registry, only: n_function_kinds, new_function_kind
    use item, only: item_t, location_t
    use scene, only: scene_t
+   use tables, only: read_items
    implicit none (type, external)
    private
    public :: functions_from_deck

@@ -4,7 +4,6 @@ module read_scene
    use clearance_registry, only: n_clearance_kinds
    use columns, only: column_of
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
-   use deck_reader, only: check_sections, has_section, read_items, read_settings
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
@@ -20,7 +19,9 @@ module read_scene
       scene_t, table_bodies, table_materials, table_points
    use scene_checks, only: check_meaning, check_names, report_doubled
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
+   use settings, only: check_sections, has_section, read_settings
    use study_info, only: ensemble_info, statistics_info
+   use tables, only: read_items
    implicit none (type, external)
    private
    public :: scene_from_deck

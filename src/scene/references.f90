@@ -4,7 +4,8 @@ module references
    use item, only: item_t
    use kind_info, only: cell_reference, column_t, kind_info_t
    use name_table, only: name_table_t
-   use text, only: join, nearest_word, text_t
+   use spelling, only: nearest_word
+   use text, only: join, text_t
    implicit none (type, external)
    private
    public :: add_names, directory_t, resolve

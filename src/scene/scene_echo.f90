@@ -1,6 +1,7 @@
 !> The deck as understood: every table and setting, every default written out, in SI.
 module scene_echo
-   use deck_reader, only: deck_t, echo_items, echo_settings, echo_start
+   use deck_types, only: deck_t
+   use echo, only: echo_items, echo_settings, echo_start
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t, table_t
    use section_info, only: scene_info
    implicit none (type, external)

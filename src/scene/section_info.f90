@@ -1,11 +1,16 @@
 !> The sections of settings of a deck: [scene], [analysis.*], [output].
 module section_info
-   use integrator, only: add_control_columns, integrator_t
+   use augmented, only: augmented_t
+   use hold, only: hold_t
+   use hold_registry, only: n_hold_kinds, new_hold
+   use integrator, only: integrator_t
+   use integrator_controls, only: add_control_columns, add_onset_options
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: add_duration, add_flag, add_number, add_vector, add_word, add_words, dim_acceleration, dim_length, &
       dim_none, dim_time, kind_info_t
    use kinds, only: least_tolerance, wp
-   use text, only: to_text
+   use solver_registry, only: n_solver_kinds, new_solver
+   use text, only: join, text_t, to_text
    implicit none (type, external)
    private
    public :: dynamic_info, kinematic_info, most_row_contacts, output_info, scene_info, static_info, word_options
@@ -31,17 +36,6 @@ contains
    function dynamic_info() result(info)
       type(kind_info_t) :: info  !! keys
 
-      class(integrator_t), allocatable :: method
-      type(kind_info_t) :: method_info
-      character(:), allocatable :: methods
-      integer :: k
-
-      methods = ""
-      do k = 1, n_integrator_kinds
-         call new_integrator(k, method)
-         method_info = method%info()
-         methods = methods//" "//method_info%name
-      end do
       info%name = "analysis.dynamic"
       info%help = "motion in time under forces"
       info%source = "Flores et al. (2008), section 2.4"
@@ -53,15 +47,9 @@ contains
                     //"begun, with the rate of the penetration as impact speed, or its floor", default="error", &
                     choices="error preload")
       call add_duration(info, "end", "end of the motion, a time or `N turns of DRIVER`")
-      call add_word(info, "method", "integrator", default="verner", choices=trim(adjustl(methods)))
-      call add_word(info, "solver", "of the augmented equations: schur (complement, in its envelope), sparse (KLU), lapack (full " &
-                    //"matrix, partial pivoting), complete (complete pivoting), augmented_lagrangian (penalties), or auto", &
-                    default="auto", choices="auto schur sparse lapack complete augmented_lagrangian")
-      call add_word(info, "stabilise", "how the constraints are held: none; baumgarte (alpha, beta); baumgarte_step (alpha/h, " &
-                    //"beta/h); baumgarte_adaptive (target); partitioning; augmented_lagrangian (penalty, omega, mu); " &
-                    //"projection; or auto", default="auto", choices="auto none baumgarte baumgarte_step " &
-                    //"baumgarte_adaptive partitioning augmented_lagrangian projection", &
-                    options="alpha beta target penalty omega mu")
+      call add_methods(info)
+      call add_solvers(info)
+      call add_ways(info)
       call add_word(info, "coordinates", "fewest: driven bodies are known functions of time, a body that one joint holds has one " &
                     //"coordinate; full: three for every body", default="fewest", choices="fewest full")
       call add_word(info, "groups", "bodies that nothing joins: apart, each group of them with its own steps; together, with the " &
@@ -75,20 +63,87 @@ contains
       call add_control_columns(info)
    end function dynamic_info
 
-   !> Options that a word of `stabilise` or `contact_onset` takes, with the units of those that have one.
-   pure function word_options(word) result(options)
-      character(*), intent(in) :: word          !! as in `stabilise = word`
-      character(:), allocatable :: options      !! " name name[unit] "
+   !> The options that a word of a key takes: of a way of holding the constraints, or of meeting an onset.
+   function word_options(key, word) result(info)
+      character(*), intent(in) :: key    !! `stabilise` or `contact_onset`
+      character(*), intent(in) :: word   !! as in `stabilise = word`
+      type(kind_info_t) :: info          !! its options as columns; there may be none
 
-      select case (word)
-      case ("baumgarte"); options = " alpha[s^-1] beta[s^-1] "
-      case ("baumgarte_step"); options = " alpha beta "
-      case ("baumgarte_adaptive"); options = " target "
-      case ("augmented_lagrangian"); options = " penalty omega[s^-1] mu "
-      case ("reject"); options = " limit[m] "
-      case default; options = " "
-      end select
+      class(hold_t), allocatable :: way
+      integer :: k
+
+      if (key == "contact_onset") call add_onset_options(word, info)
+      if (key == "stabilise") then
+         do k = 1, n_hold_kinds
+            call new_hold(k, way)
+            if (way%name() /= word) cycle
+            info = way%info()
+            exit
+         end do
+      end if
+      if (.not. allocated(info%columns)) allocate (info%columns(0))
    end function word_options
+
+   !> The integrators: their words.
+   subroutine add_methods(info)
+      type(kind_info_t), intent(inout) :: info  !! settings of an analysis
+
+      class(integrator_t), allocatable :: method
+      type(kind_info_t) :: one
+      type(text_t) :: words(n_integrator_kinds)
+      integer :: k
+
+      do k = 1, n_integrator_kinds
+         call new_integrator(k, method)
+         one = method%info()
+         words(k)%s = one%name
+      end do
+      call add_word(info, "method", "integrator", default="verner", choices=join(words, " "))
+   end subroutine add_methods
+
+   !> The solvers of the augmented equations: their words, and what they do.
+   subroutine add_solvers(info)
+      type(kind_info_t), intent(inout) :: info  !! settings of an analysis
+
+      class(augmented_t), allocatable :: solver
+      type(kind_info_t) :: one
+      type(text_t) :: says(n_solver_kinds), words(n_solver_kinds)
+      integer :: k
+
+      do k = 1, n_solver_kinds
+         call new_solver(k, solver)
+         one = solver%info()
+         words(k)%s = one%name
+         says(k)%s = one%name//" ("//one%help//")"
+      end do
+      call add_word(info, "solver", "of the augmented equations: "//join(says, ", ")//", or auto", default="auto", &
+                    choices="auto "//join(words, " "))
+   end subroutine add_solvers
+
+   !> The ways of holding the constraints: their words, what they do, the options of them all.
+   subroutine add_ways(info)
+      type(kind_info_t), intent(inout) :: info  !! settings of an analysis
+
+      class(hold_t), allocatable :: way
+      type(kind_info_t) :: one
+      type(text_t) :: says(n_hold_kinds), words(n_hold_kinds)
+      character(:), allocatable :: options
+      integer :: i, k
+
+      options = ""
+      do k = 1, n_hold_kinds
+         call new_hold(k, way)
+         one = way%info()
+         words(k)%s = one%name
+         says(k)%s = one%name//" ("//one%help//")"
+         if (.not. allocated(one%columns)) cycle
+         do i = 1, size(one%columns)
+            if (index(options//" ", " "//one%columns(i)%name//" ") == 0) options = options//" "//one%columns(i)%name
+         end do
+      end do
+      call add_word(info, "stabilise", "how the constraints are held: "//join(says, "; ")//"; or auto", default="auto", &
+                    choices="auto "//join(words, " "), options=options(2:))
+   end subroutine add_ways
 
    !> The section [analysis.kinematic].
    function kinematic_info() result(info)

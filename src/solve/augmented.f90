@@ -18,6 +18,7 @@
 module augmented
    use body_kernels, only: body_accelerations, row_residuals
    use rows, only: rows_t
+   use kind_info, only: kind_info_t
    use kinds, only: i8, wp
    implicit none (type, external)
    private
@@ -33,10 +34,11 @@ module augmented
       real(wp) :: left_over = 0.0_wp           !! greatest residual after `solve_damped`, of the greatest term [1]
       real(wp), allocatable :: residual(:)     !! (solved rows) residuals Phi_q a - b after it [m/s^2 or rad/s^2]
    contains
-      procedure(name_interface), nopass, deferred :: name
+      procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
       procedure(solve_interface), deferred :: solve
       procedure(solve_damped_interface), deferred :: solve_damped
+      procedure :: name => augmented_name
       procedure :: set_penalty => augmented_set_penalty
    end type augmented_t
 
@@ -49,11 +51,12 @@ module augmented
    end type direct_t
 
    abstract interface
-      !> The word for it in a deck.
-      function name_interface() result(name)
+      !> What the solver says of itself: the word for it in a deck, and how it solves.
+      function info_interface() result(info)
+         import :: kind_info_t
          implicit none (type, external)
-         character(:), allocatable :: name  !! as in `solver = name`
-      end function name_interface
+         type(kind_info_t) :: info  !! name, as in `solver = name`, and help
+      end function info_interface
 
       !> Structure and workspace for a number of bodies and declared rows.
       subroutine prepare_interface(self, n_body, rows)
@@ -116,6 +119,17 @@ module augmented
    end interface
 
 contains
+
+   !> The word for the solver in a deck.
+   function augmented_name(self) result(name)
+      class(augmented_t), intent(in) :: self  !! the solver
+      character(:), allocatable :: name       !! as in `solver = name`
+
+      type(kind_info_t) :: info
+
+      info = self%info()
+      name = info%name
+   end function augmented_name
 
    !> Take the penalty of a way that works with penalties: nothing to take, unless the way says otherwise.
    subroutine augmented_set_penalty(self, penalty)

@@ -4,6 +4,7 @@
 module augmented_complete
    use augmented_dense, only: augmented_dense_t, dense_prepare, threshold
    use rows, only: rows_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use lapack, only: dgesc2, dgetc2
    implicit none (type, external)
@@ -15,7 +16,7 @@ module augmented_complete
       integer, allocatable :: row_pivots(:)     !! (n) row exchanges
       integer, allocatable :: column_pivots(:)  !! (n) column exchanges
    contains
-      procedure, nopass :: name => complete_name
+      procedure, nopass :: info => complete_info
       procedure :: prepare => complete_prepare
       procedure :: decompose => complete_decompose
       procedure :: substitute => complete_substitute
@@ -23,12 +24,14 @@ module augmented_complete
 
 contains
 
-   !> The word for it in a deck.
-   function complete_name() result(name)
-      character(:), allocatable :: name  !! as in `solver = name`
+   !> What the solver says of itself.
+   function complete_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "complete"
-   end function complete_name
+      info%name = "complete"
+      info%help = "complete pivoting"
+      info%source = "Flores et al. (2008), eq. (2.15); LAPACK dgetc2, dgesc2"
+   end function complete_info
 
    !> Workspace.
    subroutine complete_prepare(self, n_body, rows)

@@ -15,6 +15,7 @@ module augmented_lagrangian
    use body_kernels, only: body_accelerations, row_residuals
    use envelope, only: envelope_t, factorise_and_solve, new_envelope, solve_factored
    use rows, only: coordinate_place, n_v_planar, rows_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use matrix_kernels_planar, only: planar_loads => penalty_loads, planar_matrix => penalty_matrix, &
                                     planar_penalties => row_penalties
@@ -45,7 +46,7 @@ module augmented_lagrangian
       real(wp), allocatable :: rest(:)            !! (solved rows) residual after the change [any]
       real(wp), allocatable :: x(:)               !! (coordinates) right-hand side and change of a [any]
    contains
-      procedure, nopass :: name => lagrangian_name
+      procedure, nopass :: info => lagrangian_info
       procedure :: prepare => lagrangian_prepare
       procedure :: set_penalty => lagrangian_set_penalty
       procedure :: solve => lagrangian_solve
@@ -62,12 +63,14 @@ contains
       self%penalty = penalty
    end subroutine lagrangian_set_penalty
 
-   !> The word for it in a deck.
-   function lagrangian_name() result(name)
-      character(:), allocatable :: name  !! as in `solver = name`
+   !> What the solver says of itself.
+   function lagrangian_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "augmented_lagrangian"
-   end function lagrangian_name
+      info%name = "augmented_lagrangian"
+      info%help = "penalties"
+      info%source = "Flores et al. (2008), eqs. (2.32)-(2.35)"
+   end function lagrangian_info
 
    !> Order of the bodies, envelope of their coordinates, pairs of sides.
    subroutine lagrangian_prepare(self, n_body, rows)

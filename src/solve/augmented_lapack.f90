@@ -5,6 +5,7 @@ module augmented_lapack
    use augmented_dense, only: augmented_dense_t, dense_prepare, threshold
    use rows, only: rows_t
    use lapack, only: dgetrf, dgetrs
+   use kind_info, only: kind_info_t
    implicit none (type, external)
    private
    public :: augmented_lapack_t
@@ -13,7 +14,7 @@ module augmented_lapack
    type, extends(augmented_dense_t) :: augmented_lapack_t
       integer, allocatable :: pivots(:)  !! (n) row exchanges
    contains
-      procedure, nopass :: name => lapack_name
+      procedure, nopass :: info => lapack_info
       procedure :: prepare => lapack_prepare
       procedure :: decompose => lapack_decompose
       procedure :: substitute => lapack_substitute
@@ -21,12 +22,14 @@ module augmented_lapack
 
 contains
 
-   !> The word for it in a deck.
-   function lapack_name() result(name)
-      character(:), allocatable :: name  !! as in `solver = name`
+   !> What the solver says of itself.
+   function lapack_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "lapack"
-   end function lapack_name
+      info%name = "lapack"
+      info%help = "full matrix, partial pivoting"
+      info%source = "Flores et al. (2008), eq. (2.15); LAPACK dgetrf, dgetrs"
+   end function lapack_info
 
    !> Workspace.
    subroutine lapack_prepare(self, n_body, rows)

@@ -14,6 +14,7 @@ module augmented_schur
    use body_kernels_spatial, only: solve_spatial => solve_lone_bodies
    use envelope, only: factorise_and_solve, solve_factored
    use rows, only: n_v_planar, rows_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use lone_bodies, only: find_lone_bodies, lone_t
    use matrix_kernels_planar, only: assemble_planar => assemble_schur
@@ -35,7 +36,7 @@ module augmented_schur
       type(part_t) :: all                         !! all rows
       integer, allocatable :: unknown(:)          !! (bodies) unknown bodies that are not lone
    contains
-      procedure, nopass :: name => schur_name
+      procedure, nopass :: info => schur_info
       procedure :: prepare => schur_prepare
       procedure :: solve => schur_solve
       procedure :: factorise => schur_factorise
@@ -44,12 +45,14 @@ module augmented_schur
 
 contains
 
-   !> The word for it in a deck.
-   function schur_name() result(name)
-      character(:), allocatable :: name  !! as in `solver = name`
+   !> What the solver says of itself.
+   function schur_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "schur"
-   end function schur_name
+      info%name = "schur"
+      info%help = "complement, in its envelope"
+      info%source = "Flores et al. (2008), eqs. (2.16)-(2.18)"
+   end function schur_info
 
    !> Whether the Schur complement costs less than a sparse factorisation of the whole matrix would.
    logical function schur_is_cheap(rows) result(is_cheap)

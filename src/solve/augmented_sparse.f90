@@ -6,6 +6,7 @@
 module augmented_sparse
    use augmented, only: direct_t
    use rows, only: coordinate_place, n_v_planar, rows_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
    use matrix_kernels_planar, only: planar_lower => lower_sides, planar_scaled => scaled_loads, planar_unscaled => unscaled, &
@@ -27,7 +28,7 @@ module augmented_sparse
       real(wp), allocatable :: row_scale(:)     !! (solved rows) scales of the rows [any]
       real(wp), allocatable :: root(:, :)       !! (n_v, 0:bodies) roots of the inverse masses [1/kg^0.5 or 1/(kg^0.5.m)]
    contains
-      procedure, nopass :: name => sparse_name
+      procedure, nopass :: info => sparse_info
       procedure :: prepare => sparse_prepare
       procedure :: solve => sparse_solve
       procedure :: factorise => sparse_factorise
@@ -36,12 +37,14 @@ module augmented_sparse
 
 contains
 
-   !> The word for it in a deck.
-   function sparse_name() result(name)
-      character(:), allocatable :: name  !! as in `solver = name`
+   !> What the solver says of itself.
+   function sparse_info() result(info)
+      type(kind_info_t) :: info  !! name and help
 
-      name = "sparse"
-   end function sparse_name
+      info%name = "sparse"
+      info%help = "KLU"
+      info%source = "Flores et al. (2008), eq. (2.15); KLU"
+   end function sparse_info
 
    !> Structure of the matrix: unit diagonal, the Jacobian's transpose above, the Jacobian below, the diagonal of the rows.
    subroutine sparse_prepare(self, n_body, rows)

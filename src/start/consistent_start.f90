@@ -56,7 +56,6 @@ contains
       type(sparse_start_t) :: sparse
       logical :: with_sparse
       real(wp), allocatable :: correction(:), ease(:), q_given(:), right(:), v_given(:)
-      real(wp) :: before, now
       integer :: k, n
 
       n = size(v)
@@ -67,18 +66,8 @@ contains
       with_sparse = wants_sparse(linkage, is_sparse)
       if (with_sparse) call new_sparse_start(linkage%bodies%n, linkage%rows, sparse)
       q_given = q
-      before = huge(1.0_wp)
-      do k = 1, n_newton
-         call evaluate_rows(linkage, 0.0_wp, q, v)
-         call check_finite(linkage, linkage%rows%phi, error)
-         if (allocated(error)) return
-         now = worst_violation(linkage)
-         if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
-         before = now
-         call correct(-linkage%rows%phi)
-         call linkage%coordinates%add_change(linkage%bodies%n, limit_step(linkage, correction), q)
-         report%corrections = k
-      end do
+      call close_positions()
+      if (allocated(error)) return
       call evaluate_rows(linkage, 0.0_wp, q, v)
       report%residual = maxval(abs(linkage%rows%phi))
       call linkage%coordinates%difference(linkage%bodies%n, q_given, q, correction)
@@ -106,6 +95,25 @@ contains
       end if
 
    contains
+
+      !> Newton's iteration on the positions, until round-off or no longer better.
+      subroutine close_positions()
+         real(wp) :: before, now
+         integer :: i
+
+         before = huge(1.0_wp)
+         do i = 1, n_newton
+            call evaluate_rows(linkage, 0.0_wp, q, v)
+            call check_finite(linkage, linkage%rows%phi, error)
+            if (allocated(error)) return
+            now = worst_violation(linkage)
+            if (now <= round_off .or. (now <= closed .and. now >= 0.5_wp*before)) exit
+            before = now
+            call correct(-linkage%rows%phi)
+            call linkage%coordinates%add_change(linkage%bodies%n, limit_step(linkage, correction), q)
+            report%corrections = i
+         end do
+      end subroutine close_positions
 
       !> The least change of positions or velocities.
       subroutine correct(change)

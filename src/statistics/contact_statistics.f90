@@ -5,7 +5,8 @@ module contact_statistics
    use event_list, only: event_list_t
    use kinds, only: wp
    use name_table, only: name_table_t
-   use text, only: text_list_t, text_t
+   use text, only: text_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: histogram, joint_statistics, joint_statistics_t, joints_of, statistics_of_joints

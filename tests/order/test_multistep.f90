@@ -2,7 +2,8 @@
 module test_multistep
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use integrator, only: controls_t, integrator_t, norm_absolute, norm_euclidean, norm_scaled
+   use integrator, only: integrator_t
+   use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_scaled
    use integrator_registry, only: find_integrator
    use kinds, only: wp
    use ode_examples, only: growth_t, kepler_t, new_kepler, new_pendulum, pendulum_t, run_to

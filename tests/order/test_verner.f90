@@ -3,7 +3,7 @@ module test_verner
    use check, only: check_close, check_equal, check_true, suite_t
    use convergence, only: check_order, converge
    use errors, only: error_t
-   use integrator, only: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
+   use integrator_controls, only: norm_absolute, norm_euclidean, norm_mixed, norm_relative, norm_scaled
    use kinds, only: eps, wp
    use ode_examples, only: growth_t, kepler_t, new_kepler, new_pendulum, pendulum_t, power_t, run_to
    use ode_system, only: ode_system_t

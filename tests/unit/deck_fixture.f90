@@ -1,7 +1,9 @@
 !> Small kinds and decks for the tests of the room `deck`.
 module deck_fixture
-   use deck_reader, only: check_sections, deck_t, diagnostics_t, echo_items, echo_settings, read_deck, read_items, &
-                        & read_settings
+   use deck_file, only: read_deck
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
+   use echo, only: echo_items, echo_settings
    use errors, only: error_t
    use item, only: item_t
    use kind_info, only: add_duration, add_expression, add_flag, add_number, add_reference, add_vector, add_word, add_words, &
@@ -9,6 +11,8 @@ module deck_fixture
                       & kind_info_t
    use kinds, only: wp
    use scratch_deck, only: remove_scratch, write_scratch
+   use settings, only: check_sections, read_settings
+   use tables, only: read_items
    use text, only: append_text, text_t
    implicit none (type, external)
    private

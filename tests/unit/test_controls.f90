@@ -3,8 +3,9 @@ module test_controls
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: load_text, loaded_t
    use errors, only: error_t, exit_deck
-   use integrator, only: advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps, &
-      advance_too_small, controls_t, norm_mixed, norm_relative, norm_scaled
+   use integrator, only: advance_failed_evaluation, advance_step, advance_too_many_evaluations, advance_too_many_steps
+   use integrator, only: advance_too_small
+   use integrator_controls, only: controls_t, norm_mixed, norm_relative, norm_scaled
    use interpolation, only: inner_places
    use kinds, only: i8, two_pi, wp
    use ode_examples, only: growth_t, kepler_t, new_kepler, run_to

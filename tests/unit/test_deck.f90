@@ -2,12 +2,15 @@
 module test_deck
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_fixture, only: read_all, read_lines, reading_t
-   use deck_reader, only: all_defaults, deck_text, diagnostics_t, echo_start, get_includes, get_parameters, has_section, &
-                        & location_of_end
+   use deck_texts, only: deck_text, get_includes
+   use deck_types, only: location_of_end
+   use diagnostics, only: diagnostics_t
+   use echo, only: all_defaults, echo_start, get_parameters
    use errors, only: error_t, exit_deck
    use file_path, only: beside, plain_path
    use item, only: location_t
    use kinds, only: pi, wp
+   use settings, only: has_section
    use source_text, only: new_source, source_t
    use text, only: join, replace, text_t, to_text
    implicit none (type, external)

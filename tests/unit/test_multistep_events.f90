@@ -3,7 +3,8 @@ module test_multistep_events
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use event_story, only: check_story, run_through, story_t
-   use integrator, only: advance_too_many_evaluations, advance_too_many_steps, advance_too_small, controls_t, integrator_t
+   use integrator, only: advance_too_many_evaluations, advance_too_many_steps, advance_too_small, integrator_t
+   use integrator_controls, only: controls_t
    use integrator_registry, only: find_integrator
    use kinds, only: i8, pi, wp
    use ode_examples, only: kepler_t, new_kepler, new_particles, particles_t, run_to

@@ -3,7 +3,9 @@ module test_sparse_start
    use build_system, only: levels_ideal, new_system
    use check, only: check_close, check_equal, check_true, suite_t
    use consistent_start, only: assemble, assembly_t, find_dependent
-   use deck_reader, only: deck_t, diagnostics_t, read_deck
+   use deck_file, only: read_deck
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
    use envelope, only: envelope_t, factorise_semidefinite, new_envelope, solve_factored, vanishing_vector
    use errors, only: error_t, exit_assembly
    use fixed_random, only: random_t

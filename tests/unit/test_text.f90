@@ -5,8 +5,9 @@ module test_text
    use errors, only: error_t
    use kinds, only: not_a_number, pi, wp
    use numbers, only: number_length, read_number
-   use text, only: append_text, buffer_t, exact_text, join, lower, nearest_word, real_text, replace, split_blank, &
-                 & starts_with, text_t, to_text
+   use spelling, only: nearest_word
+   use text, only: append_text, exact_text, join, lower, real_text, replace, split_blank, starts_with, text_t, to_text
+   use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: run_test_text

@@ -2,7 +2,7 @@
 module test_time_plan
    use build_system, only: levels_as_written, new_system
    use check, only: check_close, check_equal, check_true, suite_t
-   use deck_reader, only: diagnostics_t
+   use diagnostics, only: diagnostics_t
    use errors, only: error_t
    use kinds, only: pi, wp
    use mechanism, only: mechanism_t

@@ -1,0 +1,91 @@
+!> Loose joints, for `gudgeon explain`: their laws, and how long a contact lasts beside the steps and the output.
+module explain_loose
+   use clearance_set, only: clearance_set_t
+   use columns, only: column_of
+   use console, only: say
+   use kinds, only: wp
+   use load, only: loaded_t
+   use mechanism, only: mechanism_t
+   use scene, only: analysis_dynamic
+   use text, only: real_text, to_text
+   implicit none (type, external)
+   private
+   public :: explain_loose_joints
+
+contains
+
+   !> Loose joints: laws, stiffness, initial gap, time scale of a contact against the output interval.
+   subroutine explain_loose_joints(loaded, y)
+      type(loaded_t), intent(inout) :: loaded         !! the deck
+      real(wp), allocatable, intent(in) :: y(:)       !! (n) start; unallocated: none was found [any]
+
+      real(wp), parameter :: speeds(3) = [0.1_wp, 1.0_wp, 10.0_wp]  ! of impacts, as examples [m/s]
+      real(wp), allocatable :: delta(:), rate(:)
+      character(:), allocatable :: law, words
+      real(wp) :: step
+      integer :: c, i, k, last, v
+
+      if (loaded%system%n_loose == 0) return
+      step = loaded%scene%dynamic%values(column_of(loaded%scene%dynamic_kind, "step"))%number
+      call say("")
+      call say("loose joints")
+      allocate (delta(loaded%system%n_contact), rate(loaded%system%n_contact), source=0.0_wp)
+      if (allocated(y)) call loaded%system%events(0.0_wp, y, delta, rate)
+      do k = 1, size(loaded%system%clearances)
+         associate (set => loaded%system%clearances(k)%set)
+            law = set%law%name
+            if (allocated(set%friction)) law = law//", friction "//set%friction%name
+            do i = 1, set%n
+               c = (i - 1)*set%n_contact_item + 1
+               words = ""
+               if (set%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%clearance(i))//" mm, "
+               call say(set%names(i)%s//": "//words//"law "//law//", "//set%law%story(set%parameters(:, c)), 2)
+               last = set%first_contact + i*set%n_contact_item
+               if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
+                  delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
+               if (loaded%scene%analysis /= analysis_dynamic) cycle
+               do v = 1, size(speeds)
+                  if (.not. contact_time(loaded%system, set, c, speeds(v)) > 0.0_wp) then
+                     call say("no impact of free bodies: drivers move both, or the law stores nothing", 4)
+                     exit
+                  end if
+                  call say("an elastic impact at "//to_text(speeds(v))//" m/s lasts about "// &
+                           real_text(1.0e6_wp*contact_time(loaded%system, set, c, speeds(v)), 3)//" us, "// &
+                           real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &
+                           " output intervals"//steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
+               end do
+               call explain_validity(set%pairs(i)%speed_limit)
+            end do
+         end associate
+      end do
+   end subroutine explain_loose_joints
+
+   !> A duration in fixed steps, or what variable steps do with it.
+   function steps_of(duration, step) result(words)
+      real(wp), intent(in) :: duration     !! of an impact [s]
+      real(wp), intent(in) :: step         !! length of fixed steps, 0: variable [s]
+      character(:), allocatable :: words   !! to follow the duration
+
+      words = "; the first step of a contact is a hundredth of it"
+      if (step > 0.0_wp) words = ", "//real_text(duration/step, 2)//" fixed steps"
+   end function steps_of
+
+   !> Duration of an impact.
+   real(wp) function contact_time(system, set, contact, speed)
+      type(mechanism_t), intent(in) :: system   !! the system
+      class(clearance_set_t), intent(in) :: set     !! the joint's set
+      integer, intent(in) :: contact                !! contact of the set
+      real(wp), intent(in) :: speed                 !! impact speed [m/s]
+
+      contact_time = set%contact_time(contact, speed, system%linkage%inverse_mass(1, :))
+   end function contact_time
+
+   !> Impact speed up to which contact is quasi-static.
+   subroutine explain_validity(speed_limit)
+      real(wp), intent(in) :: speed_limit  !! huge: not known [m/s]
+
+      if (speed_limit >= huge(speed_limit)) return
+      call say("the law is quasi-static: strictly for impacts below "//real_text(speed_limit, 3)//" m/s (1e-5 sqrt(E/rho))", 4)
+   end subroutine explain_validity
+
+end module explain_loose

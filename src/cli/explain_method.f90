@@ -1,0 +1,103 @@
+!> Method, solver, stabilisation and times, with the reasons of what `auto` has chosen, for `gudgeon explain`.
+module explain_method
+   use columns, only: column_of
+   use console, only: say
+   use kinds, only: wp
+   use load, only: loaded_t
+   use mechanism, only: mechanism_t
+   use row_plan, only: contact_rows_text
+   use scene, only: analysis_kinematic, analysis_static
+   use subsystems, only: grouping_words
+   use text, only: counted, to_text
+   use time_plan, only: last_instant
+   implicit none (type, external)
+   private
+   public :: explain_method_and_times
+
+contains
+
+   !> Method, solver, stabilisation and times.
+   subroutine explain_method_and_times(loaded)
+      type(loaded_t), intent(in) :: loaded  !! the deck
+
+      character(:), allocatable :: fixed, hold, solver
+
+      call say("")
+      call say("method")
+      select case (loaded%scene%analysis)
+      case (analysis_kinematic)
+         call say("positions by Newton's iteration, forces by inverse dynamics, at every output instant", 2)
+         call explain_times(loaded)
+         return
+      case (analysis_static)
+         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%values( &
+                                                       column_of(loaded%scene%static_kind, "tolerance"))%number)// &
+                  " of the largest load", 2)
+         return
+      end select
+      associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
+         solver = values(column_of(kind, "solver"))%text
+         if (solver == "auto") then
+            solver = loaded%system%linkage%solution%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
+         end if
+         fixed = "variable steps"
+         if (values(column_of(kind, "step"))%number > 0.0_wp) then
+            fixed = "fixed steps of "//to_text(values(column_of(kind, "step"))%number)//" s: the tolerance is not used"
+         end if
+         call say("integrator "//values(column_of(kind, "method"))%text//", tolerance "// &
+                  to_text(values(column_of(kind, "tolerance"))%number), 2)
+         call say(fixed, 2)
+         call say("solver "//solver, 2)
+         hold = loaded%system%way%words()
+         if (values(column_of(kind, "stabilise"))%text == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
+         call say("stabilisation "//hold, 2)
+      end associate
+      call explain_times(loaded)
+   end subroutine explain_method_and_times
+
+   !> Times of the motion and of its output.
+   subroutine explain_times(loaded)
+      type(loaded_t), intent(in) :: loaded  !! the deck
+
+      character(:), allocatable :: words
+
+      call say("from 0 to "//to_text(loaded%plan%end)//" s; output from "//to_text(loaded%plan%first_output)// &
+               " s every "//to_text(loaded%plan%every)//" s, "// &
+               counted(1 + int(last_instant(loaded%plan)), "instant", "instants"), 2)
+      words = contact_rows_text(loaded%scene, loaded%system)
+      if (len(words) > 0) call say(words, 2)
+      words = grouping_words(loaded%scene)
+      if (len(words) > 0) call say(words, 2)
+   end subroutine explain_times
+
+   !> Why `auto` has chosen the solver.
+   function reason_of_solver(system) result(words)
+      type(mechanism_t), intent(in) :: system   !! the system
+      character(:), allocatable :: words            !! the reason
+
+      select case (system%linkage%solution%solver%name())
+      case ("schur")
+         words = "equal to pivoting to round-off, and the fastest for these rows"
+      case ("sparse")
+         words = "bodies carry so many joints that the Schur complement fills up"
+      case default
+         words = "as the stabilisation"
+      end select
+   end function reason_of_solver
+
+   !> Why `auto` has chosen the stabilisation.
+   function reason_of_hold(system) result(words)
+      type(mechanism_t), intent(in) :: system   !! the system
+      character(:), allocatable :: words            !! the reason
+
+      select case (system%way%name())
+      case ("none")
+         words = "there is nothing to hold, or the integrator holds by itself"
+      case ("baumgarte")
+         words = "a driver jumps, and a jump cannot be projected"
+      case default
+         words = "no violation is left, and no gains disturb the motion"
+      end select
+   end function reason_of_hold
+
+end module explain_method

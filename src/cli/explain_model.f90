@@ -1,0 +1,113 @@
+!> The size of the model and how it was assembled, for `gudgeon explain`.
+module explain_model
+   use console, only: say
+   use consistent_start, only: assembly_t
+   use item, only: item_t
+   use kind_info, only: kind_info_t
+   use kinds, only: wp
+   use load, only: loaded_t
+   use mechanism, only: mechanism_t
+   use mobility, only: find_mobility, mobility_t
+   use scene, only: analysis_dynamic, analysis_kinematic, scene_t
+   use start_state, only: redundancy_text
+   use text, only: counted, real_text, to_text
+   implicit none (type, external)
+   private
+   public :: explain_size, explain_start
+
+contains
+
+   !> Coordinates, rows and degrees of freedom.
+   subroutine explain_size(scene, system, twin)
+      type(scene_t), intent(in) :: scene            !! the scene
+      type(mechanism_t), intent(in) :: system   !! its system
+      type(mechanism_t), intent(in) :: twin     !! with all joints ideal
+
+      integer :: k
+
+      call say("")
+      call say("model")
+      associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
+         call say(counted(n, "planar body", "planar bodies")//", "//to_text(size(linkage%mass))//" coordinates", 2)
+         do k = 1, linkage%reduced%known%n
+            call say("'"//names(linkage%reduced%known%item(k)%body)%s//"' moves as a known function of time", 2)
+         end do
+         do k = 1, linkage%reduced%guided%n
+            call say("'"//names(linkage%reduced%guided%item(k)%body)%s//"' keeps one coordinate, that of '"// &
+                     linkage%row_name(linkage%reduced%guided%item(k)%row(1))//"'", 2)
+         end do
+      end associate
+      if (system%linkage%rows%n > system%linkage%rows%n_solve) then
+         call say(counted(system%n_position, "coordinate", "coordinates")//" unknown, "// &
+                  counted(system%linkage%rows%n_solve, "row", "rows")//" solved", 2)
+      end if
+      do k = 1, size(scene%joints)
+         call count_kind(scene%joints(k)%info, scene%joints(k)%items)
+      end do
+      do k = 1, size(scene%forces)
+         call count_kind(scene%forces(k)%info, scene%forces(k)%items)
+      end do
+      do k = 1, size(scene%functions)
+         call count_kind(scene%functions(k)%info, scene%functions(k)%items)
+      end do
+      if (size(system%linkage%ideal) > 0) then
+         call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
+                  to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
+      end if
+      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": coordinates less rows "// &
+               to_text(size(system%linkage%mass) - system%linkage%rows%n)//"; with all joints ideal "// &
+               to_text(size(twin%linkage%mass) - twin%linkage%rows%n), 2)
+      if (norm2(system%loading%gravity) > 0.0_wp) then
+         call say("gravity "//to_text(system%loading%gravity(1))//" "//to_text(system%loading%gravity(2))//" m/s^2", 2)
+      end if
+   end subroutine explain_size
+
+   !> How the mechanism was assembled, its degrees of freedom, redundant rows.
+   subroutine explain_start(loaded, assembly, has_failed)
+      type(loaded_t), intent(in) :: loaded       !! the deck
+      type(assembly_t), intent(in) :: assembly   !! how the start was found
+      logical, intent(in) :: has_failed          !! there is no start
+
+      type(mobility_t) :: mobility
+
+      if (has_failed) then
+         call say(trim(merge("NOT assembled   ", "NOT ready to run", loaded%scene%analysis == analysis_dynamic))// &
+                  ": the error below says why", 2)
+         return
+      end if
+      call say(counted(size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n + size(assembly%dependent), &
+                       "degree of freedom", "degrees of freedom"), 2)
+      if (loaded%scene%analysis == analysis_kinematic) then
+         call find_mobility(loaded%system%linkage, mobility)
+         call say(counted(mobility%n_freedom, "degree of freedom", "degrees of freedom")//" without drivers, "// &
+                  counted(mobility%n_driver, "driver", "drivers"), 2)
+      end if
+      if (loaded%system%linkage%solution%is_redundant) then
+         call say(redundancy_text(loaded%system, assembly), 2)
+      else
+         call say("no redundant rows", 2)
+      end if
+      call say("assembled in "//counted(assembly%corrections, "correction", "corrections")//", residual "// &
+               real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)// &
+               " m", 2)
+      if (assembly%rate_changed > 0.0_wp) then
+         call say("given velocities changed by up to "//real_text(assembly%rate_changed, 3)//" m/s (body '"// &
+                  loaded%scene%bodies%names(assembly%changed_body)%s//"')", 2)
+      end if
+   end subroutine explain_start
+
+   !> How many items a kind has.
+   subroutine count_kind(info, items)
+      type(kind_info_t), intent(in) :: info   !! the kind
+      type(item_t), intent(in) :: items(:)    !! its rows
+
+      if (size(items) == 0) return
+      if (info%n_row > 0) then
+         call say(to_text(size(items))//" "//info%name//", "//counted(info%n_row*size(items), "row", "rows")// &
+                  trim(merge(" at the start only", "                  ", info%is_start_only)), 2)
+      else
+         call say(to_text(size(items))//" "//info%name, 2)
+      end if
+   end subroutine count_kind
+
+end module explain_model

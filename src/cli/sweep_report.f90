@@ -1,0 +1,142 @@
+!> The figures of a sweep, and its summaries for people and for scripts.
+module sweep_report
+   use catalogue, only: catalogue_t
+   use columns, only: column_of
+   use console, only: say
+   use errors, only: error_t, exit_sweep, set_error
+   use figure_words, only: figure_t, is_of_run, new_figure
+   use figures, only: draw_figures
+   use json_text, only: json_object_t
+   use kinds, only: i8
+   use load, only: loaded_t
+   use mechanism_report, only: build_catalogue
+   use options, only: options_t
+   use output_marker, only: enter_file
+   use plot_table, only: plot_table_t, write_plot
+   use posix, only: make_directory
+   use recorder, only: status_complete, status_failed
+   use sweep_plots, only: sweep_table
+   use sweep_work, only: failure_text, runs_folder, sweep_work_t
+   use text, only: append_text, text_t, to_text
+   use text_buffer, only: buffer_t
+   use text_file, only: fail_file, replace_file
+   use text_table, only: file_heading
+   use version, only: program_version
+   implicit none (type, external)
+   private
+   public :: make_sweep_figures, report_sweep
+
+contains
+
+   !> The figures of the sweep.
+   subroutine make_sweep_figures(loaded, work, pictures, warnings, error)
+      type(loaded_t), intent(in) :: loaded                       !! the deck
+      type(sweep_work_t), intent(in) :: work                           !! the sweep
+      type(text_t), allocatable, intent(inout) :: pictures(:)    !! (n) grown
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) grown
+      type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
+
+      type(catalogue_t) :: catalogue
+      type(figure_t) :: figure
+      type(plot_table_t) :: table
+      type(text_t), allocatable :: names(:)
+      character(:), allocatable :: folder, hint, message
+      integer :: code, k
+      logical :: is_written
+
+      call build_catalogue(loaded%system, catalogue)
+      folder = work%plan%directory//"/figures"
+      allocate (names(0))
+      associate (words => loaded%scene%output%values(column_of(loaded%scene%output_kind, "figures"))%words)
+         do k = 1, size(words)
+            call new_figure(words(k)%s, catalogue, figure, message, hint)
+            if (len(message) > 0) cycle
+            if (is_of_run(figure)) cycle
+            code = enter_file(folder//"/")
+            if (code == 0) code = make_directory(folder)
+            if (code /= 0) then
+               call fail_file(error, "cannot make the directory", folder, code, "")
+               return
+            end if
+            call sweep_table(figure, work%results, catalogue, file_heading(work%plan), table)
+            call write_plot(folder, loaded%scene%title, table, is_written, error)
+            if (allocated(error)) return
+            if (is_written) then
+               call append_text(names, figure%name)
+            else
+               call append_text(warnings, "figure "//words(k)%s//": no numbers to draw")
+            end if
+         end do
+      end associate
+      call draw_figures(folder, names, pictures, warnings)
+   end subroutine make_sweep_figures
+
+   !> The summaries, and the error if part of the runs failed.
+   subroutine report_sweep(options, loaded, work, pictures, warnings, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(sweep_work_t), intent(in) :: work                     !! the sweep
+      type(text_t), intent(in) :: pictures(:)              !! (n) pictures made
+      type(text_t), intent(in) :: warnings(:)              !! (m) what was not made
+      type(error_t), allocatable, intent(out) :: error     !! a file cannot be written, or part of the runs failed
+
+      type(buffer_t) :: lines
+      type(json_object_t) :: json
+      integer :: k, shown
+
+      call lines%line(loaded%scene%title)
+      call lines%line(to_text(loaded%sweep%n_cases())//" cases of "//to_text(work%results%n_member)// &
+                      trim(merge(" run: ", " runs:", work%results%n_member == 1))//" "// &
+                      to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed)//" failed")
+      shown = 0
+      do k = 1, size(work%results%runs)
+         if (work%results%runs(k)%exit_code == 0 .or. shown == 10) cycle
+         shown = shown + 1
+         call lines%line("  run "//to_text(k)//": exit code "//to_text(work%results%runs(k)%exit_code)//", "// &
+                         work%results%runs(k)%message)
+      end do
+      call lines%line("output     "//work%plan%directory//"/")
+      call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and spreads)")
+      do k = 1, size(pictures)
+         call lines%line("           "//pictures(k)%s)
+      end do
+      do k = 1, size(warnings)
+         call lines%line("warning: "//warnings(k)%s)
+      end do
+      call json%start(0)
+      call json%put_text("program", "gudgeon "//program_version)
+      call json%put_text("deck", loaded%path)
+      call json%put_text("title", loaded%scene%title)
+      call json%put_text("directory", work%plan%directory)
+      call json%put_text("status", trim(merge(status_failed//"  ", status_complete, work%n_failed > 0)))
+      call json%put_text("message", failure_text(work))
+      call json%put_integer("cases", int(loaded%sweep%n_cases(), i8))
+      call json%put_integer("runs", int(size(work%results%runs), i8))
+      call json%put_integer("failed", int(work%n_failed, i8))
+      call json%put_list("figures", pictures)
+      call json%put_list("warnings", warnings)
+      call write_summaries(lines%get(), json%get()//new_line("a"))
+      if (work%n_failed > 0 .and. .not. allocated(error)) then
+         call set_error(error, exit_sweep, failure_text(work)//"; they are in "//work%plan%directory//runs_folder// &
+                        ", what they said in the .log files beside them")
+      end if
+
+   contains
+
+      !> Write and show them.
+      subroutine write_summaries(text, object)
+         character(*), intent(in) :: text       !! for people
+         character(*), intent(in) :: object     !! for scripts
+
+         call replace_file(work%plan%directory//"/summary.txt", text, error)
+         if (.not. allocated(error)) call replace_file(work%plan%directory//"/summary.json", object, error)
+         if (options%is_json) then
+            call say(object(1:len(object) - 1))
+         else if (.not. options%is_quiet) then
+            call say(text(1:len(text) - 1))
+         end if
+      end subroutine write_summaries
+
+   end subroutine report_sweep
+
+end module sweep_report
