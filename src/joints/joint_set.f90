@@ -7,6 +7,7 @@
 !> Signs: the reaction on a body is -Phi_q^T lambda (forces and moment about the centre of mass).
 !> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j.
 module joint_set
+   use coordinates, only: coordinates_t
    use item, only: item_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
@@ -16,7 +17,7 @@ module joint_set
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: add_joint_channels, joint_set_t, joint_slot_t
+   public :: add_joint_channels, joint_set_t, joint_slot_t, report_shared
 
    !> All items of one kind of joint or driver.
    type, abstract :: joint_set_t
@@ -41,7 +42,8 @@ module joint_set
       procedure :: set_start => joint_set_start
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
-      procedure :: report => joint_report
+      procedure :: report => report_shared
+      procedure :: reaction => joint_reaction
       procedure :: coordinate => joint_coordinate
       procedure :: prescription => joint_prescription
       procedure :: time_of_turns => joint_time_of_turns
@@ -82,6 +84,42 @@ module joint_set
          type(motion_t), intent(in) :: motion    !! positions and velocities
          type(rows_t), intent(inout) :: rows     !! rows, those of the set are filled
       end subroutine evaluate_interface
+   end interface
+
+   interface
+      !> The channels that every ideal joint has.
+      module subroutine add_joint_channels(info)
+         implicit none (type, external)
+         type(kind_info_t), intent(inout) :: info  !! the kind
+      end subroutine add_joint_channels
+
+      !> Values of a channel for all items: of those that joints or drivers share. A kind with channels of its own fills these and
+      !> hands all others on to this one. A channel of `info()` that nobody fills is a mistake of the kind; the tests of the
+      !> registry find it.
+      module subroutine report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+         implicit none (type, external)
+         class(joint_set_t), intent(in) :: self           !! the set
+         character(*), intent(in) :: channel              !! the channel, one that the kind announces
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+         type(rows_t), intent(in) :: rows                 !! rows at the motion
+         real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+         real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
+         real(wp), intent(inout) :: values(:, :)          !! (components, all joints or drivers) those of the set are filled [any]
+      end subroutine report_shared
+
+      !> Reaction of an item on body i: force, and moment about its reaction point.
+      module subroutine joint_reaction(self, item, motion, coordinates, rows, lambda, force, moment)
+         implicit none (type, external)
+         class(joint_set_t), intent(in) :: self           !! the set
+         integer, intent(in) :: item                      !! item of the set
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+         type(rows_t), intent(in) :: rows                 !! rows at the motion
+         real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+         real(wp), intent(out) :: force(3)                !! (3) force on body i, world frame [N]
+         real(wp), intent(out) :: moment(3)               !! (3) moment on body i about the reaction point [N.m]
+      end subroutine joint_reaction
    end interface
 
 contains
@@ -157,20 +195,6 @@ contains
       p = point_position(motion, self%body(1, k), self%s_i(:, k))
    end function joint_reaction_point
 
-   !> Values of a channel that the kind has beside those of every joint and driver: none, unless the kind says otherwise.
-   !> A channel of `info()` that nobody fills is a mistake of the kind; the tests of the registry find it.
-   subroutine joint_report(self, channel, k, motion, lambda, values, is_known)
-      class(joint_set_t), intent(in) :: self   !! the set
-      character(*), intent(in) :: channel      !! the channel
-      integer, intent(in) :: k                 !! item
-      type(motion_t), intent(in) :: motion     !! positions and velocities
-      real(wp), intent(in) :: lambda(:)        !! (rows of an item) multipliers of the item [N or N.m]
-      real(wp), intent(inout) :: values(:)     !! (components) values, as they were if the channel is not known [any]
-      logical, intent(out) :: is_known         !! whether the kind knows the channel
-
-      is_known = .false.
-   end subroutine joint_report
-
    !> Coordinate and rate of a driver: of j relative to i, counter-clockwise positive.
    subroutine joint_coordinate(self, k, motion, value, rate)
       class(joint_set_t), intent(in) :: self  !! the set
@@ -240,15 +264,5 @@ contains
       real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
       integer, intent(inout) :: place            !! last place used
    end subroutine joint_load
-
-   !> The channels that every ideal joint has.
-   subroutine add_joint_channels(info)
-      type(kind_info_t), intent(inout) :: info  !! the kind
-
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i")
-      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force")
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m")
-      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation")
-   end subroutine add_joint_channels
 
 end module joint_set
