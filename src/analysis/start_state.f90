@@ -1,7 +1,7 @@
 !> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
+   use item, only: place_of
    use build_system, only: levels_as_written, levels_ideal, new_system
-   use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
@@ -41,7 +41,7 @@ contains
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
-      associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
+      associate (start => scene%dynamic%values(place_of(scene%dynamic, "start"))%text)
          levels = levels_as_written
          if (system%n_loose == 0 .or. start == "ideal") levels = levels_ideal
          if (start == "static") call start_at_rest(scene, system, q, v, report, error)
@@ -66,7 +66,7 @@ contains
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
       call look_at_overlap(system, y, &
-                           scene%dynamic%values(column_of(scene%dynamic_kind, "overlap"))%text == "preload", error)
+                           scene%dynamic%word("overlap") == "preload", error)
    end subroutine find_start
 
    !> The static equilibrium at t = 0, its contacts begun.

@@ -4,8 +4,8 @@
 !> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations.
 !> Planar: both are kernels of the plane.
 module build_known
-   use columns, only: column_of
    use find_guided, only: find_guided_bodies, guide_t, kind_sliding
+   use item, only: place_of
    use find_known, only: find_known_bodies, joint_points, link_t
    use joint_registry, only: n_joint_kinds
    use joint_set, only: joint_set_t
@@ -63,7 +63,7 @@ contains
       if (scene%analysis /= analysis_dynamic) return
       call find_known_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") reduction%links = reduction%links(:0)
+      if (scene%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
       ! without any unknown nothing would control the step, and the works would be as good as chance
       if (size(reduction%links) == scene%bodies%n) reduction%links = reduction%links(:0)
       associate (links => reduction%links)
@@ -72,8 +72,8 @@ contains
             if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
          end do
          if (with_start_rows) return
-         if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") return
-         associate (method => scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text)
+         if (scene%dynamic%word("coordinates") == "full") return
+         associate (method => scene%dynamic%values(place_of(scene%dynamic, "method"))%text)
             if (method == "ida" .or. (method == "bdf" .and. is_large(scene))) return
          end associate
          is_known = .false.

@@ -5,7 +5,6 @@
 module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
-   use columns, only: column_of
    use find_known, only: joint_bodies, joint_points, ties_bodies
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
@@ -39,7 +38,7 @@ contains
          call coordinates%find_masses(scene%bodies, linkage%mass)
       end associate
       linkage%scales%length = size_of_bodies(scene)
-      linkage%scales%tolerance = scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number
+      linkage%scales%tolerance = scene%dynamic%number("tolerance")
       call new_motion(n, linkage%motion)
       call linkage%deck_state(q, v)
       call linkage%place_bodies(q, 0.0_wp*v)
@@ -144,7 +143,7 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      word = scene%dynamic%values(column_of(scene%dynamic_kind, "solver"))%text
+      word = scene%dynamic%word("solver")
       if (word == "auto") then
          word = "sparse"
          if (schur_is_cheap(linkage%rows)) word = "schur"

@@ -1,6 +1,5 @@
 !> `gudgeon explain DECK` and `gudgeon check DECK`: what would run, without running it.
 module verb_explain
-   use columns, only: column_of
    use console, only: say
    use build_system, only: levels_ideal, new_system
    use clearance_set, only: clearance_set_t
@@ -60,7 +59,7 @@ contains
       if (loaded%sweep%is_present) words = "; a sweep of "//counted(loaded%sweep%n_cases(), "case", "cases")
       if (.not. loaded%scene%has_ensemble) return
       if (words == "") words = "; an ensemble"
-      associate (n => nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number))
+      associate (n => nint(loaded%scene%ensemble%number("runs")))
          words = words//", "//counted(n, "run", "runs")//" each"
       end associate
    end function sweep_text
@@ -137,7 +136,7 @@ contains
       do k = 1, n_analysis
          if (index(line, "analysis."//trim(analysis_names(k))//" ") == 0) cycle
          is_worth = k == scene%analysis .or. (k == analysis_static .and. scene%analysis == analysis_dynamic .and. &
-                                              scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "static")
+                                              scene%dynamic%word("start") == "static")
       end do
       if (.not. is_worth) return
       do k = 1, size(scene%dynamic_kind%columns)
@@ -264,7 +263,7 @@ contains
       integer :: c, i, k, last, v
 
       if (loaded%system%n_loose == 0) return
-      step = loaded%scene%dynamic%values(column_of(loaded%scene%dynamic_kind, "step"))%number
+      step = loaded%scene%dynamic%number("step")
       call say("")
       call say("loose joints")
       allocate (delta(loaded%system%n_contact), rate(loaded%system%n_contact), source=0.0_wp)
@@ -340,26 +339,25 @@ contains
          call explain_times(loaded)
          return
       case (analysis_static)
-         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%values( &
-                                                       column_of(loaded%scene%static_kind, "tolerance"))%number)// &
+         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%number("tolerance"))// &
                   " of the largest load", 2)
          return
       end select
-      associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
-         solver = values(column_of(kind, "solver"))%text
+      associate (settings => loaded%scene%dynamic)
+         solver = settings%word("solver")
          if (solver == "auto") then
             solver = loaded%system%linkage%solution%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
          end if
          fixed = "variable steps"
-         if (values(column_of(kind, "step"))%number > 0.0_wp) then
-            fixed = "fixed steps of "//to_text(values(column_of(kind, "step"))%number)//" s: the tolerance is not used"
+         if (settings%number("step") > 0.0_wp) then
+            fixed = "fixed steps of "//to_text(settings%number("step"))//" s: the tolerance is not used"
          end if
-         call say("integrator "//values(column_of(kind, "method"))%text//", tolerance "// &
-                  to_text(values(column_of(kind, "tolerance"))%number), 2)
+         call say("integrator "//settings%word("method")//", tolerance "// &
+                  to_text(settings%number("tolerance")), 2)
          call say(fixed, 2)
          call say("solver "//solver, 2)
          hold = loaded%system%way%words()
-         if (values(column_of(kind, "stabilise"))%text == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
+         if (settings%word("stabilise") == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
          call say("stabilisation "//hold, 2)
       end associate
       call explain_times(loaded)

@@ -5,9 +5,9 @@
 !> its message, its directory is kept, and the others go on. What is done is in sweep.h5 and sweep.csv, which are written
 !> anew now and then; directories of runs that are not in there yet are left where the sweep is killed.
 module verb_sweep
+   use item, only: place_of
    use build_info, only: compiler, git_sha1
    use catalogue, only: catalogue_t
-   use columns, only: column_of
    use console, only: say
    use deck_reader, only: deck_text, get_includes, sweep_t
    use errors, only: error_t, exit_sweep, exit_usage, set_error
@@ -153,7 +153,7 @@ contains
       work%results%sweep = loaded%sweep
       work%results%is_ensemble = loaded%scene%has_ensemble
       if (loaded%scene%has_ensemble) then
-         work%results%n_member = nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number)
+         work%results%n_member = nint(loaded%scene%ensemble%number("runs"))
       end if
       call work%results%start()
       work%program = own_path()
@@ -389,7 +389,7 @@ contains
       call build_catalogue(loaded%system, catalogue)
       folder = work%plan%directory//"/figures"
       allocate (names(0))
-      associate (words => loaded%scene%output%values(column_of(loaded%scene%output_kind, "figures"))%words)
+      associate (words => loaded%scene%output%values(place_of(loaded%scene%output, "figures"))%words)
          do k = 1, size(words)
             call new_figure(words(k)%s, catalogue, figure, message, hint)
             if (len(message) > 0) cycle

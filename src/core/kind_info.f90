@@ -18,7 +18,7 @@ module kind_info
    public :: dim_angular_stiffness, dim_area, dim_contact_stiffness, dim_damping, dim_density, dim_energy
    public :: dim_force, dim_frequency, dim_inertia, dim_length, dim_mass, dim_moment, dim_none, dim_power
    public :: dim_pressure, dim_speed, dim_stiffness, dim_temperature, dim_time, dim_viscosity
-   public :: no_bound
+   public :: longest_column, no_bound
 
    !> Physical dimension as exponents of kg, m, s, rad and K.
    !> They are real because a contact stiffness is N/m^1.5, or N/m^n with any n.
@@ -73,6 +73,7 @@ module kind_info
 
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]
 
+   integer, parameter :: longest_column = 24  !! characters of the name of a column or key, at most
    integer, parameter :: longest_list = 20  !! characters of the names of an expression's variables
 
    !> One column of a table, or one key of a section of settings.
@@ -317,6 +318,7 @@ contains
       type(column_t), allocatable :: grown(:)
       integer :: i, n
 
+      if (len(column%name) > longest_column) error stop "internal mistake: a column with too long a name"
       n = 0
       if (allocated(info%columns)) n = size(info%columns)
       allocate (grown(n + 1))

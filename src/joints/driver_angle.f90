@@ -11,7 +11,7 @@ module driver_angle
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use driver_speed, only: add_driver_channels, write_driver_row
    use expression, only: expression_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use joint_set, only: joint_set_t
    use rows, only: rows_t
    use kind_info, only: add_expression, add_reference, dim_angle, kind_info_t
@@ -60,7 +60,7 @@ contains
       self%is_angle(1) = .true.
       allocate (self%f(self%n))
       do k = 1, self%n
-         self%f(k) = items(k)%values(2)%expression
+         self%f(k) = items(k)%values(place_of(items(k), "angle"))%expression
       end do
    end subroutine angle_prepare
 

@@ -59,7 +59,7 @@ contains
       allocate (self%start(self%n), self%speed(self%n))
       do k = 1, self%n
          self%start(k) = angle(self%body(2, k)) - angle(self%body(1, k))
-         self%speed(k) = items(k)%values(2)%number
+         self%speed(k) = items(k)%number("speed")
       end do
    end subroutine speed_prepare
 

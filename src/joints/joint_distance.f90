@@ -24,8 +24,7 @@ module joint_distance
    private
    public :: joint_distance_t, write_distance_row
 
-   integer, parameter :: column_length = 3  !! column of the length
-
+   
    !> All distance joints of a planar scene.
    type, extends(joint_set_t) :: joint_distance_t
       real(wp), allocatable :: length(:)  !! (n) length [m]
@@ -67,8 +66,8 @@ contains
 
       allocate (self%length(self%n), self%is_open(self%n))
       do k = 1, self%n
-         self%length(k) = items(k)%values(column_length)%number
-         self%is_open(k) = .not. items(k)%values(column_length)%given
+         self%length(k) = items(k)%number("length")
+         self%is_open(k) = .not. items(k)%is_given("length")
       end do
    end subroutine distance_prepare
 

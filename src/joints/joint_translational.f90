@@ -78,9 +78,9 @@ contains
 
       allocate (self%axis(2, self%n), self%difference(self%n))
       do k = 1, self%n
-         c = cos(items(k)%values(4)%number)
-         s = sin(items(k)%values(4)%number)
-         self%axis(:, k) = merge([c, s], [-s, c], items(k)%values(3)%text == "x")
+         c = cos(items(k)%number("axis_angle"))
+         s = sin(items(k)%number("axis_angle"))
+         self%axis(:, k) = merge([c, s], [-s, c], items(k)%word("axis") == "x")
          self%difference(k) = angle(self%body(1, k)) - angle(self%body(2, k))
       end do
    end subroutine set_axes

@@ -1,5 +1,6 @@
 !> From a deck to a scene: reads every table, looks up names, checks what tables cannot say of themselves.
 module read_scene
+   use item, only: place_of
    use bodies, only: bodies_info, material_info, new_bodies, new_materials, new_points, points_info
    use clearance_registry, only: n_clearance_kinds
    use columns, only: column_of
@@ -9,6 +10,7 @@ module read_scene
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
    use guard_info, only: guards_info
+   use item, only: place_of
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
    use kind_info, only: kind_info_t
@@ -60,8 +62,8 @@ contains
       call check_names(scene, diagnostics)
       if (diagnostics%count() > 0) return
 
-      scene%title = scene%header%values(1)%text
-      scene%gravity(1:2) = scene%header%values(3)%vector(1:2)
+      scene%title = scene%header%word("title")
+      scene%gravity(1:2) = scene%header%values(place_of(scene%header, "gravity"))%vector(1:2)
       call new_bodies(scene%base(table_bodies)%items, scene%bodies)
       call new_points(scene%base(table_points)%items, scene%points)
       call new_materials(scene%base(table_materials)%items, scene%materials)
