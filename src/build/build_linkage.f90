@@ -5,7 +5,6 @@
 module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
-   use find_known, only: joint_bodies, joint_points, ties_bodies
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use rows, only: list_sides, new_rows
@@ -15,6 +14,7 @@ module build_linkage
    use planar_coordinates, only: new_planar_coordinates
    use scene, only: scene_t
    use scene_size, only: size_of_bodies
+   use ties, only: tie_set
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
    private
@@ -71,8 +71,8 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! joints are set
 
       class(joint_set_t), allocatable :: set
-      integer, allocatable :: chosen(:), i(:), j(:)
-      integer :: body(2), column(2), k, m, n
+      integer, allocatable :: chosen(:)
+      integer :: column(2), k, m, n
 
       n = 0
       if (.not. is_solved) n = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
@@ -81,23 +81,9 @@ contains
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
          call new_joint_set(k, set)
-         allocate (i(size(chosen)), j(size(chosen)))
-         if (ties_bodies(scene, k)) then
-            do m = 1, size(chosen)
-               body = joint_bodies(scene, k, chosen(m))
-               i(m) = body(1)
-               j(m) = body(2)
-            end do
-            call set%new_of_bodies(scene%joints(k)%items(chosen), i, j)
-         else
-            do m = 1, size(chosen)
-               call joint_points(scene, k, chosen(m), i(m), j(m))
-            end do
-            call set%new(scene%joints(k)%items(chosen), i, j, scene%points)
-         end if
+         call tie_set(scene, scene%joints(k)%info, scene%joints(k)%items(chosen), set)
          call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
          call set%set_start(linkage%motion)
-         deallocate (i, j)
          m = merge(2, 1, set%is_driver)
          set%column = column(m) + chosen
          column(m) = column(m) + size(scene%joints(k)%items)

@@ -41,6 +41,7 @@ contains
       info%help = "turns a revolute joint at a constant speed"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
+      info%drives_turn = .true.
       call add_reference(info, "joint", "joint.revolute", "the revolute joint that is driven")
       call add_number(info, "speed", dim_angular_speed, "speed of j relative to i, counter-clockwise positive")
       call add_driver_channels(info)

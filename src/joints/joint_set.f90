@@ -11,7 +11,6 @@ module joint_set
    use item, only: item_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
-   use bodies, only: points_t
    use motion, only: motion_t, point_position
    use rows, only: rows_t
    use text, only: text_t
@@ -38,10 +37,10 @@ module joint_set
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure :: new => joint_new
-      procedure :: new_of_bodies => joint_new_of_bodies
       procedure :: set_start => joint_set_start
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
+      procedure :: way_of => joint_way_of
       procedure :: report => report_shared
       procedure :: reaction => joint_reaction
       procedure :: coordinate => joint_coordinate
@@ -125,28 +124,12 @@ module joint_set
 contains
 
    !> Set up the common part: names, bodies and points of the items.
-   subroutine joint_new(self, items, point_i, point_j, points)
+   subroutine joint_new(self, items, body, s_i, s_j)
       class(joint_set_t), intent(inout) :: self   !! the set
       type(item_t), intent(in) :: items(:)        !! (n) rows of the table
-      integer, intent(in) :: point_i(:)           !! (n) point of body i
-      integer, intent(in) :: point_j(:)           !! (n) point of body j
-      type(points_t), intent(in) :: points        !! all points
-
-      integer :: k
-
-      call self%new_of_bodies(items, points%body(point_i), points%body(point_j))
-      do k = 1, self%n
-         self%s_i(:, k) = points%s(:, point_i(k))
-         self%s_j(:, k) = points%s(:, point_j(k))
-      end do
-   end subroutine joint_new
-
-   !> Set up the common part of a kind that ties bodies and not points: the points are the centres of mass.
-   subroutine joint_new_of_bodies(self, items, body_i, body_j)
-      class(joint_set_t), intent(inout) :: self   !! the set
-      type(item_t), intent(in) :: items(:)        !! (n) rows of the table
-      integer, intent(in) :: body_i(:)            !! (n) body i, 0: ground
-      integer, intent(in) :: body_j(:)            !! (n) body j, 0: ground
+      integer, intent(in) :: body(:, :)           !! (2, n) bodies i and j, 0: ground
+      real(wp), intent(in) :: s_i(:, :)           !! (3, n) point of body i, its frame; the origin is the centre of mass [m]
+      real(wp), intent(in) :: s_j(:, :)           !! (3, n) point of body j, its frame [m]
 
       type(kind_info_t) :: info
       integer :: k
@@ -154,14 +137,14 @@ contains
       info = self%info()
       self%n = size(items)
       self%n_row_item = info%n_row
-      allocate (self%names(self%n), self%body(2, self%n))
-      allocate (self%s_i(3, self%n), self%s_j(3, self%n), source=0.0_wp)
+      allocate (self%names(self%n))
       do k = 1, self%n
          self%names(k)%s = items(k)%name
       end do
-      self%body(1, :) = body_i
-      self%body(2, :) = body_j
-   end subroutine joint_new_of_bodies
+      self%body = body
+      self%s_i = s_i
+      self%s_j = s_j
+   end subroutine joint_new
 
    !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
    subroutine joint_set_start(self, motion)
@@ -194,6 +177,15 @@ contains
 
       p = point_position(motion, self%body(1, k), self%s_i(:, k))
    end function joint_reaction_point
+
+   !> Axis along which body j slides in body i, of a kind that leaves a way: none, unless the kind says otherwise.
+   pure function joint_way_of(self, k) result(axis)
+      class(joint_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      real(wp) :: axis(2)                     !! (2) unit vector, frame of body i [1]
+
+      axis = 0.0_wp*self%s_i(1:2, k)
+   end function joint_way_of
 
    !> Coordinate and rate of a driver: of j relative to i, counter-clockwise positive.
    subroutine joint_coordinate(self, k, motion, value, rate)

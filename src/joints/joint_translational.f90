@@ -12,7 +12,7 @@ module joint_translational
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_number, add_reference, add_word, dim_angle, kind_info_t
+   use kind_info, only: add_number, add_reference, add_word, dim_angle, kind_info_t, leaves_way
    use kinds, only: wp
    use motion, only: motion_t, point_position
    implicit none (type, external)
@@ -30,6 +30,7 @@ module joint_translational
       procedure :: fill_rows
       procedure :: evaluate => translational_evaluate
       procedure :: reaction_point => translational_reaction_point
+      procedure :: way_of => translational_way_of
    end type joint_translational_t
 
 contains
@@ -42,6 +43,7 @@ contains
       info%help = "ideal guide: a point of j stays on a line of i, and the bodies do not turn against each other"
       info%source = "Flores et al. (2008), eqs. (2.6), (2.8)"
       info%n_row = 2
+      info%leaves = leaves_way
       call add_reference(info, "i", "points", "point of the guide")
       call add_reference(info, "j", "points", "point of the slider")
       call add_axis_columns(info, "guide")
@@ -94,6 +96,15 @@ contains
 
       p = point_position(motion, self%body(2, k), self%s_j(:, k))
    end function translational_reaction_point
+
+   !> The axis.
+   pure function translational_way_of(self, k) result(axis)
+      class(joint_translational_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                          !! item
+      real(wp) :: axis(2)                               !! (2) unit vector, frame of body i [1]
+
+      axis = self%axis(:, k)
+   end function translational_way_of
 
    !> Fill the rows of all items.
    subroutine translational_evaluate(self, t, motion, rows)

@@ -53,7 +53,7 @@ contains
       call add_names(scene%base(table_bodies)%items, directory%bodies)
       call add_names(scene%base(table_points)%items, directory%points)
       call add_names(scene%base(table_materials)%items, directory%materials)
-      call add_names(scene%joints(1)%items, directory%revolutes)
+      call add_joints(scene, directory)
       call read_laws(deck, scene, directory, diagnostics)
       if (size(scene%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
          call diagnostics%add(location_of_end(deck), "no bodies", "a scene needs at least one", "add a table [bodies]")
@@ -229,6 +229,25 @@ contains
       end do
       call move_alloc(grown, laws)
    end subroutine grow_frictions
+
+   !> Names and kinds of all joints and drivers.
+   subroutine add_joints(scene, directory)
+      type(scene_t), intent(in) :: scene              !! tables
+      type(directory_t), intent(inout) :: directory   !! joints are set
+
+      integer :: i, k, n
+
+      n = sum([(size(scene%joints(k)%items), k=1, n_joint_kinds)])
+      allocate (directory%joints(n), directory%kinds(n))
+      n = 0
+      do k = 1, n_joint_kinds
+         do i = 1, size(scene%joints(k)%items)
+            n = n + 1
+            directory%joints(n)%s = scene%joints(k)%items(i)%name
+            directory%kinds(n)%s = scene%joints(k)%info%name
+         end do
+      end do
+   end subroutine add_joints
 
    !> Look up the references of all tables.
    subroutine resolve_tables(directory, scene, diagnostics)

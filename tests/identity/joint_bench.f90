@@ -69,7 +69,7 @@ contains
       end do
       angle(0) = 0.0_wp
       angle(1:) = random%vector(n_body, -2.0_wp, 2.0_wp)
-      call bench%set%new(items, [(2*k - 1, k=1, n_item)], [(2*k, k=1, n_item)], points)
+      call bench%set%new(items, reshape(points%body, [2, n_item]), points%s(:, 1::2), points%s(:, 2::2))
       call bench%set%prepare(items, angle)
       bench%set%first_row = before
       call new_rows(before + n_item*info%n_row + 1, bench%rows)
