@@ -5,6 +5,8 @@
 module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
+   use columns, only: find_column
+   use joint_friction, only: new_joint_friction
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use rows, only: list_sides, new_rows
@@ -84,6 +86,10 @@ contains
          call tie_set(scene, scene%joints(k)%info, scene%joints(k)%items(chosen), set)
          call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
          call set%set_start(linkage%motion)
+         if (is_solved .and. find_column(scene%joints(k)%info, "friction") > 0) then
+            call new_joint_friction(scene%joints(k)%items(chosen), scene%frictions, set%friction_length(), &
+                                    linkage%coordinates%n_v, set%friction)
+         end if
          m = merge(2, 1, set%is_driver)
          set%column = column(m) + chosen
          column(m) = column(m) + size(scene%joints(k)%items)

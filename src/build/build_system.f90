@@ -16,6 +16,7 @@ module build_system
    use kinds, only: wp
    use loading, only: loading_t
    use motion, only: new_loads
+   use rubbing, only: new_rubbing
    use mechanism, only: n_ledger, mechanism_t
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
@@ -59,6 +60,7 @@ contains
          call set_guided(scene, reduction%guides, choices, linkage)
          linkage%piece = piece_at_start(scene)
          call declare_rows(linkage)
+         call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%rubbing)
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
          call choose_hold(scene, system)
@@ -67,7 +69,7 @@ contains
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
       allocate (system%losses(2, system%n_contact), source=0.0_wp)
-      system%n_quadrature = merge(n_ledger + 2*system%n_contact, 0, system%with_ledger)
+      system%n_quadrature = merge(n_ledger + 2*system%n_contact + merge(1, 0, system%rubbing%n > 0), 0, system%with_ledger)
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       system%n_event = system%n_contact
       call count_grips(system)
@@ -75,7 +77,8 @@ contains
          system%first_turn = system%n_event
          system%n_event = system%n_event + system%n_contact
       end if
-      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0
+      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0 &
+                        .and. system%rubbing%n == 0
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
       if (system%grips%n_slip > 0 .and. scene%dynamic%word("method") == "ida") then
          system%is_large = .false.
@@ -98,6 +101,8 @@ contains
             if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
          end associate
       end do
+      system%rubbing%first_bristle = n_bristle
+      n_bristle = n_bristle + system%rubbing%n_bristle
       system%n = system%n + n_bristle
       if (n_slip > 0) system%n_event = 2*system%n_contact
       call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%grips)

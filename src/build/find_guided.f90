@@ -1,11 +1,11 @@
 !> Which bodies of a scene one joint leaves a single freedom against the ground or a body of known motion.
 !>
 !> A body is guided when one revolute or translational joint ties it to such a body, and no other row of a joint or driver
-!> holds it: then the coordinate of the joint describes it. Springs, loads and contacts may act on it.
+!> holds it, and it does not rub: then the coordinate of the joint describes it. Springs, loads and contacts may act on it.
 module find_guided
    use build_clearances, only: is_ideal
    use clearance_registry, only: n_clearance_kinds
-   use find_known, only: joint_bodies
+   use find_known, only: joint_bodies, rubs
    use joint_registry, only: n_joint_kinds
    use kind_info, only: leaves_turn, leaves_way
    use scene, only: scene_t
@@ -43,7 +43,7 @@ contains
                body = joint_bodies(scene, k, i)
                if (is_known(body(1)) .eqv. is_known(body(2))) cycle
                if (is_known(body(1))) body(1) = body(2)
-               if (n_joint(body(1)) /= 1) cycle
+               if (n_joint(body(1)) /= 1 .or. rubs(scene, scene%joints(k)%items(i))) cycle
                n = n + 1
                guides(n) = guide_t(body(1), k, i)
             end do

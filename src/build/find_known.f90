@@ -5,14 +5,14 @@
 !> the solvers tell which, and share the reactions.
 module find_known
    use clearance_registry, only: n_clearance_kinds
-   use item, only: item_t
+   use item, only: find_place, item_t
    use joint_registry, only: n_joint_kinds
    use kind_info, only: leaves_nothing, leaves_turn
    use scene, only: scene_t
    use ties, only: find_joint, tie_of, tie_t
    implicit none (type, external)
    private
-   public :: find_known_bodies, has_smooth_cells, joint_bodies, link_t
+   public :: find_known_bodies, has_smooth_cells, joint_bodies, link_t, rubs
 
    !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
    type :: link_t
@@ -85,7 +85,7 @@ contains
             if (.not. has_smooth_cells(scene%joints(k)%items(i))) cycle
             tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))
             call find_joint(scene, tie%joint(1), kind, row)
-            if (scene%joints(kind)%info%leaves /= leaves_turn) cycle
+            if (scene%joints(kind)%info%leaves /= leaves_turn .or. rubs(scene, scene%joints(kind)%items(row))) cycle
             call add_if_new(scene, link_t(kind=kind, item=row, driver=k, driving=i), is_known, links)
          end do
       end do
@@ -135,6 +135,19 @@ contains
       links(size(links))%body = merge(body(2), body(1), is_known(body(1)))
       is_known(body) = .true.
    end subroutine add_if_new
+
+   !> Whether an ideal joint rubs: then its reactions are part of the equations of motion.
+   pure logical function rubs(scene, item)
+      type(scene_t), intent(in) :: scene   !! the scene
+      type(item_t), intent(in) :: item     !! row of the joint
+
+      integer :: law
+
+      rubs = .false.
+      if (find_place(item, "friction") == 0) return
+      law = item%reference("friction")
+      if (law > 0) rubs = scene%frictions(law)%law%is_active()
+   end function rubs
 
    !> Bodies i and j of a row of a joint table, 0: ground.
    pure function joint_bodies(scene, kind, row) result(body)

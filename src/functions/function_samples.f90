@@ -23,7 +23,6 @@ module function_samples
    private
    public :: function_samples_t
 
-
    character(5), parameter :: lists(2) = [character(5) :: "at", "value"]  !! columns of lists, in the order of a file's columns
    real(wp), parameter :: closed = 1.0e-9_wp  !! difference of the ends of a period, of the greatest value [1]
 

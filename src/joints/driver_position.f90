@@ -23,7 +23,6 @@ module driver_position
    private
    public :: driver_position_t
 
-   
    !> All position drivers of a planar scene. `axis` is s turned by -90 degrees, whose R90 is s.
    type, extends(joint_translational_t) :: driver_position_t
       type(expression_t), allocatable :: f(:)  !! (n) position [m]

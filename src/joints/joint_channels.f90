@@ -48,6 +48,12 @@ contains
             end select
          end associate
       end do
+      do k = 1, self%friction%n
+         associate (column => self%column(self%friction%item(k)))
+            if (channel == "friction_moment") values(1, column) = self%friction%length(k)*self%friction%force(k)
+            if (channel == "friction_force") values(1, column) = self%friction%force(k)
+         end associate
+      end do
    end procedure report_shared
 
    !> Reaction of an item on body i.

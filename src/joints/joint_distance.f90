@@ -24,7 +24,6 @@ module joint_distance
    private
    public :: joint_distance_t, write_distance_row
 
-   
    !> All distance joints of a planar scene.
    type, extends(joint_set_t) :: joint_distance_t
       real(wp), allocatable :: length(:)  !! (n) length [m]

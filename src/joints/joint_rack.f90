@@ -23,7 +23,6 @@ module joint_rack
    private
    public :: joint_rack_t
 
-   
    !> All racks with their pinions of a planar scene.
    type, extends(joint_translational_t) :: joint_rack_t
       real(wp), allocatable :: radius(:)  !! (n) radius of the pinion's pitch circle, negative to the right of the axis [m]

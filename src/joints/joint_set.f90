@@ -9,6 +9,7 @@
 module joint_set
    use coordinates, only: coordinates_t
    use item, only: item_t
+   use joint_friction, only: joint_friction_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position
@@ -32,6 +33,7 @@ module joint_set
       integer, allocatable :: body(:, :)         !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s_i(:, :)         !! (3, n) point of body i, its frame [m]
       real(wp), allocatable :: s_j(:, :)         !! (3, n) point of body j, its frame [m]
+      type(joint_friction_t) :: friction         !! of the items that rub
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
@@ -41,6 +43,9 @@ module joint_set
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: way_of => joint_way_of
+      procedure, nopass :: friction_length => joint_friction_length
+      procedure :: slide => joint_slide
+      procedure :: press => joint_press
       procedure :: report => report_shared
       procedure :: reaction => joint_reaction
       procedure :: coordinate => joint_coordinate
@@ -144,6 +149,7 @@ contains
       self%body = body
       self%s_i = s_i
       self%s_j = s_j
+      allocate (self%friction%item(0))
    end subroutine joint_new
 
    !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
@@ -177,6 +183,31 @@ contains
 
       p = point_position(motion, self%body(1, k), self%s_i(:, k))
    end function joint_reaction_point
+
+   !> Column of the length that friction needs, of a kind with the columns of friction.
+   function joint_friction_length() result(name)
+      character(:), allocatable :: name   !! the column
+
+      name = ""
+   end function joint_friction_length
+
+   !> How the items that rub lie: sliding velocities, and what the rates of both bodies add to them. No allocation.
+   subroutine joint_slide(self, motion)
+      class(joint_set_t), intent(inout) :: self  !! the set; `friction` is set
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+   end subroutine joint_slide
+
+   !> Normal force of an item that rubs, from its multipliers.
+   pure subroutine joint_press(self, m, lambda, normal, slope)
+      class(joint_set_t), intent(in) :: self     !! the set
+      integer, intent(in) :: m                   !! place among the items that rub
+      real(wp), intent(in) :: lambda(:)          !! (rows of an item, or more) multipliers [N or N.m]
+      real(wp), intent(out) :: normal            !! normal force, not negative [N]
+      real(wp), intent(out) :: slope(:)          !! (size of lambda) its derivatives [1 or 1/m]
+
+      normal = self%friction%preload(m)
+      slope = 0.0_wp*lambda
+   end subroutine joint_press
 
    !> Axis along which body j slides in body i, of a kind that leaves a way: none, unless the kind says otherwise.
    pure function joint_way_of(self, k) result(axis)

@@ -5,6 +5,7 @@ module scene_checks
    use columns, only: cell_index, cell_text, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
+   use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
@@ -108,6 +109,7 @@ contains
          do i = 1, size(scene%joints(k)%items)
             call check_pair(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_start_length(scene%joints(k)%info, scene%joints(k)%items(i))
+            call check_friction(scene%joints(k)%info, scene%joints(k)%items(i))
          end do
       end do
       do k = 1, n_force_kinds
@@ -174,6 +176,26 @@ contains
          call diagnostics%add(item%values(tie%column(2))%location, "joint '"//item%name//"' has no length", &
                               "the two points coincide at the start", "give the column length, or move the bodies")
       end subroutine check_start_length
+
+      !> Friction in an ideal joint needs a law that gives a force at any motion, and a pin with a radius.
+      subroutine check_friction(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         integer :: law
+
+         law = cell_index(info, item, "friction")
+         if (law == 0) return
+         if (scene%frictions(law)%law%memory == memory_slip) then
+            call diagnostics%add(item%values(column_of(info, "friction"))%location, "friction law '"//item%word("friction")// &
+                                 "' sticks at events, which ideal joints do not have", "not for an ideal joint", &
+                                 "name a smooth law, or friction.dahl or friction.lugre, which hold by bristles")
+         end if
+         if (find_column(info, "radius") == 0) return
+         if (item%number("radius") > 0.0_wp) return
+         call diagnostics%add(item%values(column_of(info, "friction"))%location, "joint '"//item%name//"' rubs at no radius", &
+                              "needs the column radius", "give the radius of the pin")
+      end subroutine check_friction
 
    end subroutine check_meaning
 

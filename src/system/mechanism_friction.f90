@@ -71,10 +71,10 @@ contains
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
             associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
-               set%grip%tangent(k)%f_t = grips%force(c)
+               set%grip%tangent(k)%f_t = set%grip%tangent(k)%f_t + grips%force(c)
                set%grip%tangent(k)%is_driven = grips%is_fixed(c) &
                                                .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2
-               self%losses(loss_friction, set%first_contact + k) = -grips%force(c)*set%grip%tangent(k)%v
+               self%losses(loss_friction, set%first_contact + k) = -set%grip%tangent(k)%f_t*set%grip%tangent(k)%v
             end associate
          end do
       end associate
@@ -175,7 +175,7 @@ contains
       end associate
    end subroutine sliding_row
 
-   !> Deflections of bristles from a state into the contacts.
+   !> Deflections of bristles from a state into contacts and joints.
    module procedure mechanism_take_bristles
       integer :: k, place
 
@@ -184,6 +184,13 @@ contains
             if (set%grip%memory /= memory_bristle) cycle
             place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
             set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
+         end associate
+      end do
+      place = self%linkage%n_position + self%linkage%n_rate + self%rubbing%first_bristle
+      do k = 1, self%rubbing%n
+         if (self%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
+            friction%z(self%rubbing%place(k)) = y(place + self%rubbing%bristle(k))
          end associate
       end do
    end procedure mechanism_take_bristles
@@ -199,6 +206,13 @@ contains
             ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
          end associate
       end do
+      place = self%linkage%n_position + self%linkage%n_rate + self%rubbing%first_bristle
+      do k = 1, self%rubbing%n
+         if (self%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
+            ydot(place + self%rubbing%bristle(k)) = friction%z_rate(self%rubbing%place(k))
+         end associate
+      end do
    end procedure mechanism_bristle_rates
 
    !> Their scales: the greatest deflections that last.
@@ -210,6 +224,13 @@ contains
             if (set%grip%memory /= memory_bristle) cycle
             place = self%linkage%n_position + self%linkage%n_rate + set%grip%first_bristle
             scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
+         end associate
+      end do
+      place = self%linkage%n_position + self%linkage%n_rate + self%rubbing%first_bristle
+      do k = 1, self%rubbing%n
+         if (self%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
+            scale(place + self%rubbing%bristle(k)) = friction%law(self%rubbing%place(k))%law%bristle_scale()
          end associate
       end do
    end procedure mechanism_bristle_weights

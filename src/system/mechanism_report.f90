@@ -3,6 +3,8 @@ module mechanism_report
    use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
       room_joints
    use bodies, only: bodies_info
+   use joint_friction, only: friction_channels
+   use joint_set, only: joint_set_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
    use mechanism_energy, only: energy_of, energy_t
@@ -54,7 +56,7 @@ contains
       call catalogue%add_kind(room_bodies, bodies_info())
       do k = 1, size(system%linkage%joints)
          associate (set => system%linkage%joints(k)%set)
-            call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), set%info())
+            call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), joint_info(set, set%friction%n > 0))
          end associate
       end do
       call add_joint_items(system, .false., catalogue)
@@ -119,10 +121,25 @@ contains
       end do
       do k = 1, n
          associate (set => system%linkage%joints(slot(k))%set)
-            call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(k))%s, info=set%info())
+            call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(k))%s, &
+                                    info=joint_info(set, any(set%friction%item == item(k))))
          end associate
       end do
    end subroutine add_joint_items
+
+   !> What a set of joints announces, with the channels of friction or without.
+   function joint_info(set, rubs) result(info)
+      class(joint_set_t), intent(in) :: set   !! the set
+      logical, intent(in) :: rubs             !! with these
+      type(kind_info_t) :: info               !! what is reported
+
+      integer :: k
+
+      info = set%info()
+      if (rubs .or. .not. allocated(info%channels)) return
+      info%channels = pack(info%channels, [(index(friction_channels, " "//info%channels(k)%name//" ") == 0, &
+                                            k=1, size(info%channels))])
+   end function joint_info
 
    !> The channels of a joint with clearance that is taken as ideal.
    subroutine ideal_info(info)
@@ -208,13 +225,16 @@ contains
       type(catalogue_t), intent(inout) :: catalogue  !! values
       integer, intent(in) :: group                   !! number of the channel's group
 
+      logical :: has
       integer :: k
 
       associate (linkage => system%linkage, channel => catalogue%groups(group)%channel%name)
          do k = 1, size(linkage%joints)
             associate (set => linkage%joints(k)%set)
                if (set%is_driver .neqv. is_driver) cycle
-               if (.not. catalogue%item_has(group, set%column(1))) cycle
+               has = catalogue%item_has(group, set%column(1))
+               if (set%friction%n > 0) has = has .or. catalogue%item_has(group, set%column(set%friction%item(1)))
+               if (.not. has) cycle
                call set%report(channel, linkage%motion, linkage%coordinates, linkage%rows, linkage%solution%lambda, &
                                linkage%solution%phi_dot, catalogue%groups(group)%data)
             end associate
