@@ -48,6 +48,7 @@ contains
       real(wp) :: high, low
       type(text_t), allocatable :: words(:)
 
+      value%column = column%name
       value%given = .true.
       value%text = ""
       low = -1.0_wp

@@ -8,7 +8,6 @@
 !> the contacts' memory, so that they are as right as its; speeds and ways are those at the ends of steps.
 module guards
    use clearance_set, only: clearance_set_t
-   use columns, only: column_of
    use contact_pressure, only: force_at_pressure
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -82,12 +81,12 @@ contains
       integer :: g, k
 
       guards%is_set = .true.
-      associate (kind => scene%guards_kind, settings => scene%guards)
-         guards%penetration = number_of(kind, settings, "penetration")
-         guards%energy = number_of(kind, settings, "energy")
-         if (number_of(kind, settings, "speed") > 0.0_wp) guards%speed = number_of(kind, settings, "speed")
+      associate (settings => scene%guards)
+         guards%penetration = settings%number("penetration")
+         guards%energy = settings%number("energy")
+         if (settings%number("speed") > 0.0_wp) guards%speed = settings%number("speed")
          guards%size = extent_of_scene(scene)
-         travel = number_of(kind, settings, "travel")
+         travel = settings%number("travel")
          if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
          allocate (guards%limit(n_contact_guard, system%n_contact), source=huge(1.0_wp))
          do k = 1, size(system%clearances)
@@ -95,21 +94,12 @@ contains
          end do
          guards%stops(guard_penetration) = .true.
          do g = 2, n_contact_guard
-            word = settings%values(column_of(kind, trim(words_of(g))))%text
+            word = settings%word(trim(words_of(g)))
             guards%stops(g) = word == "stop"
             if (word == "off") guards%limit(g, :) = huge(1.0_wp)
          end do
       end associate
    end subroutine new_guards
-
-   !> A number of the section.
-   real(wp) function number_of(kind, settings, key)
-      type(kind_info_t), intent(in) :: kind    !! keys
-      type(item_t), intent(in) :: settings     !! what they are set to
-      character(*), intent(in) :: key          !! the key
-
-      number_of = settings%values(column_of(kind, key))%number
-   end function number_of
 
    !> Limits of the contacts of a set.
    subroutine set_limits(set, guards)

@@ -215,11 +215,19 @@ contains
       type(summary_t), intent(inout) :: summary         !! maxima are raised
 
       type(energy_t) :: energy
-      real(wp) :: unbalanced, y(size(state%q) + size(state%v))
+      integer, parameter :: most_turns = 100         ! of friction in joints and reactions, at most
+      real(wp), parameter :: same = 1.0e-12_wp       ! change of friction forces that ends them, of the greatest [1]
+      real(wp) :: change, unbalanced, y(size(state%q) + size(state%v))
+      integer :: turn
 
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
       call system%evaluate_loads(state%t)
       call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
+      do turn = 1, merge(most_turns, 0, system%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
+         call system%rub_by_multipliers(.true., turn > 1, change)
+         call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
+         if (change <= same) exit
+      end do
       y = [state%q, state%v]
       call fill_catalogue(system, state%t, y, 0.0_wp, catalogue)
       energy = energy_of(system, y)

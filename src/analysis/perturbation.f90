@@ -6,7 +6,6 @@
 !> free stays moved. The numbers follow from the seed and the number of the run alone: a run is the same whatever runs
 !> beside it and whatever parameters are swept.
 module perturbation
-   use columns, only: column_of
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use scene, only: scene_t
@@ -37,8 +36,8 @@ contains
 
       call random_seed(size=n)
       allocate (state(n))
-      associate (kind => scene%ensemble_kind, values => scene%ensemble%values)
-         state = [(ieor(nint(values(column_of(kind, "seed"))%number), 40503*k), k=1, n)]
+      associate (settings => scene%ensemble)
+         state = [(ieor(nint(settings%number("seed")), 40503*k), k=1, n)]
          state(1) = ieor(state(1), member)
          call random_seed(put=state)
          call random_number(unused)
@@ -51,8 +50,8 @@ contains
             where (spread(coordinates%is_turn, 2, 2)) x = x/arm
             first = coordinates%n_v*(k - 1) + 1
             last = coordinates%n_v*k
-            shift%q(first:last) = values(column_of(kind, "position"))%number*x(:, 1)
-            shift%v(first:last) = values(column_of(kind, "velocity"))%number*x(:, 2)
+            shift%q(first:last) = settings%number("position")*x(:, 1)
+            shift%v(first:last) = settings%number("velocity")*x(:, 2)
          end do
       end associate
    end function new_shift

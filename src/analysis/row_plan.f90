@@ -1,6 +1,6 @@
 !> Whether a motion is reported at the instants of its contacts, besides the output instants.
 module row_plan
-   use columns, only: column_of
+   use item, only: place_of
    use mechanism, only: mechanism_t
    use scene, only: analysis_dynamic, scene_t
    use section_info, only: most_row_contacts
@@ -18,7 +18,7 @@ contains
 
       has_rows = .false.
       if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
-      select case (scene%output%values(column_of(scene%output_kind, "contact_rows"))%text)
+      select case (scene%output%word("contact_rows"))
       case ("on")
          has_rows = .true.
       case ("auto")
@@ -34,7 +34,7 @@ contains
 
       words = ""
       if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
-      associate (word => scene%output%values(column_of(scene%output_kind, "contact_rows"))%text)
+      associate (word => scene%output%values(place_of(scene%output, "contact_rows"))%text)
          words = "rows at the onset, peak and end of every contact"
          if (.not. has_contact_rows(scene, system)) words = "no "//words
          words = words//" (contact_rows = "//word

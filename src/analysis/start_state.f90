@@ -1,11 +1,11 @@
 !> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
    use build_system, only: levels_ideal, new_system
-   use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
    use guided_motion, only: guided_coordinates
+   use item, only: place_of
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
    use perturbation, only: shift_t
@@ -52,7 +52,7 @@ contains
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
-      associate (start => scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text)
+      associate (start => scene%dynamic%values(place_of(scene%dynamic, "start"))%text)
          starts_ideal = start == "ideal"
          at_start = merge(levels_ideal, levels, starts_ideal)
          if (start == "static") call start_at_rest(scene, system, q, v, report, error)
@@ -86,7 +86,7 @@ contains
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
       call look_at_overlap(system, y, &
-                           scene%dynamic%values(column_of(scene%dynamic_kind, "overlap"))%text == "preload", error)
+                           scene%dynamic%word("overlap") == "preload", error)
    end subroutine find_start
 
    !> The static equilibrium at t = 0, its contacts begun.

@@ -10,7 +10,6 @@ module static
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use build_system, only: levels_ideal, new_system
    use catalogue, only: catalogue_t
-   use columns, only: column_of
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
@@ -70,8 +69,8 @@ contains
       logical :: is_exact, is_settled
 
       call cpu_time(cpu_0)
-      equilibrium%tolerance = scene%static%values(column_of(scene%static_kind, "tolerance"))%number
-      most = nint(scene%static%values(column_of(scene%static_kind, "maximum_iterations"))%number)
+      equilibrium%tolerance = scene%static%number("tolerance")
+      most = nint(scene%static%number("maximum_iterations"))
       call assemble_at_rest(scene, system, q, report, error)
       if (allocated(error)) return
       call look_at(system, q)
@@ -124,7 +123,7 @@ contains
       real(wp) :: v(size(q))
 
       v = 0.0_wp
-      if (scene%static%values(column_of(scene%static_kind, "start"))%text == "ideal") then
+      if (scene%static%word("start") == "ideal") then
          call new_system(scene, levels_ideal, twin)
          call assemble(twin%linkage, q, v, report, error)
       else

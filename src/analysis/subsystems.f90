@@ -2,10 +2,10 @@
 !> costs the others nothing.
 module subsystems
    use build_system, only: new_system
-   use columns, only: column_of
    use instants, only: instants_t, new_instants
    use integrator, only: integrator_t
    use integrator_registry, only: find_integrator
+   use item, only: place_of
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use name_table, only: name_table_t
@@ -24,6 +24,7 @@ module subsystems
       integer, allocatable :: body(:)                   !! (bodies) numbers in the whole
       integer, allocatable :: slot(:)                   !! (contacts) sets of the whole
       integer, allocatable :: contact(:)                !! (contacts) contacts of these sets
+      integer, allocatable :: rubbing(:)                !! (joints that rub) their numbers among those of the whole
    end type subsystem_t
 
 contains
@@ -39,7 +40,7 @@ contains
 
       type(groups_t) :: groups
       type(scene_t) :: one
-      type(name_table_t) :: table
+      type(name_table_t) :: rubbing, table
       integer, allocatable :: item(:), slot(:)
       integer :: g
 
@@ -50,6 +51,7 @@ contains
       end if
       allocate (subsystems(groups%n))
       call list_loose(system, table, slot, item)
+      call rubbing%list(rubbing_names(system))
       call begin_group_scene(scene, one)
       do g = 1, groups%n
          call set_group_scene(scene, groups, g, one)
@@ -58,7 +60,8 @@ contains
             call new_system(one, levels, subsystem%system)
             subsystem%system%linkage%solution%is_redundant = system%linkage%solution%is_redundant
             call find_contacts(system, table, slot, item, subsystem)
-            call find_integrator(word_of(scene, "method"), subsystem%method)
+            subsystem%rubbing = numbers_of(rubbing_names(subsystem%system), rubbing)
+            call find_integrator(scene%dynamic%word("method"), subsystem%method)
             subsystem%method%controls = method%controls
             call new_instants(one, end, subsystem%system%n_loose > 0, subsystem%instants)
          end associate
@@ -71,11 +74,11 @@ contains
       character(:), allocatable :: reason     !! in words
 
       reason = ""
-      if (word_of(scene, "groups") == "together") then
+      if (scene%dynamic%word("groups") == "together") then
          reason = "groups = together"
-      else if (size(scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions) > 0) then
+      else if (size(scene%guards%values(place_of(scene%guards, "stop"))%conditions) > 0) then
          reason = "a condition that ends the run looks at all of them"
-      else if (number_of(scene, "maximum_steps") > 0.0_wp .or. number_of(scene, "maximum_evaluations") > 0.0_wp) then
+      else if (scene%dynamic%number("maximum_steps") > 0.0_wp .or. scene%dynamic%number("maximum_evaluations") > 0.0_wp) then
          reason = "their steps or evaluations are counted together"
       end if
    end function reason_to_stay
@@ -95,23 +98,6 @@ contains
       words = to_text(groups%n)//" groups of bodies that nothing joins, integrated apart"
       if (reason /= "") words = to_text(groups%n)//" groups of bodies that nothing joins, integrated together ("//reason//")"
    end function grouping_words
-
-   !> A word of the settings of the analysis.
-   function word_of(scene, key) result(word)
-      type(scene_t), intent(in) :: scene     !! the scene
-      character(*), intent(in) :: key        !! its key
-      character(:), allocatable :: word      !! the word
-
-      word = scene%dynamic%values(column_of(scene%dynamic_kind, key))%text
-   end function word_of
-
-   !> A number of the settings of the analysis.
-   real(wp) function number_of(scene, key) result(number)
-      type(scene_t), intent(in) :: scene     !! the scene
-      character(*), intent(in) :: key        !! its key
-
-      number = scene%dynamic%values(column_of(scene%dynamic_kind, key))%number
-   end function number_of
 
    !> The loose joints of the whole, by name.
    subroutine list_loose(system, table, slot, item)
@@ -135,6 +121,35 @@ contains
       end do
       call table%list(names)
    end subroutine list_loose
+
+   !> The ideal joints that rub, by name.
+   function rubbing_names(system) result(names)
+      type(mechanism_t), intent(in) :: system    !! a system
+      type(text_t), allocatable :: names(:)      !! (joints that rub) in the order of its list
+
+      integer :: k
+
+      allocate (names(system%rubbing%n))
+      do k = 1, size(names)
+         associate (set => system%linkage%joints(system%rubbing%slot(k))%set)
+            names(k)%s = set%names(set%friction%item(system%rubbing%place(k)))%s
+         end associate
+      end do
+   end function rubbing_names
+
+   !> Numbers of names in a table.
+   pure function numbers_of(names, table) result(numbers)
+      type(text_t), intent(in) :: names(:)         !! (n) names, all in the table
+      type(name_table_t), intent(in) :: table      !! the table
+      integer, allocatable :: numbers(:)           !! (n) their numbers
+
+      integer :: k
+
+      allocate (numbers(size(names)))
+      do k = 1, size(names)
+         numbers(k) = table%find(names(k)%s)
+      end do
+   end function numbers_of
 
    !> Where the contacts of a subsystem are in the whole; what they remember is taken over.
    subroutine find_contacts(system, table, slot, item, subsystem)

@@ -1,9 +1,8 @@
 !> The times of a motion and of its output, from settings such as `end = 2 turns of motor`.
 module time_plan
-   use columns, only: column_of
    use diagnostics, only: diagnostics_t
    use instants, only: instants_t, new_instants
-   use item, only: value_t
+   use item, only: place_of, value_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use scene, only: analysis_kinematic, analysis_static, scene_t
@@ -45,12 +44,12 @@ contains
 
       allocate (plan%strobes(0))
       if (scene%analysis == analysis_static) return
-      end = scene%dynamic%values(column_of(scene%dynamic_kind, "end"))
-      if (scene%analysis == analysis_kinematic) end = scene%kinematic%values(column_of(scene%kinematic_kind, "end"))
-      associate (from => scene%output%values(column_of(scene%output_kind, "from")), &
-                 stretch => scene%output%values(column_of(scene%output_kind, "last")), &
-                 every => scene%output%values(column_of(scene%output_kind, "every")), &
-                 most => scene%output%values(column_of(scene%output_kind, "instants_limit")))
+      end = scene%dynamic%values(place_of(scene%dynamic, "end"))
+      if (scene%analysis == analysis_kinematic) end = scene%kinematic%values(place_of(scene%kinematic, "end"))
+      associate (from => scene%output%values(place_of(scene%output, "from")), &
+                 stretch => scene%output%values(place_of(scene%output, "last")), &
+                 every => scene%output%values(place_of(scene%output, "every")), &
+                 most => scene%output%values(place_of(scene%output, "instants_limit")))
          plan%end = seconds(end, "end", -1.0_wp, system, diagnostics)
          plan%first_output = seconds(from, "from", -1.0_wp, system, diagnostics)
          last = seconds(stretch, "last", plan%end, system, diagnostics)
@@ -101,9 +100,9 @@ contains
       integer :: item, k, most, n, slot
       real(wp) :: t
 
-      most = nint(scene%output%values(column_of(scene%output_kind, "instants_limit"))%number)
-      associate (after => scene%statistics%values(column_of(scene%statistics_kind, "after")), &
-                 period => scene%statistics%values(column_of(scene%statistics_kind, "period")))
+      most = nint(scene%output%number("instants_limit"))
+      associate (after => scene%statistics%values(place_of(scene%statistics, "after")), &
+                 period => scene%statistics%values(place_of(scene%statistics, "period")))
          plan%after = seconds(after, "after", -1.0_wp, system, diagnostics)
          slot = 0
          if (period%given) call find_driver(period, "period", system, slot, item, diagnostics)

@@ -272,7 +272,8 @@ contains
       if (shift > 0.0_wp .and. t >= part%method%t) y = y + shift*part%method%step%f1
    end subroutine part_state_at
 
-   !> Contacts of a part in the whole: what they remember, and their places in the state; works and losses of the ledger.
+   !> Contacts and joints that rub of a part in the whole: what they remember, and their places in the state; works and losses of
+   !> the ledger.
    subroutine add_contacts(whole, place, system, own, y)
       type(mechanism_t), intent(inout) :: whole        !! the whole
       type(subsystem_t), intent(in) :: place           !! the part
@@ -300,7 +301,12 @@ contains
             end do
          end associate
       end do
+      do k = 1, system%rubbing%n
+         if (system%rubbing%bristle(k) == 0) cycle
+         y(whole%rubbing_place(place%rubbing(k))) = own(system%rubbing_place(k))
+      end do
       if (.not. system%with_ledger) return
+      if (system%rubbing%n > 0) y(whole%n) = y(whole%n) + own(system%n)
       from = system%n - system%n_quadrature
       to = whole%n - whole%n_quadrature
       y(to + 1:to + n_ledger) = y(to + 1:to + n_ledger) + own(from + 1:from + n_ledger)

@@ -6,7 +6,6 @@ module build_clearances
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t, clearance_slot_t
    use columns, only: cell_index, cell_text, find_column
-   use find_known, only: kind_number
    use friction_law, only: friction_law_t
    use item, only: item_t
    use joint_registry, only: new_joint_set
@@ -15,6 +14,7 @@ module build_clearances
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use scene, only: scene_t
+   use ties, only: kind_number, tie_of, tie_set, tie_t
    implicit none (type, external)
    private
    public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_loose
@@ -124,14 +124,11 @@ contains
       integer, intent(inout) :: n_row            !! constraint rows so far
 
       class(clearance_set_t), allocatable :: geometry
-      integer :: i
 
       call new_clearance_set(kind, geometry)
       call new_joint_set(kind_number(scene, geometry%ideal_kind()), slot%set)
       associate (set => slot%set)
-         ! the first columns of a geometry are those of its ideal joint
-         call set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
-                      [(items(i)%values(2)%index, i=1, size(items))], scene%points)
+         call tie_set(scene, scene%clearances(kind)%info, items, set)
          call set%prepare(items, angle)
          set%first_row = n_row
          n_row = n_row + set%n*set%n_row_item
@@ -160,6 +157,7 @@ contains
       type(mechanism_t), intent(inout) :: system  !! joints and contacts are counted
 
       class(friction_law_t), allocatable :: friction
+      type(tie_t), allocatable :: ties(:)
       integer :: face_law, friction_law, i, normal_law
 
       call new_clearance_set(kind, slot%set)
@@ -167,8 +165,8 @@ contains
       friction_law = cell_index(scene%clearances(kind)%info, items(1), "friction")
       face_law = cell_index(scene%clearances(kind)%info, items(1), "face_law")
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
-      call slot%set%new(items, [(items(i)%values(1)%index, i=1, size(items))], &
-                        [(items(i)%values(2)%index, i=1, size(items))], scene%points, scene%laws(normal_law)%law, friction)
+      ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
+      call slot%set%new(items, ties%point(1), ties%point(2), scene%points, scene%laws(normal_law)%law, friction)
       if (face_law > 0) allocate (slot%set%face_law, source=scene%laws(face_law)%law)
       slot%set%first = system%n_loose
       slot%set%first_contact = system%n_contact

@@ -4,17 +4,18 @@
 !> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations.
 !> Planar: both are kernels of the plane.
 module build_known
-   use columns, only: column_of
-   use find_guided, only: find_guided_bodies, guide_t, kind_sliding
-   use find_known, only: find_known_bodies, joint_points, link_t
+   use find_guided, only: find_guided_bodies, guide_t
+   use find_known, only: find_known_bodies, link_t
+   use item, only: place_of
    use joint_registry, only: n_joint_kinds
    use joint_set, only: joint_set_t
-   use joint_translational, only: joint_translational_t
+   use kind_info, only: leaves_way
    use kinds, only: wp
    use linkage, only: linkage_t
    use rows, only: side_place
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
+   use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
    public :: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
@@ -63,7 +64,7 @@ contains
       if (scene%analysis /= analysis_dynamic) return
       call find_known_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
-      if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") reduction%links = reduction%links(:0)
+      if (scene%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
       ! without any unknown nothing would control the step, and the works would be as good as chance
       if (size(reduction%links) == scene%bodies%n) reduction%links = reduction%links(:0)
       associate (links => reduction%links)
@@ -72,8 +73,8 @@ contains
             if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
          end do
          if (with_start_rows) return
-         if (scene%dynamic%values(column_of(scene%dynamic_kind, "coordinates"))%text == "full") return
-         associate (method => scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text)
+         if (scene%dynamic%word("coordinates") == "full") return
+         associate (method => scene%dynamic%values(place_of(scene%dynamic, "method"))%text)
             if (method == "ida" .or. (method == "bdf" .and. is_large(scene))) return
          end associate
          is_known = .false.
@@ -95,6 +96,7 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! known bodies are set; joints are there
 
       real(wp) :: angle(0:scene%bodies%n)
+      type(tie_t) :: tie
       integer :: body(2), item, k, n, point(2), side, slot
 
       n = size(links)
@@ -103,8 +105,9 @@ contains
       allocate (linkage%reduced%known%item(n))
       do k = 1, n
          associate (link => links(k), known => linkage%reduced%known%item(k))
-            call joint_points(scene, link%kind, link%item, point(1), point(2))
-            body = scene%points%body(point)
+            tie = tie_of(scene, scene%joints(link%kind)%info, scene%joints(link%kind)%items(link%item))
+            point = tie%point
+            body = tie%body
             side = merge(1, 2, body(1) == link%body)
             known%body = body(side)
             known%base = body(3 - side)
@@ -137,18 +140,19 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! guided bodies are set; joints and known bodies are there
 
       real(wp) :: angle(0:scene%bodies%n)
-      integer :: body(2), item, k, n, point(2), slot
+      type(tie_t) :: tie
+      integer :: item, k, n, point(2), slot
 
       n = size(guides)
       angle = start_angles(scene)
       linkage%reduced%guided%n = n
-      linkage%reduced%guided%n_turning = count([(scene%joints(guides(k)%kind)%info%name /= kind_sliding, k=1, n)])
+      linkage%reduced%guided%n_turning = count([(scene%joints(guides(k)%kind)%info%leaves /= leaves_way, k=1, n)])
       allocate (linkage%reduced%guided%item(n))
       do k = 1, n
          associate (guide => guides(k), guided => linkage%reduced%guided%item(k))
-            call joint_points(scene, guide%kind, guide%item, point(1), point(2))
-            body = scene%points%body(point)
-            guided%side = merge(1, 2, body(1) == guide%body)
+            tie = tie_of(scene, scene%joints(guide%kind)%info, scene%joints(guide%kind)%items(guide%item))
+            point = tie%point
+            guided%side = merge(1, 2, tie%body(1) == guide%body)
             if (guided%side == 1) point = point([2, 1])
             guided%body = guide%body
             guided%base = scene%points%body(point(1))
@@ -157,18 +161,17 @@ contains
             call find_fixing(scene, choices, linkage, guide%kind, guide%item, slot, item)
             associate (set => linkage%joints(slot)%set, s_body => scene%points%s(1:2, point(2)))
                call take_rows(set, item, guided%row)
-               select type (set)
-               class is (joint_translational_t)
+               if (scene%joints(guide%kind)%info%leaves == leaves_way) then
                   guided%offset = angle(guided%body) - angle(guided%base)
                   guided%turned = [cos(guided%offset), sin(guided%offset)]
-                  guided%arm = set%axis(:, item)
+                  guided%arm = set%way_of(item)
                   if (guided%side == 1) guided%arm = turn(guided%turned, guided%arm)
                   guided%s_base = guided%s_base - turn(guided%turned, s_body)
                   guided%ease = 1.0_wp/guided%mass
-               class default
+               else
                   guided%arm = -s_body
                   guided%ease = 1.0_wp/(scene%bodies%inertia(guided%body) + guided%mass*dot_product(s_body, s_body))
-               end select
+               end if
             end associate
          end associate
       end do

@@ -5,8 +5,8 @@
 module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
-   use columns, only: column_of
-   use find_known, only: joint_bodies, joint_points, ties_bodies
+   use columns, only: find_column
+   use joint_friction, only: new_joint_friction
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use rows, only: list_sides, new_rows
@@ -16,6 +16,7 @@ module build_linkage
    use planar_coordinates, only: new_planar_coordinates
    use scene, only: scene_t
    use scene_size, only: size_of_bodies
+   use ties, only: tie_set
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
    private
@@ -39,7 +40,7 @@ contains
          call coordinates%find_masses(scene%bodies, linkage%mass)
       end associate
       linkage%scales%length = size_of_bodies(scene)
-      linkage%scales%tolerance = scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number
+      linkage%scales%tolerance = scene%dynamic%number("tolerance")
       call new_motion(n, linkage%motion)
       call linkage%deck_state(q, v)
       call linkage%place_bodies(q, 0.0_wp*v)
@@ -72,8 +73,8 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! joints are set
 
       class(joint_set_t), allocatable :: set
-      integer, allocatable :: chosen(:), i(:), j(:)
-      integer :: body(2), column(2), k, m, n
+      integer, allocatable :: chosen(:)
+      integer :: column(2), k, m, n
 
       n = 0
       if (.not. is_solved) n = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
@@ -82,23 +83,13 @@ contains
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
          call new_joint_set(k, set)
-         allocate (i(size(chosen)), j(size(chosen)))
-         if (ties_bodies(scene, k)) then
-            do m = 1, size(chosen)
-               body = joint_bodies(scene, k, chosen(m))
-               i(m) = body(1)
-               j(m) = body(2)
-            end do
-            call set%new_of_bodies(scene%joints(k)%items(chosen), i, j)
-         else
-            do m = 1, size(chosen)
-               call joint_points(scene, k, chosen(m), i(m), j(m))
-            end do
-            call set%new(scene%joints(k)%items(chosen), i, j, scene%points)
-         end if
+         call tie_set(scene, scene%joints(k)%info, scene%joints(k)%items(chosen), set)
          call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
          call set%set_start(linkage%motion)
-         deallocate (i, j)
+         if (is_solved .and. find_column(scene%joints(k)%info, "friction") > 0) then
+            call new_joint_friction(scene%joints(k)%items(chosen), scene%frictions, set%friction_length(), &
+                                    linkage%coordinates%n_v, set%friction)
+         end if
          m = merge(2, 1, set%is_driver)
          set%column = column(m) + chosen
          column(m) = column(m) + size(scene%joints(k)%items)
@@ -144,7 +135,7 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      word = scene%dynamic%values(column_of(scene%dynamic_kind, "solver"))%text
+      word = scene%dynamic%word("solver")
       if (word == "auto") then
          word = "sparse"
          if (schur_is_cheap(linkage%rows)) word = "schur"

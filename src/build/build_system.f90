@@ -5,18 +5,18 @@ module build_system
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use build_known, only: choose_bodies, reduction_t, set_guided, set_known, start_angles
    use build_linkage, only: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
-   use columns, only: column_of
    use find_known, only: has_smooth_cells
    use force_registry, only: n_force_kinds, new_force_set
    use friction_law, only: memory_bristle, memory_slip
    use grip_forces, only: new_grip_forces
    use hold, only: hold_t
    use hold_registry, only: n_hold_kinds, new_hold
-   use item, only: option_t
+   use item, only: option_t, place_of
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
    use loading, only: loading_t
    use motion, only: new_loads
+   use rubbing, only: new_rubbing
    use mechanism, only: n_ledger, mechanism_t
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
@@ -44,7 +44,7 @@ contains
       do k = 1, n_joint_kinds
          is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
-      system%with_ledger = scene%dynamic%values(column_of(scene%dynamic_kind, "ledger"))%flag &
+      system%with_ledger = scene%dynamic%flag("ledger") &
                            .and. scene%analysis == analysis_dynamic
       system%with_energies = system%with_ledger .or. scene%analysis /= analysis_dynamic
       call choose_bodies(scene, levels, with_start_rows, reduction)
@@ -60,6 +60,7 @@ contains
          call set_guided(scene, reduction%guides, choices, linkage)
          linkage%piece = piece_at_start(scene)
          call declare_rows(linkage)
+         call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%rubbing)
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
          call choose_hold(scene, system)
@@ -68,7 +69,7 @@ contains
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
       allocate (system%losses(2, system%n_contact), source=0.0_wp)
-      system%n_quadrature = merge(n_ledger + 2*system%n_contact, 0, system%with_ledger)
+      system%n_quadrature = merge(n_ledger + 2*system%n_contact + merge(1, 0, system%rubbing%n > 0), 0, system%with_ledger)
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       system%n_event = system%n_contact
       call count_grips(system)
@@ -76,9 +77,10 @@ contains
          system%first_turn = system%n_event
          system%n_event = system%n_event + system%n_contact
       end if
-      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0
+      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0 &
+                        .and. system%rubbing%n == 0
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%grips%n_slip > 0 .and. scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text == "ida") then
+      if (system%grips%n_slip > 0 .and. scene%dynamic%word("method") == "ida") then
          system%is_large = .false.
       end if
    end subroutine new_system
@@ -99,6 +101,8 @@ contains
             if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
          end associate
       end do
+      system%rubbing%first_bristle = n_bristle
+      n_bristle = n_bristle + system%rubbing%n_bristle
       system%n = system%n + n_bristle
       if (n_slip > 0) system%n_event = 2*system%n_contact
       call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%grips)
@@ -140,14 +144,14 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      associate (value => scene%dynamic%values(column_of(scene%dynamic_kind, "stabilise")), &
-                 tolerance => scene%dynamic%values(column_of(scene%dynamic_kind, "tolerance"))%number)
+      associate (value => scene%dynamic%values(place_of(scene%dynamic, "stabilise")), &
+                 tolerance => scene%dynamic%number("tolerance"))
          word = value%text
          if (word == "auto") then
             word = "projection"
             if (.not. all_smooth(scene)) word = "baumgarte"
             if (system%linkage%rows%n_solve == 0 .or. &
-                scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text == "ida") word = "none"
+                scene%dynamic%word("method") == "ida") word = "none"
          end if
          do k = 1, n_hold_kinds
             call new_hold(k, way)

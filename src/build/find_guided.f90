@@ -1,19 +1,18 @@
 !> Which bodies of a scene one joint leaves a single freedom against the ground or a body of known motion.
 !>
 !> A body is guided when one revolute or translational joint ties it to such a body, and no other row of a joint or driver
-!> holds it: then the coordinate of the joint describes it. Springs, loads and contacts may act on it.
+!> holds it, and it does not rub: then the coordinate of the joint describes it. Springs, loads and contacts may act on it.
 module find_guided
    use build_clearances, only: is_ideal
    use clearance_registry, only: n_clearance_kinds
-   use find_known, only: joint_bodies
+   use find_known, only: joint_bodies, rubs
    use joint_registry, only: n_joint_kinds
+   use kind_info, only: leaves_turn, leaves_way
    use scene, only: scene_t
+   use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
-   public :: find_guided_bodies, guide_t, kind_turning, kind_sliding
-
-   character(*), parameter :: kind_turning = "joint.revolute"       !! joint that leaves an angle
-   character(*), parameter :: kind_sliding = "joint.translational"  !! joint that leaves a way
+   public :: find_guided_bodies, guide_t
 
    !> How a guided body is held.
    type :: guide_t
@@ -31,6 +30,7 @@ contains
       integer, intent(in) :: levels                         !! how joints with clearance are taken
       type(guide_t), allocatable, intent(out) :: guides(:)  !! (guided bodies) how they are held
 
+      integer, parameter :: leaves(2) = [leaves_turn, leaves_way]
       integer :: body(2), i, k, n, n_joint(0:scene%bodies%n), pass
 
       call count_joints(scene, levels, n_joint)
@@ -38,12 +38,12 @@ contains
       n = 0
       do pass = 1, 2
          do k = 1, n_joint_kinds
-            if (scene%joints(k)%info%name /= merge(kind_turning//"     ", kind_sliding, pass == 1)) cycle
+            if (scene%joints(k)%info%leaves /= leaves(pass)) cycle
             do i = 1, size(scene%joints(k)%items)
                body = joint_bodies(scene, k, i)
                if (is_known(body(1)) .eqv. is_known(body(2))) cycle
                if (is_known(body(1))) body(1) = body(2)
-               if (n_joint(body(1)) /= 1) cycle
+               if (n_joint(body(1)) /= 1 .or. rubs(scene, scene%joints(k)%items(i))) cycle
                n = n + 1
                guides(n) = guide_t(body(1), k, i)
             end do
@@ -58,6 +58,7 @@ contains
       integer, intent(in) :: levels                          !! how joints with clearance are taken
       integer, intent(out) :: n_joint(0:scene%bodies%n)      !! (0:bodies) their number
 
+      type(tie_t) :: tie
       integer :: i, k
 
       n_joint = 0
@@ -71,7 +72,8 @@ contains
          associate (items => scene%clearances(k)%items)
             do i = 1, size(items)
                if (.not. is_ideal(scene, k, items(i), levels)) cycle
-               call count_pair(scene%points%body(items(i)%values(1:2)%index))
+               tie = tie_of(scene, scene%clearances(k)%info, items(i))
+               call count_pair(tie%body)
             end do
          end associate
       end do

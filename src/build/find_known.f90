@@ -5,12 +5,14 @@
 !> the solvers tell which, and share the reactions.
 module find_known
    use clearance_registry, only: n_clearance_kinds
-   use item, only: item_t
+   use item, only: find_place, item_t
    use joint_registry, only: n_joint_kinds
+   use kind_info, only: leaves_nothing, leaves_turn
    use scene, only: scene_t
+   use ties, only: find_joint, tie_of, tie_t
    implicit none (type, external)
    private
-   public :: find_known_bodies, has_smooth_cells, joint_bodies, joint_points, kind_number, link_t, ties_bodies
+   public :: find_known_bodies, has_smooth_cells, joint_bodies, link_t, rubs
 
    !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
    type :: link_t
@@ -49,6 +51,7 @@ contains
       logical, intent(in) :: is_known(0:)     !! (0:bodies) which bodies are known
       type(link_t), intent(in) :: links(:)    !! (known bodies) how they are fixed
 
+      type(tie_t) :: tie
       integer :: i, k, n
 
       n = 0
@@ -60,29 +63,30 @@ contains
       end do
       do k = 1, n_clearance_kinds
          do i = 1, size(scene%clearances(k)%items)
-            associate (cells => scene%clearances(k)%items(i)%values)
-               if (all(is_known(scene%points%body([cells(1)%index, cells(2)%index])))) n = n + 1
-            end associate
+            tie = tie_of(scene, scene%clearances(k)%info, scene%clearances(k)%items(i))
+            if (all(is_known(tie%body))) n = n + 1
          end do
       end do
       are_tied = n > size(links) + count(links%driver > 0)
    end function are_tied_twice
 
-   !> Driven revolute joints between a known and an unknown body.
+   !> Joints that leave a turn, which is driven, between a known and an unknown body.
    subroutine look_at_drivers(scene, is_known, links)
       type(scene_t), intent(in) :: scene                       !! the scene
       logical, intent(inout) :: is_known(0:)                   !! (0:bodies) which bodies are known
       type(link_t), allocatable, intent(inout) :: links(:)     !! links, grown
 
-      integer :: i, k, revolute
+      type(tie_t) :: tie
+      integer :: i, k, kind, row
 
-      revolute = kind_number(scene, "joint.revolute")
       do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%columns(1)%refers_to /= "joint.revolute" .or. scene%joints(k)%info%is_start_only) cycle
+         if (.not. scene%joints(k)%info%drives_turn) cycle
          do i = 1, size(scene%joints(k)%items)
             if (.not. has_smooth_cells(scene%joints(k)%items(i))) cycle
-            call add_if_new(scene, link_t(kind=revolute, item=scene%joints(k)%items(i)%values(1)%index, driver=k, driving=i), &
-                            is_known, links)
+            tie = tie_of(scene, scene%joints(k)%info, scene%joints(k)%items(i))
+            call find_joint(scene, tie%joint(1), kind, row)
+            if (scene%joints(kind)%info%leaves /= leaves_turn .or. rubs(scene, scene%joints(kind)%items(row))) cycle
+            call add_if_new(scene, link_t(kind=kind, item=row, driver=k, driving=i), is_known, links)
          end do
       end do
    end subroutine look_at_drivers
@@ -100,17 +104,19 @@ contains
       end do
    end function has_smooth_cells
 
-   !> Rigid joints between a known and an unknown body.
+   !> Joints that leave nothing, between a known and an unknown body.
    subroutine look_at_rigid_joints(scene, is_known, links)
       type(scene_t), intent(in) :: scene                       !! the scene
       logical, intent(inout) :: is_known(0:)                   !! (0:bodies) which bodies are known
       type(link_t), allocatable, intent(inout) :: links(:)     !! links, grown
 
-      integer :: i, rigid
+      integer :: i, k
 
-      rigid = kind_number(scene, "joint.rigid")
-      do i = 1, size(scene%joints(rigid)%items)
-         call add_if_new(scene, link_t(kind=rigid, item=i), is_known, links)
+      do k = 1, n_joint_kinds
+         if (scene%joints(k)%info%leaves /= leaves_nothing) cycle
+         do i = 1, size(scene%joints(k)%items)
+            call add_if_new(scene, link_t(kind=k, item=i), is_known, links)
+         end do
       end do
    end subroutine look_at_rigid_joints
 
@@ -130,63 +136,30 @@ contains
       is_known(body) = .true.
    end subroutine add_if_new
 
-   !> Whether the rows of a kind tie bodies and not points of them.
-   pure logical function ties_bodies(scene, kind)
-      type(scene_t), intent(in) :: scene   !! the scene, whose tables know their kinds
-      integer, intent(in) :: kind          !! number of the kind
+   !> Whether an ideal joint rubs: then its reactions are part of the equations of motion.
+   pure logical function rubs(scene, item)
+      type(scene_t), intent(in) :: scene   !! the scene
+      type(item_t), intent(in) :: item     !! row of the joint
 
-      ties_bodies = scene%joints(kind)%info%columns(1)%refers_to == "bodies"
-   end function ties_bodies
+      integer :: law
 
-   !> Bodies i and j of a row of a joint table, 0: ground; a driver's are those of its joint.
-   pure recursive function joint_bodies(scene, kind, row) result(body)
+      rubs = .false.
+      if (find_place(item, "friction") == 0) return
+      law = item%reference("friction")
+      if (law > 0) rubs = scene%frictions(law)%law%is_active()
+   end function rubs
+
+   !> Bodies i and j of a row of a joint table, 0: ground.
+   pure function joint_bodies(scene, kind, row) result(body)
       type(scene_t), intent(in) :: scene   !! the scene
       integer, intent(in) :: kind          !! number of the kind
       integer, intent(in) :: row           !! row of its table
       integer :: body(2)                   !! (2) their numbers
 
-      associate (table => scene%joints(kind))
-         if (table%info%columns(1)%name == "joint") then
-            body = joint_bodies(scene, kind_number(scene, table%info%columns(1)%refers_to), table%items(row)%values(1)%index)
-         else
-            body = table%items(row)%values(1:2)%index
-            if (.not. ties_bodies(scene, kind)) body = scene%points%body(body)
-         end if
-      end associate
+      type(tie_t) :: tie
+
+      tie = tie_of(scene, scene%joints(kind)%info, scene%joints(kind)%items(row))
+      body = tie%body
    end function joint_bodies
-
-   !> Points i and j of a row of a joint table whose rows tie points; a driver's are those of its joint.
-   pure subroutine joint_points(scene, kind, row, i, j)
-      type(scene_t), intent(in) :: scene   !! the scene
-      integer, intent(in) :: kind          !! number of the kind
-      integer, intent(in) :: row           !! row of its table
-      integer, intent(out) :: i            !! point of body i
-      integer, intent(out) :: j            !! point of body j
-
-      integer :: driven_kind
-
-      associate (table => scene%joints(kind))
-         if (table%info%columns(1)%name == "joint") then
-            driven_kind = kind_number(scene, table%info%columns(1)%refers_to)
-            associate (driven => scene%joints(driven_kind)%items(table%items(row)%values(1)%index))
-               i = driven%values(1)%index
-               j = driven%values(2)%index
-            end associate
-         else
-            i = table%items(row)%values(1)%index
-            j = table%items(row)%values(2)%index
-         end if
-      end associate
-   end subroutine joint_points
-
-   !> Number of a kind of joint in the registry, by its name.
-   pure integer function kind_number(scene, name) result(k)
-      type(scene_t), intent(in) :: scene   !! the scene, whose tables know their kinds
-      character(*), intent(in) :: name     !! as in a deck
-
-      do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%name == name) return
-      end do
-   end function kind_number
 
 end module find_known

@@ -1,7 +1,6 @@
 !> `gudgeon explain`: the guards of a run, with the limits that they come to in this scene.
 module explain_guards
    use catalogue, only: catalogue_t
-   use columns, only: column_of
    use console, only: say
    use guards, only: guard_clearance, guard_penetration, guard_strength, guards_t
    use kinds, only: wp
@@ -91,7 +90,7 @@ contains
       character(*), intent(in) :: key       !! key of [guards]
       character(:), allocatable :: verb     !! warns, ends, or says nothing
 
-      select case (scene%guards%values(column_of(scene%guards_kind, key))%text)
+      select case (scene%guards%word(key))
       case ("stop"); verb = "ends"
       case ("warn"); verb = "warns"
       case default; verb = "says nothing"

@@ -7,7 +7,6 @@ module explain_instants
    use load, only: loaded_t
    use root_scan, only: place_t
    use scene, only: analysis_dynamic
-   use columns, only: column_of
    use text, only: real_text, to_text
    implicit none (type, external)
    private
@@ -28,9 +27,9 @@ contains
       integer :: k
 
       if (loaded%scene%analysis /= analysis_dynamic) return
-      associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
-         fixed = values(column_of(kind, "step"))%number
-         greatest = values(column_of(kind, "maximum_step"))%number
+      associate (settings => loaded%scene%dynamic)
+         fixed = settings%number("step")
+         greatest = settings%number("maximum_step")
       end associate
       call say("")
       call say("instants and the greatest step")

@@ -1,7 +1,6 @@
 !> Loose joints, for `gudgeon explain`: their laws, and how long a contact lasts beside the steps and the output.
 module explain_loose
    use clearance_set, only: clearance_set_t
-   use columns, only: column_of
    use console, only: say
    use kinds, only: wp
    use load, only: loaded_t
@@ -26,7 +25,7 @@ contains
       integer :: c, i, k, last, v
 
       if (loaded%system%n_loose == 0) return
-      step = loaded%scene%dynamic%values(column_of(loaded%scene%dynamic_kind, "step"))%number
+      step = loaded%scene%dynamic%number("step")
       call say("")
       call say("loose joints")
       allocate (delta(loaded%system%n_contact), rate(loaded%system%n_contact), source=0.0_wp)

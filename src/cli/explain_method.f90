@@ -1,6 +1,5 @@
 !> Method, solver, stabilisation and times, with the reasons of what `auto` has chosen, for `gudgeon explain`.
 module explain_method
-   use columns, only: column_of
    use console, only: say
    use kinds, only: wp
    use load, only: loaded_t
@@ -30,26 +29,25 @@ contains
          call explain_times(loaded)
          return
       case (analysis_static)
-         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%values( &
-                                                       column_of(loaded%scene%static_kind, "tolerance"))%number)// &
+         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%number("tolerance"))// &
                   " of the largest load", 2)
          return
       end select
-      associate (values => loaded%scene%dynamic%values, kind => loaded%scene%dynamic_kind)
-         solver = values(column_of(kind, "solver"))%text
+      associate (settings => loaded%scene%dynamic)
+         solver = settings%word("solver")
          if (solver == "auto") then
             solver = loaded%system%linkage%solution%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"
          end if
          fixed = "variable steps"
-         if (values(column_of(kind, "step"))%number > 0.0_wp) then
-            fixed = "fixed steps of "//to_text(values(column_of(kind, "step"))%number)//" s: the tolerance is not used"
+         if (settings%number("step") > 0.0_wp) then
+            fixed = "fixed steps of "//to_text(settings%number("step"))//" s: the tolerance is not used"
          end if
-         call say("integrator "//values(column_of(kind, "method"))%text//", tolerance "// &
-                  to_text(values(column_of(kind, "tolerance"))%number), 2)
+         call say("integrator "//settings%word("method")//", tolerance "// &
+                  to_text(settings%number("tolerance")), 2)
          call say(fixed, 2)
          call say("solver "//solver, 2)
          hold = loaded%system%way%words()
-         if (values(column_of(kind, "stabilise"))%text == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
+         if (settings%word("stabilise") == "auto") hold = hold//" (auto: "//reason_of_hold(loaded%system)//")"
          call say("stabilisation "//hold, 2)
       end associate
       call explain_times(loaded)

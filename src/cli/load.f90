@@ -12,7 +12,7 @@ module load
    use figure_words, only: check_figures, figure_bifurcation, figure_portrait, figure_section, figure_statistics, figure_t, &
       new_figure
    use function_range, only: check_function_ranges
-   use item, only: item_t, location_t, value_t
+   use item, only: item_t, location_t, place_of, value_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -205,7 +205,7 @@ contains
          type(kind_info_t), intent(in) :: kind      !! keys
          type(item_t), intent(inout) :: settings    !! settings
 
-         associate (value => settings%values(column_of(kind, "tolerance")))
+         associate (value => settings%values(place_of(settings, "tolerance")))
             value%number = options%tolerance
             value%given = .true.
          end associate
@@ -228,21 +228,21 @@ contains
       character(:), allocatable :: hint, message
       integer :: bad, k
 
-      associate (value => scene%output%values(column_of(scene%output_kind, "channels")))
+      associate (value => scene%output%values(place_of(scene%output, "channels")))
          call select_channels(value%words, catalogue, selection, bad, message, hint)
-         if (bad > 0) call mistakes%add(place_of(value, bad), message, "no channel of this deck", hint)
+         if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
       end associate
-      associate (value => scene%output%values(column_of(scene%output_kind, "figures")))
+      associate (value => scene%output%values(place_of(scene%output, "figures")))
          call check_figures(value%words, catalogue, bad, message, hint)
          if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
-         if (bad > 0) call mistakes%add(place_of(value, bad), message, "no figure of this deck", hint)
+         if (bad > 0) call mistakes%add(location_of(value, bad), message, "no figure of this deck", hint)
       end associate
       if (.not. scene%has_statistics) return
       do k = 1, size(scene%statistics%values)
          associate (value => scene%statistics%values(k))
             if (size(value%words) == 0) cycle
             call select_channels(value%words, catalogue, selection, bad, message, hint)
-            if (bad > 0) call mistakes%add(place_of(value, bad), message, "no channel of this deck", hint)
+            if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
          end associate
       end do
    end subroutine check_words
@@ -261,7 +261,7 @@ contains
 
       message = ""
       hint = ""
-      associate (words => scene%output%values(column_of(scene%output_kind, "figures"))%words)
+      associate (words => scene%output%values(place_of(scene%output, "figures"))%words)
          do bad = 1, size(words)
             call new_figure(words(bad)%s, catalogue, figure, message, hint)
             if (figure%kind <= figure_portrait) cycle
@@ -270,7 +270,7 @@ contains
                hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
                return
             end if
-            if (.not. scene%statistics%values(column_of(scene%statistics_kind, "period"))%given .and. &
+            if (.not. scene%statistics%is_given("period") .and. &
                 (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
                message = "'"//words(bad)%s//"' needs the period of the drive"
                hint = "in section [statistics]: period = 1 turns of motor, or a time"
@@ -302,7 +302,7 @@ contains
       character(:), allocatable :: hint, message
       integer :: bad, k
 
-      associate (words => scene%statistics%values(column_of(scene%statistics_kind, "channels"))%words)
+      associate (words => scene%statistics%values(place_of(scene%statistics, "channels"))%words)
          call selection%clear(catalogue)
          if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
          call names_of_numbers(list_scalars(selection), catalogue, list)
@@ -314,12 +314,12 @@ contains
    end function known_numbers
 
    !> Where a word of a list stands.
-   pure type(location_t) function place_of(value, word)
+   pure type(location_t) function location_of(value, word)
       type(value_t), intent(in) :: value  !! the list
       integer, intent(in) :: word         !! number of the word
 
-      place_of = value%location
-      if (word <= size(value%places)) place_of = value%places(word)
-   end function place_of
+      location_of = value%location
+      if (word <= size(value%places)) location_of = value%places(word)
+   end function location_of
 
 end module load

@@ -3,11 +3,10 @@ module run_limits
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
    use channels, only: list_scalars, match_word, selection_t
-   use columns, only: column_of
    use dimension_text, only: dimension_name
    use diagnostics, only: diagnostics_t
    use guards, only: new_guards
-   use item, only: condition_t
+   use item, only: condition_t, place_of
    use kind_info, only: dim_none, dim_t, same_dimension
    use mechanism, only: mechanism_t
    use run_audit, only: limits_t
@@ -33,11 +32,11 @@ contains
       character(:), allocatable :: hint, message
       integer :: k
 
-      limits%energy = scene%dynamic%values(column_of(scene%dynamic_kind, "energy_limit"))%number
-      limits%violation = scene%dynamic%values(column_of(scene%dynamic_kind, "violation_limit"))%number
-      limits%cpu = scene%dynamic%values(column_of(scene%dynamic_kind, "limit_cpu"))%number
+      limits%energy = scene%dynamic%number("energy_limit")
+      limits%violation = scene%dynamic%number("violation_limit")
+      limits%cpu = scene%dynamic%number("limit_cpu")
       call new_guards(scene, system, limits%guards)
-      associate (conditions => scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions)
+      associate (conditions => scene%guards%values(place_of(scene%guards, "stop"))%conditions)
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then
@@ -58,7 +57,7 @@ contains
       type(mechanism_t), intent(in) :: system     !! the twin's system
       type(limits_t) :: limits                        !! limits
 
-      limits%cpu = scene%dynamic%values(column_of(scene%dynamic_kind, "limit_cpu"))%number
+      limits%cpu = scene%dynamic%number("limit_cpu")
       call new_guards(scene, system, limits%guards)
    end function twin_limits
 
@@ -73,7 +72,7 @@ contains
       character(:), allocatable :: hint, message
       integer :: k
 
-      associate (conditions => scene%guards%values(column_of(scene%guards_kind, "stop"))%conditions)
+      associate (conditions => scene%guards%values(place_of(scene%guards, "stop"))%conditions)
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then

@@ -1,11 +1,11 @@
 !> The figures of a sweep, and its summaries for people and for scripts.
 module sweep_report
    use catalogue, only: catalogue_t
-   use columns, only: column_of
    use console, only: say
    use errors, only: error_t, exit_sweep, set_error
    use figure_words, only: figure_t, is_of_run, new_figure
    use figures, only: draw_figures
+   use item, only: place_of
    use json_text, only: json_object_t
    use kinds, only: i8
    use load, only: loaded_t
@@ -47,7 +47,7 @@ contains
       call build_catalogue(loaded%system, catalogue)
       folder = work%plan%directory//"/figures"
       allocate (names(0))
-      associate (words => loaded%scene%output%values(column_of(loaded%scene%output_kind, "figures"))%words)
+      associate (words => loaded%scene%output%values(place_of(loaded%scene%output, "figures"))%words)
          do k = 1, size(words)
             call new_figure(words(k)%s, catalogue, figure, message, hint)
             if (len(message) > 0) cycle

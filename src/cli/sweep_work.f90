@@ -1,7 +1,6 @@
 !> A sweep that is under way: its runs, where they are, what came of them, and the files that say so.
 module sweep_work
    use build_info, only: compiler, git_sha1
-   use columns, only: column_of
    use deck_texts, only: deck_text, get_includes
    use errors, only: error_t
    use libraries, only: library_versions
@@ -59,7 +58,7 @@ contains
       work%results%sweep = loaded%sweep
       work%results%is_ensemble = loaded%scene%has_ensemble
       if (loaded%scene%has_ensemble) then
-         work%results%n_member = nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number)
+         work%results%n_member = nint(loaded%scene%ensemble%number("runs"))
       end if
       call work%results%start()
       work%program = own_path()

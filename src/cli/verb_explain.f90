@@ -1,7 +1,6 @@
 !> `gudgeon explain DECK` and `gudgeon check DECK`: what would run, without running it.
 module verb_explain
    use build_system, only: levels_as_written, levels_ideal, new_system
-   use columns, only: column_of
    use consistent_start, only: assembly_t
    use console, only: say
    use echo, only: all_defaults
@@ -58,7 +57,7 @@ contains
       if (loaded%sweep%is_present) words = "; a sweep of "//counted(loaded%sweep%n_cases(), "case", "cases")
       if (.not. loaded%scene%has_ensemble) return
       if (words == "") words = "; an ensemble"
-      associate (n => nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number))
+      associate (n => nint(loaded%scene%ensemble%number("runs")))
          words = words//", "//counted(n, "run", "runs")//" each"
       end associate
    end function sweep_text
@@ -135,7 +134,7 @@ contains
       do k = 1, n_analysis
          if (index(line, "analysis."//trim(analysis_names(k))//" ") == 0) cycle
          is_worth = k == scene%analysis .or. (k == analysis_static .and. scene%analysis == analysis_dynamic .and. &
-                                              scene%dynamic%values(column_of(scene%dynamic_kind, "start"))%text == "static")
+                                              scene%dynamic%word("start") == "static")
       end do
       if (.not. is_worth) return
       do k = 1, size(scene%dynamic_kind%columns)

@@ -1,11 +1,11 @@
 !> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
 module verb_run
+   use item, only: place_of
    use build_info, only: compiler, git_sha1
    use build_system, only: levels_as_written, levels_ideal, new_system
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
-   use columns, only: column_of
    use consistent_start, only: assembly_t
    use deck_texts, only: deck_text, get_includes
    use dynamic, only: run_dynamic
@@ -127,7 +127,7 @@ contains
          call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
          return
       end if
-      n = nint(loaded%scene%ensemble%values(column_of(loaded%scene%ensemble_kind, "runs"))%number)
+      n = nint(loaded%scene%ensemble%number("runs"))
       if (options%member > n) then
          call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%member))
       end if
@@ -148,16 +148,16 @@ contains
       real(wp), allocatable :: q(:)
       real(wp) :: limit_cpu
 
-      associate (kind => loaded%scene%kinematic_kind, values => loaded%scene%kinematic%values)
-         newton%tolerance = values(column_of(kind, "tolerance"))%number
-         newton%most = nint(values(column_of(kind, "maximum_iterations"))%number)
+      associate (settings => loaded%scene%kinematic)
+         newton%tolerance = settings%number("tolerance")
+         newton%most = nint(settings%number("maximum_iterations"))
       end associate
       call find_kinematic_start(loaded%scene, loaded%system, q, assembly, mobility, error)
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, keeper%plan)
-      limit_cpu = loaded%scene%kinematic%values(column_of(loaded%scene%kinematic_kind, "limit_cpu"))%number
+      limit_cpu = loaded%scene%kinematic%number("limit_cpu")
       call run_kinematic(loaded%system, q, loaded%plan, newton, limit_cpu, keeper, summary, error)
       call directory%close()
    end subroutine run_prescribed
@@ -196,8 +196,8 @@ contains
       type(scene_t), intent(in) :: scene                                !! the scene
       class(integrator_t), allocatable, intent(out) :: method           !! the integrator, not started
 
-      call find_integrator(scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text, method)
-      call read_controls(scene%dynamic_kind, scene%dynamic, method%controls)
+      call find_integrator(scene%dynamic%word("method"), method)
+      call read_controls(scene%dynamic, method%controls)
    end subroutine new_method
 
    !> The mechanism with ideal joints, text files only, for the figures.
@@ -287,10 +287,10 @@ contains
       plan%after = loaded%plan%after
       plan%end = loaded%plan%end
       plan%period = loaded%plan%period
-      associate (kind => loaded%scene%statistics_kind, values => loaded%scene%statistics%values)
-         plan%channels = values(column_of(kind, "channels"))%words
-         plan%spectra = values(column_of(kind, "spectra"))%words
-         plan%bins = nint(values(column_of(kind, "bins"))%number)
+      associate (settings => loaded%scene%statistics)
+         plan%channels = settings%values(place_of(settings, "channels"))%words
+         plan%spectra = settings%values(place_of(settings, "spectra"))%words
+         plan%bins = nint(settings%number("bins"))
       end associate
    end subroutine plan_statistics
 
@@ -325,7 +325,7 @@ contains
          type(text_list_t) :: list
          integer :: bad, k
 
-         associate (words => loaded%scene%output%values(column_of(loaded%scene%output_kind, key))%words)
+         associate (words => loaded%scene%output%values(place_of(loaded%scene%output, key))%words)
             do k = 1, size(words)
                if (one == "figure") then
                   call check_figures(words(k:k), catalogue, bad, message, hint)

@@ -79,8 +79,8 @@ contains
       type(item_t), intent(in) :: item                 !! the row
 
       self%name = item%name
-      self%length = item%values(1)%number
-      self%hysteresis = exact_hysteresis(item%values(2)%number)
+      self%length = item%number("length")
+      self%hysteresis = exact_hysteresis(item%number("restitution"))
       self%divisor = pi
    end subroutine prepare_line
 
@@ -90,7 +90,7 @@ contains
       type(item_t), intent(in) :: item                 !! the row
 
       call prepare_line(self, item)
-      self%divisor = merge(pi, 1.0_wp, item%values(3)%flag)
+      self%divisor = merge(pi, 1.0_wp, item%flag("sigma_pi"))
    end subroutine prepare_cylinder
 
    !> a, a B and the range, from the surfaces.

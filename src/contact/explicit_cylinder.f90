@@ -75,8 +75,8 @@ contains
       type(item_t), intent(in) :: item                   !! the row
 
       self%name = item%name
-      self%length = item%values(1)%number
-      self%hysteresis = exact_hysteresis(item%values(2)%number)
+      self%length = item%number("length")
+      self%hysteresis = exact_hysteresis(item%number("restitution"))
    end subroutine explicit_prepare
 
    !> The constants, from the surfaces.

@@ -47,9 +47,9 @@ contains
       type(item_t), intent(in) :: item                   !! the row
 
       self%name = item%name
-      self%coefficient = item%values(1)%number
-      self%v0 = item%values(2)%number
-      self%v1 = item%values(3)%number
+      self%coefficient = item%number("coefficient")
+      self%v0 = item%number("v0")
+      self%v1 = item%number("v1")
    end subroutine ambrosio_prepare
 
    !> Without a coefficient there is no friction.

@@ -54,10 +54,10 @@ contains
       type(item_t), intent(in) :: item              !! the row
 
       self%name = item%name
-      self%coefficient = item%values(1)%number
-      self%static = item%values(2)%number
-      self%v_t = item%values(3)%number
-      self%viscous = item%values(4)%number
+      self%coefficient = item%number("coefficient")
+      self%static = item%number("static_coefficient")
+      self%v_t = item%number("v_t")
+      self%viscous = item%number("viscosity")
    end subroutine brown_mcphee_prepare
 
    !> Without a coefficient there is no friction.

@@ -51,8 +51,8 @@ contains
 
       self%name = item%name
       self%memory = memory_slip
-      self%coefficient = item%values(1)%number
-      self%static_coefficient = item%values(2)%number
+      self%coefficient = item%number("coefficient")
+      self%static_coefficient = item%number("static_coefficient")
       if (self%static_coefficient <= 0.0_wp) self%static_coefficient = self%coefficient
    end subroutine coulomb_prepare
 

@@ -54,9 +54,9 @@ contains
 
       self%name = item%name
       self%memory = memory_bristle
-      self%coefficient = item%values(1)%number
-      self%stiffness = item%values(2)%number
-      self%exponent = item%values(3)%number
+      self%coefficient = item%number("coefficient")
+      self%stiffness = item%number("stiffness")
+      self%exponent = item%number("exponent")
    end subroutine dahl_prepare
 
    !> Without a coefficient there is no friction.

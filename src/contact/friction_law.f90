@@ -11,7 +11,7 @@ module friction_law
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: friction_law_t
+   public :: friction_law_t, friction_slot_t
    public :: memory_bristle, memory_none, memory_slip
 
    integer, parameter :: memory_none = 0     !! the force is a function of the present motion
@@ -32,6 +32,11 @@ module friction_law
       procedure :: bristle_scale => friction_bristle_scale
       procedure :: mistake => friction_mistake
    end type friction_law_t
+
+   !> A place for a friction law of any kind.
+   type :: friction_slot_t
+      class(friction_law_t), allocatable :: law  !! the law
+   end type friction_slot_t
 
    abstract interface
       !> What the kind says of itself.

@@ -66,13 +66,13 @@ contains
 
       self%name = item%name
       self%memory = memory_bristle
-      self%coefficient = item%values(1)%number
-      self%static_coefficient = item%values(2)%number
+      self%coefficient = item%number("coefficient")
+      self%static_coefficient = item%number("static_coefficient")
       if (self%static_coefficient <= 0.0_wp) self%static_coefficient = self%coefficient
-      self%stribeck = item%values(3)%number
-      self%stiffness = item%values(4)%number
-      self%damping = item%values(5)%number
-      self%viscosity = item%values(6)%number
+      self%stribeck = item%number("stribeck_speed")
+      self%stiffness = item%number("bristle_stiffness")
+      self%damping = item%number("bristle_damping")
+      self%viscosity = item%number("viscosity")
    end subroutine lugre_prepare
 
    !> Without a coefficient of fast sliding there is no friction.

@@ -46,8 +46,8 @@ contains
       type(item_t), intent(in) :: item              !! the row
 
       self%name = item%name
-      self%coefficient = item%values(1)%number
-      self%v1 = item%values(2)%number
+      self%coefficient = item%number("coefficient")
+      self%v1 = item%number("v1")
    end subroutine rooney_deravi_prepare
 
    !> Without a coefficient there is no friction.

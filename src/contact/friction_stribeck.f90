@@ -59,12 +59,12 @@ contains
       type(item_t), intent(in) :: item                   !! the row
 
       self%name = item%name
-      self%coefficient = item%values(1)%number
-      self%static = item%values(2)%number
-      self%stribeck = item%values(3)%number
-      self%rise = item%values(4)%number
-      self%exponent = item%values(5)%number
-      self%viscous = item%values(6)%number
+      self%coefficient = item%number("coefficient")
+      self%static = item%number("static_coefficient")
+      self%stribeck = item%number("stribeck_speed")
+      self%rise = item%number("v0")
+      self%exponent = item%number("exponent")
+      self%viscous = item%number("viscosity")
    end subroutine stribeck_prepare
 
    !> Without a coefficient there is no friction.

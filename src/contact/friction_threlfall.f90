@@ -53,10 +53,10 @@ contains
       type(item_t), intent(in) :: item              !! the row
 
       self%name = item%name
-      self%coefficient = item%values(1)%number
-      self%v_r = item%values(2)%number
-      self%last_speed = merge(huge(1.0_wp), self%v_r, item%values(3)%text == "exponential")
-      self%above = merge(1.0_wp, 1.0_wp - exp(-rise), item%values(3)%text == "book")
+      self%coefficient = item%number("coefficient")
+      self%v_r = item%number("v_r")
+      self%last_speed = merge(huge(1.0_wp), self%v_r, item%word("above") == "exponential")
+      self%above = merge(1.0_wp, 1.0_wp - exp(-rise), item%word("above") == "book")
    end subroutine threlfall_prepare
 
    !> Without a coefficient there is no friction.

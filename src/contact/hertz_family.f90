@@ -9,7 +9,7 @@
 !> Source: Flores et al. (2008), section 3.2. Limits: quasi-static contact, so impact speeds below 1e-5 sqrt(E/rho).
 module hertz_family
    use deep_damping, only: damp_all_deep, damp_deep
-   use item, only: item_t
+   use item, only: find_place, item_t
    use kind_info, only: add_number, dim_contact_stiffness, dim_none, kind_info_t
    use kinds, only: wp
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
@@ -68,8 +68,8 @@ contains
       type(item_t), intent(in) :: item              !! the row
 
       self%name = item%name
-      self%stiffness = item%values(1)%number
-      if (size(item%values) > 1) self%hysteresis = self%hysteresis_of(item%values(2)%number)
+      self%stiffness = item%number("stiffness")
+      if (find_place(item, "restitution") > 0) self%hysteresis = self%hysteresis_of(item%number("restitution"))
    end subroutine family_prepare
 
    !> Stiffness: given, or from the surfaces.

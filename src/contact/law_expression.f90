@@ -10,7 +10,7 @@
 !> number the run ends with an error.
 module law_expression
    use expression, only: expression_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_expression, dim_force, dim_length, dim_speed, kind_info_t
    use kinds, only: wp
    use normal_law, only: impact_speed_of_depth, n_law_parameter, normal_law_t, parameter_deepest, parameter_gentle
@@ -52,7 +52,7 @@ contains
       type(item_t), intent(in) :: item                !! the row
 
       self%name = item%name
-      self%whole = item%values(1)%expression
+      self%whole = item%values(place_of(item, "force"))%expression
       self%elastic = self%whole
       self%elastic%others = [0.0_wp, 1.0_wp]
    end subroutine expression_prepare

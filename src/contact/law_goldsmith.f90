@@ -43,7 +43,7 @@ contains
       type(item_t), intent(in) :: item               !! the row
 
       call prepare_cylinder(self, item)
-      self%factor = merge(1.0e-6_wp, 1.0_wp, item%values(size(item%values))%text == "mm")
+      self%factor = merge(1.0e-6_wp, 1.0_wp, item%word("unit") == "mm")
    end subroutine goldsmith_prepare
 
    !> B = L c / (R_i R_j sigma) times one square unit of length.

@@ -61,11 +61,11 @@ contains
       real(wp), parameter :: pi = acos(-1.0_wp)
 
       self%name = item%name
-      self%stiffness = item%values(1)%number
+      self%stiffness = item%number("stiffness")
       self%returned = 1.0_wp
       self%damping_ratio = 0.0_wp
-      associate (ce => item%values(2)%number)
-         select case (item%values(3)%text)
+      associate (ce => item%number("restitution"))
+         select case (item%word("form"))
          case ("squared")
             self%returned = ce**2
          case ("book")

@@ -54,8 +54,8 @@ contains
       type(item_t), intent(in) :: item             !! the row
 
       self%name = item%name
-      self%length = item%values(1)%number
-      self%hysteresis = 0.75_wp*(1.0_wp - item%values(2)%number**2)
+      self%length = item%number("length")
+      self%hysteresis = 0.75_wp*(1.0_wp - item%number("restitution")**2)
    end subroutine pereira_prepare
 
    !> The force at a penetration of one millimetre, and n.

@@ -60,9 +60,9 @@ contains
       type(item_t), intent(in) :: item                !! the row
 
       self%name = item%name
-      self%stiffness = item%values(1)%number
-      self%hysteresis = lankarani_nikravesh_hysteresis(item%values(2)%number)
-      if (item%values(3)%text == "exact") self%hysteresis = exact_hysteresis(item%values(2)%number)
+      self%stiffness = item%number("stiffness")
+      self%hysteresis = lankarani_nikravesh_hysteresis(item%number("restitution"))
+      if (item%word("damping") == "exact") self%hysteresis = exact_hysteresis(item%number("restitution"))
    end subroutine plane_face_prepare
 
    !> Stiffness: given, or from the face.

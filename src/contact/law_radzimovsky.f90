@@ -47,7 +47,7 @@ contains
       type(item_t), intent(in) :: item                 !! the row
 
       call prepare_line(self, item)
-      if (item%values(3)%text == "radii") self%factor = 2.0_wp
+      if (item%word("width") == "radii") self%factor = 2.0_wp
    end subroutine radzimovsky_prepare
 
    !> B = 16 exp(-1/3) L c / (2 * 1.60^2 pi sigma): 16 R_i R_j / b^2 is 16 E L c / (1.60^2 * 2 F).

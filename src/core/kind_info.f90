@@ -18,7 +18,8 @@ module kind_info
    public :: dim_angular_stiffness, dim_area, dim_contact_stiffness, dim_damping, dim_density, dim_energy
    public :: dim_force, dim_frequency, dim_inertia, dim_length, dim_mass, dim_moment, dim_none, dim_power
    public :: dim_pressure, dim_speed, dim_stiffness, dim_temperature, dim_time, dim_viscosity
-   public :: no_bound
+   public :: longest_column, no_bound
+   public :: leaves_more, leaves_nothing, leaves_turn, leaves_way
 
    !> Physical dimension as exponents of kg, m, s, rad and K.
    !> They are real because a contact stiffness is N/m^1.5, or N/m^n with any n.
@@ -71,8 +72,14 @@ module kind_info
    integer, parameter :: cell_file = 10       !! a text file of two columns of numbers
    integer, parameter :: cell_condition = 11  !! conditions on channels (settings only)
 
+   integer, parameter :: leaves_more = 0     !! a joint leaves more, or what nobody asks for
+   integer, parameter :: leaves_nothing = 1  !! bodies i and j move as one
+   integer, parameter :: leaves_turn = 2     !! j turns about the point of i
+   integer, parameter :: leaves_way = 3      !! j slides along an axis of i, and does not turn against it
+
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]
 
+   integer, parameter :: longest_column = 24  !! characters of the name of a column or key, at most
    integer, parameter :: longest_list = 20  !! characters of the names of an expression's variables
 
    !> One column of a table, or one key of a section of settings.
@@ -112,6 +119,8 @@ module kind_info
       character(:), allocatable :: source           !! citation with equation numbers
       logical :: is_table = .true.                  !! a table of items; else settings `key = value`
       integer :: n_row = 0                          !! constraint rows that an item adds in the plane
+      integer :: leaves = leaves_more               !! of a joint: what of the freedom of j against i, one of the above
+      logical :: drives_turn = .false.              !! its row prescribes the turn of the joint that it names
       logical :: is_start_only = .false.            !! the rows hold while the start is made consistent, not after
       type(column_t), allocatable :: columns(:)     !! of the table, without `name`
       type(channel_t), allocatable :: channels(:)   !! of each item
@@ -317,6 +326,7 @@ contains
       type(column_t), allocatable :: grown(:)
       integer :: i, n
 
+      if (len(column%name) > longest_column) error stop "internal mistake: a column with too long a name"
       n = 0
       if (allocated(info%columns)) n = size(info%columns)
       allocate (grown(n + 1))

@@ -29,6 +29,7 @@ contains
       type(column_t), intent(in) :: column  !! what the value belongs to
       type(value_t), intent(out) :: value   !! the empty value
 
+      value%column = column%name
       value%text = ""
       allocate (value%words(0), value%places(0), value%options(0), value%conditions(0))
       if (column%cell == cell_expression) value%expression = constant_expression(0.0_wp, column%dimension)

@@ -1,16 +1,18 @@
 !> A row of a deck table (or a section of settings), typed, in SI: what the kinds are made from.
 !>
-!> The deck reader fills items from the columns of a `kind_info_t`: value k belongs to column k.
+!> The deck reader fills items from the columns of a `kind_info_t`: value k belongs to column k. Whoever wants a value asks for
+!> its column by name, once, where it makes a typed record of the row; to ask for a column that is not there is a mistake of the
+!> program, and stops it.
 !> The scene turns the names of references into indices. After that no part of the program looks
 !> at deck text again, except to say where a mistake stands.
 module item
    use expression, only: expression_t
-   use kind_info, only: dim_none, dim_t
+   use kind_info, only: dim_none, dim_t, longest_column
    use kinds, only: wp
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: condition_t, item_t, location_t, option_t, value_t
+   public :: condition_t, find_place, item_t, location_t, option_t, place_of, value_t
 
    !> A stretch of deck text.
    type :: location_t
@@ -42,6 +44,7 @@ module item
 
    !> One cell, or the right-hand side of one setting.
    type :: value_t
+      character(longest_column) :: column = ""       !! name of the column or key
       logical :: given = .false.                     !! .false.: the column's default was taken
       real(wp) :: number = 0.0_wp                    !! of a number; of an expression its value at t = 0, SI [any]
       type(dim_t) :: dimensions(2) = dim_none        !! (2) of a number of any dimension, a list, the columns of a file
@@ -65,6 +68,75 @@ module item
       character(:), allocatable :: name      !! its name (table rows)
       type(location_t) :: location           !! of the name, or of the section's header
       type(value_t), allocatable :: values(:)  !! (columns of the kind)
+   contains
+      procedure :: number => item_number
+      procedure :: word => item_word
+      procedure :: reference => item_reference
+      procedure :: flag => item_flag
+      procedure :: is_given => item_is_given
    end type item_t
+
+contains
+
+   !> Place of a column among the values of a row by its name; 0 if the kind has none of that name.
+   pure integer function find_place(item, name) result(place)
+      type(item_t), intent(in) :: item   !! the row, or the section
+      character(*), intent(in) :: name   !! the column, or the key
+
+      do place = 1, size(item%values)
+         if (item%values(place)%column == name) return
+      end do
+      place = 0
+   end function find_place
+
+   !> Place of a column that the kind must have: if it has not, the program is wrong, and ends.
+   pure integer function place_of(item, name) result(place)
+      type(item_t), intent(in) :: item   !! the row, or the section
+      character(*), intent(in) :: name   !! the column, or the key
+
+      place = find_place(item, name)
+      if (place == 0) error stop "internal mistake: "//item%kind//" has no column '"//name//"'"
+   end function place_of
+
+   !> The number in a column; of an expression its value at t = 0.
+   pure real(wp) function item_number(self, name) result(number)
+      class(item_t), intent(in) :: self   !! the row, or the section
+      character(*), intent(in) :: name    !! the column, or the key
+
+      number = self%values(place_of(self, name))%number
+   end function item_number
+
+   !> The word in a column.
+   pure function item_word(self, name) result(word)
+      class(item_t), intent(in) :: self    !! the row, or the section
+      character(*), intent(in) :: name     !! the column, or the key
+      character(:), allocatable :: word    !! as in the deck, or the default
+
+      word = self%values(place_of(self, name))%text
+   end function item_word
+
+   !> Number of the item that a column refers to, 0: none, or the ground.
+   pure integer function item_reference(self, name) result(number)
+      class(item_t), intent(in) :: self   !! the row
+      character(*), intent(in) :: name    !! the column
+
+      number = self%values(place_of(self, name))%index
+   end function item_reference
+
+   !> Whether a column says `on`.
+   pure logical function item_flag(self, name) result(flag)
+      class(item_t), intent(in) :: self   !! the row, or the section
+      character(*), intent(in) :: name    !! the column, or the key
+
+      flag = self%values(place_of(self, name))%flag
+   end function item_flag
+
+   !> Whether a column was given, not left to its default.
+   pure logical function item_is_given(self, name) result(is_given)
+      class(item_t), intent(in) :: self   !! the row, or the section
+      character(*), intent(in) :: name    !! the column, or the key
+
+      is_given = self%values(place_of(self, name))%given
+   end function item_is_given
 
 end module item

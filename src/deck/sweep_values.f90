@@ -139,8 +139,8 @@ contains
          end associate
       end do
       sweep%parameters = swept(:n)
-      sweep%is_paired = own%values(column_index(info, "combine"))%text == "paired"
-      sweep%keeps_channels = own%values(column_index(info, "keep"))%text == "channels"
+      sweep%is_paired = own%word("combine") == "paired"
+      sweep%keeps_channels = own%word("keep") == "channels"
       call check_whole(deck, section, sweep, mistakes)
    end subroutine read_sweep
 

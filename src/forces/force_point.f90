@@ -7,7 +7,7 @@ module force_point
    use bodies, only: points_t
    use expression, only: expression_t
    use force_set, only: force_set_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_channel, add_expression, add_reference, dim_force, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position, point_velocity
@@ -56,12 +56,12 @@ contains
       self%n = size(items)
       allocate (self%names(self%n), self%body(self%n), self%s(3, self%n), self%fx(self%n), self%fy(self%n))
       do k = 1, self%n
-         point = items(k)%values(1)%index
+         point = items(k)%reference("point")
          self%names(k)%s = items(k)%name
          self%body(k) = points%body(point)
          self%s(:, k) = points%s(:, point)
-         self%fx(k) = items(k)%values(2)%expression
-         self%fy(k) = items(k)%values(3)%expression
+         self%fx(k) = items(k)%values(place_of(items(k), "fx"))%expression
+         self%fy(k) = items(k)%values(place_of(items(k), "fy"))%expression
       end do
    end subroutine point_prepare
 

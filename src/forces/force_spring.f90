@@ -17,7 +17,7 @@ module force_spring
    use bodies, only: points_t
    use expression, only: expression_t
    use force_set, only: force_set_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_damping, dim_force, dim_length, &
       dim_stiffness, kind_info_t
    use kinds, only: wp
@@ -90,25 +90,25 @@ contains
       allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
       allocate (self%free_length(self%n), self%law(self%n), self%has_law(self%n))
       do k = 1, self%n
-         associate (values => items(k)%values)
-            i = values(1)%index
-            j = values(2)%index
+         associate (item => items(k))
+            i = item%reference("i")
+            j = item%reference("j")
             self%names(k)%s = items(k)%name
             self%body(:, k) = [points%body(i), points%body(j)]
             self%s_i(:, k) = points%s(:, i)
             self%s_j(:, k) = points%s(:, j)
-            self%stiffness(k) = values(3)%number
-            self%damping(k) = values(4)%number
-            self%free_length(k) = values(5)%number
-            self%relaxed(k) = values(5)%number
-            self%constant(k) = values(6)%number
+            self%stiffness(k) = item%number("stiffness")
+            self%damping(k) = item%number("damping")
+            self%free_length(k) = item%number("free_length")
+            self%relaxed(k) = item%number("free_length")
+            self%constant(k) = item%number("preload")
             if (self%stiffness(k) > 0.0_wp) then
                self%relaxed(k) = self%relaxed(k) - self%constant(k)/self%stiffness(k)
                self%constant(k) = 0.0_wp
             end if
-            self%actuator(k) = values(7)%expression
-            self%law(k) = values(8)%expression
-            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(values(8)%number) > 0.0_wp
+            self%actuator(k) = item%values(place_of(item, "actuator"))%expression
+            self%law(k) = item%values(place_of(item, "law"))%expression
+            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(item%number("law")) > 0.0_wp
          end associate
       end do
    end subroutine spring_prepare

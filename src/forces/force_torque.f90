@@ -8,7 +8,7 @@ module force_torque
    use bodies, only: points_t
    use expression, only: expression_t
    use force_set, only: force_set_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_channel, add_expression, add_reference, dim_moment, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -55,8 +55,8 @@ contains
       allocate (self%names(self%n), self%body(self%n), self%moment(self%n))
       do k = 1, self%n
          self%names(k)%s = items(k)%name
-         self%body(k) = items(k)%values(1)%index
-         self%moment(k) = items(k)%values(2)%expression
+         self%body(k) = items(k)%reference("body")
+         self%moment(k) = items(k)%values(place_of(items(k), "moment"))%expression
       end do
    end subroutine torque_prepare
 

@@ -7,7 +7,7 @@ module function_harmonic
    use curve, only: beyond_same
    use dimension_text, only: dimension_name
    use function_kind, only: function_kind_t, made_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_any_number, add_number, dim_angle, dim_angular_speed, dim_time, kind_info_t, same_dimension
    use kinds, only: wp
    implicit none (type, external)
@@ -41,17 +41,17 @@ contains
       type(item_t), intent(inout) :: item  !! the row
       type(made_t), intent(out) :: made    !! the curve, or the first mistake
 
-      associate (amplitude => item%values(1), offset => item%values(4))
+      associate (amplitude => item%values(place_of(item, "amplitude")), offset => item%values(place_of(item, "offset")))
          made%argument = dim_time
          made%dimension = amplitude%dimensions(1)
          made%curve%beyond = beyond_same
          made%curve%amplitude = amplitude%number
-         made%curve%angular_frequency = item%values(2)%number
-         made%curve%phase = item%values(3)%number
+         made%curve%angular_frequency = item%number("angular_frequency")
+         made%curve%phase = item%number("phase")
          allocate (made%curve%x(1), source=0.0_wp)
          allocate (made%curve%c(0:0, 1), source=offset%number)
          if (.not. offset%given .or. same_dimension(offset%dimensions(1), made%dimension)) return
-         made%column = 4
+         made%column = place_of(item, "offset")
          made%message = "the amplitude is "//dimension_name(made%dimension)
          made%help = "amplitude and offset have the same dimension"
       end associate

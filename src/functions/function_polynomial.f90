@@ -11,7 +11,7 @@ module function_polynomial
    use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_same
    use dimension_text, only: dimension_name, unit_text
    use function_kind, only: function_kind_t, made_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_any_number, add_number, add_word, dim_time, dim_t, kind_info_t, same_dimension
    use kinds, only: wp
    use text, only: to_text
@@ -21,9 +21,6 @@ module function_polynomial
    public :: function_polynomial_t
 
    integer, parameter :: degree = 7            !! greatest power
-   integer, parameter :: column_origin = 9     !! column of the origin, after those of the coefficients
-   integer, parameter :: column_end = 10       !! column of the end
-   integer, parameter :: column_beyond = 11    !! column of what is before the origin and after the end
 
    !> The kind.
    type, extends(function_kind_t) :: function_polynomial_t
@@ -59,17 +56,18 @@ contains
       type(made_t), intent(out) :: made    !! the curve, or the first mistake
 
       type(dim_t) :: dimension
-      integer :: first, k
+      integer :: column, first, k
 
       made%argument = dim_time
-      allocate (made%curve%x(1), source=item%values(column_origin)%number)
+      allocate (made%curve%x(1), source=item%number("origin"))
       allocate (made%curve%c(0:degree, 1), source=0.0_wp)
       made%curve%beyond = beyond_same
-      if (item%values(column_end)%given) call take_end(item, made)
+      if (item%is_given("end")) call take_end(item, made)
       if (made%column > 0) return
       first = 0
       do k = 0, degree
-         associate (value => item%values(k + 1))
+         column = place_of(item, "c"//to_text(k))
+         associate (value => item%values(column))
             if (.not. value%given) cycle
             made%curve%c(k, 1) = value%number
             dimension = dimension_product(value%dimensions(1), dimension_power(dim_time, real(k, wp)), 1.0_wp)
@@ -77,7 +75,7 @@ contains
                first = k + 1
                made%dimension = dimension
             else if (.not. same_dimension(dimension, made%dimension)) then
-               made%column = k + 1
+               made%column = column
                made%message = "column c"//to_text(first - 1)//" makes the function "//dimension_name(made%dimension)
                made%help = "so the unit of c"//to_text(k)//" is "//unit_over_time(made%dimension, k)
                return
@@ -91,16 +89,16 @@ contains
       type(item_t), intent(in) :: item     !! the row
       type(made_t), intent(inout) :: made  !! the curve, or a mistake
 
-      associate (origin => item%values(column_origin)%number, end => item%values(column_end)%number)
+      associate (origin => item%number("origin"), end => item%number("end"))
          if (end <= origin) then
-            made%column = column_end
+            made%column = place_of(item, "end")
             made%message = "the end must be after the origin"
             made%help = "the polynomial reaches from "//to_text(origin)//" s to its end"
             return
          end if
          made%curve%x = [origin, end]
       end associate
-      select case (item%values(column_beyond)%text)
+      select case (item%word("beyond"))
       case ("linear"); made%curve%beyond = beyond_linear
       case ("error"); made%curve%beyond = beyond_error
       case default; made%curve%beyond = beyond_hold

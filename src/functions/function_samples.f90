@@ -14,7 +14,7 @@
 module function_samples
    use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_periodic
    use function_kind, only: function_kind_t, made_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_file, add_list, add_word, kind_info_t
    use kinds, only: wp
    use spline, only: ends_clamped, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
@@ -23,12 +23,7 @@ module function_samples
    private
    public :: function_samples_t
 
-   integer, parameter :: column_at = 1      !! column of the places
-   integer, parameter :: column_value = 2   !! column of the values
-   integer, parameter :: column_file = 3    !! column of the file
-   integer, parameter :: column_ends = 4    !! column of the ends
-   integer, parameter :: column_beyond = 5  !! column of what is outside
-
+   character(5), parameter :: lists(2) = [character(5) :: "at", "value"]  !! columns of lists, in the order of a file's columns
    real(wp), parameter :: closed = 1.0e-9_wp  !! difference of the ends of a period, of the greatest value [1]
 
    !> The kind.
@@ -64,7 +59,7 @@ contains
       if (made%column > 0) return
       call check_samples(item, made)
       if (made%column > 0) return
-      associate (at => item%values(column_at), value => item%values(column_value))
+      associate (at => item%values(place_of(item, "at")), value => item%values(place_of(item, "value")))
          made%argument = at%dimensions(1)
          made%dimension = value%dimensions(1)
          call new_spline(at%table(:, 1), value%table(:, 1), ends_of(item), beyond_of(item), made%curve)
@@ -76,14 +71,15 @@ contains
       type(item_t), intent(inout) :: item  !! the row
       type(made_t), intent(inout) :: made  !! receives a mistake
 
-      integer :: k
+      integer :: column, k
 
-      associate (file => item%values(column_file))
+      associate (file => item%values(place_of(item, "file")))
          if (.not. file%given) return
-         do k = column_at, column_value
-            associate (list => item%values(k))
+         do k = 1, 2
+            column = place_of(item, trim(lists(k)))
+            associate (list => item%values(column))
                if (list%given) then
-                  made%column = k
+                  made%column = column
                   made%message = "the samples stand in a file already"
                   made%help = "give columns at and value, or column file"
                   return
@@ -107,30 +103,30 @@ contains
       integer :: k, n
 
       made%help = ""
-      do k = column_at, column_value
-         if (item%values(k)%given) cycle
-         call complain(k, "there are no samples")
+      do k = 1, 2
+         if (item%is_given(trim(lists(k)))) cycle
+         call complain(trim(lists(k)), "there are no samples")
          made%help = "give columns at and value, as ""0 10 20 30 ms"", or column file"
          return
       end do
-      associate (x => item%values(column_at)%table(:, 1), y => item%values(column_value)%table(:, 1))
+      associate (x => item%values(place_of(item, "at"))%table(:, 1), y => item%values(place_of(item, "value"))%table(:, 1))
          n = size(x)
          if (size(y) /= n) then
-            call complain(column_value, to_text(size(y))//" values at "//to_text(n)//" places")
+            call complain("value", to_text(size(y))//" values at "//to_text(n)//" places")
          else if (n < least_samples) then
-            call complain(column_at, "there are "//to_text(n)//" samples, a smooth curve needs "//to_text(least_samples))
+            call complain("at", "there are "//to_text(n)//" samples, a smooth curve needs "//to_text(least_samples))
          else if (.not. all(x(2:) > x(:n - 1))) then
             do k = 2, n
                if (.not. x(k) > x(k - 1)) exit
             end do
-            call complain(column_at, "sample "//to_text(k)//" is not behind sample "//to_text(k - 1))
+            call complain("at", "sample "//to_text(k)//" is not behind sample "//to_text(k - 1))
             made%place = k
             made%help = "places increase from sample to sample"
          else if (beyond_of(item) == beyond_periodic .and. abs(y(n) - y(1)) > closed*maxval(abs(y))) then
-            call complain(column_value, "the last value differs from the first one")
+            call complain("value", "the last value differs from the first one")
             made%help = "with beyond = periodic the last sample is the first one of the next period"
-         else if (beyond_of(item) == beyond_periodic .and. item%values(column_ends)%given) then
-            call complain(column_ends, "a periodic curve has no ends")
+         else if (beyond_of(item) == beyond_periodic .and. item%is_given("ends")) then
+            call complain("ends", "a periodic curve has no ends")
             made%help = "leave out column ends, or write -"
          end if
       end associate
@@ -139,10 +135,10 @@ contains
 
       !> Note a mistake.
       subroutine complain(column, message)
-         integer, intent(in) :: column        !! where it is
+         character(*), intent(in) :: column   !! where it is
          character(*), intent(in) :: message  !! what is wrong
 
-         made%column = column
+         made%column = place_of(item, column)
          made%message = message
       end subroutine complain
 
@@ -152,7 +148,7 @@ contains
    pure integer function ends_of(item) result(ends)
       type(item_t), intent(in) :: item  !! the row
 
-      select case (item%values(column_ends)%text)
+      select case (item%word("ends"))
       case ("natural")
          ends = ends_natural
       case ("clamped")
@@ -167,7 +163,7 @@ contains
    pure integer function beyond_of(item) result(beyond)
       type(item_t), intent(in) :: item  !! the row
 
-      select case (item%values(column_beyond)%text)
+      select case (item%word("beyond"))
       case ("hold")
          beyond = beyond_hold
       case ("linear")

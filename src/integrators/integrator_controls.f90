@@ -4,7 +4,7 @@
 !> ones: TOL tolerance, HINIT initial_step, HMIN minimum_step, HMAX maximum_step, MXSTEP
 !> maximum_steps, MXFCN maximum_evaluations, INORM norm, FLOOR floor.
 module integrator_controls
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_number, add_word, dim_length, dim_none, dim_time, kind_info_t
    use kinds, only: i8, least_tolerance, wp
    implicit none (type, external)
@@ -91,30 +91,28 @@ contains
 
    !> The controls from a section of settings that has the columns of `add_control_columns`; the scene
    !> has folded IMSL's names into the plain ones.
-   subroutine read_controls(info, item, controls)
-      type(kind_info_t), intent(in) :: info      !! the settings' kind
+   subroutine read_controls(item, controls)
       type(item_t), intent(in) :: item           !! the section
       type(controls_t), intent(out) :: controls  !! the controls
 
-      integer :: k, place
+      integer :: k
 
-      controls%tolerance = number("tolerance")
-      controls%fixed_step = number("step")
-      controls%initial_step = number("initial_step")
-      controls%minimum_step = number("minimum_step")
-      controls%maximum_step = number("maximum_step")
-      controls%maximum_steps = int(number("maximum_steps"), i8)
-      controls%maximum_evaluations = int(number("maximum_evaluations"), i8)
-      controls%floor = number("floor")
-      select case (item%values(column("norm"))%text)
+      controls%tolerance = item%number("tolerance")
+      controls%fixed_step = item%number("step")
+      controls%initial_step = item%number("initial_step")
+      controls%minimum_step = item%number("minimum_step")
+      controls%maximum_step = item%number("maximum_step")
+      controls%maximum_steps = int(item%number("maximum_steps"), i8)
+      controls%maximum_evaluations = int(item%number("maximum_evaluations"), i8)
+      controls%floor = item%number("floor")
+      select case (item%word("norm"))
       case ("mixed"); controls%norm = norm_mixed
       case ("absolute"); controls%norm = norm_absolute
       case ("relative"); controls%norm = norm_relative
       case ("euclidean"); controls%norm = norm_euclidean
       case default; controls%norm = norm_scaled
       end select
-      place = column("contact_onset")
-      associate (value => item%values(place))
+      associate (value => item%values(place_of(item, "contact_onset")))
          select case (value%text)
          case ("interpolate"); controls%onset = onset_interpolate
          case ("reject"); controls%onset = onset_reject
@@ -127,24 +125,6 @@ contains
             end do
          end if
       end associate
-
-   contains
-
-      !> Place of a column of the settings.
-      integer function column(name)
-         character(*), intent(in) :: name  !! its name
-
-         do column = 1, size(info%columns)
-            if (info%columns(column)%name == name) return
-         end do
-      end function column
-
-      !> Value of a column.
-      real(wp) function number(name)
-         character(*), intent(in) :: name  !! its name
-
-         number = item%values(column(name))%number
-      end function number
 
    end subroutine read_controls
 

@@ -11,7 +11,7 @@ module driver_angle
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use driver_speed, only: add_driver_channels, write_driver_row
    use expression, only: expression_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use joint_set, only: joint_set_t
    use rows, only: rows_t
    use kind_info, only: add_expression, add_reference, dim_angle, kind_info_t
@@ -43,6 +43,7 @@ contains
       info%help = "turns a revolute joint to an angle that is a function of time"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
+      info%drives_turn = .true.
       call add_reference(info, "joint", "joint.revolute", "the revolute joint that is driven")
       call add_expression(info, "angle", dim_angle, "angle of j relative to i, counter-clockwise positive")
       call add_driver_channels(info)
@@ -60,7 +61,7 @@ contains
       self%is_angle(1) = .true.
       allocate (self%f(self%n))
       do k = 1, self%n
-         self%f(k) = items(k)%values(2)%expression
+         self%f(k) = items(k)%values(place_of(items(k), "angle"))%expression
       end do
    end subroutine angle_prepare
 

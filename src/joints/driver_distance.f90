@@ -9,7 +9,7 @@
 !> or f' does is said at driver.angle.
 module driver_distance
    use expression, only: expression_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use joint_distance, only: write_distance_row
    use joint_set, only: joint_set_t
    use rows, only: rows_t
@@ -59,7 +59,7 @@ contains
       self%is_driver = .true.
       allocate (self%f(self%n))
       do k = 1, self%n
-         self%f(k) = items(k)%values(3)%expression
+         self%f(k) = items(k)%values(place_of(items(k), "distance"))%expression
       end do
    end subroutine driven_prepare
 

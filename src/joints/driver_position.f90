@@ -13,7 +13,7 @@
 module driver_position
    use driver_distance, only: add_length_channels
    use expression, only: expression_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use rows, only: rows_t
    use joint_translational, only: add_axis_columns, joint_translational_t
    use kind_info, only: add_expression, add_reference, dim_length, kind_info_t
@@ -22,8 +22,6 @@ module driver_position
    implicit none (type, external)
    private
    public :: driver_position_t
-
-   integer, parameter :: column_position = 5  !! column of the function
 
    !> All position drivers of a planar scene. `axis` is s turned by -90 degrees, whose R90 is s.
    type, extends(joint_translational_t) :: driver_position_t
@@ -64,7 +62,7 @@ contains
       call self%set_axes(items, angle)
       allocate (self%f(self%n))
       do k = 1, self%n
-         self%f(k) = items(k)%values(column_position)%expression
+         self%f(k) = items(k)%values(place_of(items(k), "position"))%expression
          self%axis(:, k) = [self%axis(2, k), -self%axis(1, k)]
       end do
    end subroutine position_prepare

@@ -41,6 +41,7 @@ contains
       info%help = "turns a revolute joint at a constant speed"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1
+      info%drives_turn = .true.
       call add_reference(info, "joint", "joint.revolute", "the revolute joint that is driven")
       call add_number(info, "speed", dim_angular_speed, "speed of j relative to i, counter-clockwise positive")
       call add_driver_channels(info)
@@ -59,7 +60,7 @@ contains
       allocate (self%start(self%n), self%speed(self%n))
       do k = 1, self%n
          self%start(k) = angle(self%body(2, k)) - angle(self%body(1, k))
-         self%speed(k) = items(k)%values(2)%number
+         self%speed(k) = items(k)%number("speed")
       end do
    end subroutine speed_prepare
 

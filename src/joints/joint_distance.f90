@@ -12,8 +12,9 @@
 !> Limits: l > 0. Where the points coincide there is no direction: the world's x stands in for u and the term
 !> with 1/|d| is left out; an assembled mechanism is never there.
 module joint_distance
+   use coordinates, only: coordinates_t
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t
+   use joint_set, only: add_joint_channels, joint_set_t, report_shared
    use rows, only: rows_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
    use kinds, only: wp
@@ -22,8 +23,6 @@ module joint_distance
    implicit none (type, external)
    private
    public :: joint_distance_t, write_distance_row
-
-   integer, parameter :: column_length = 3  !! column of the length
 
    !> All distance joints of a planar scene.
    type, extends(joint_set_t) :: joint_distance_t
@@ -66,8 +65,8 @@ contains
 
       allocate (self%length(self%n), self%is_open(self%n))
       do k = 1, self%n
-         self%length(k) = items(k)%values(column_length)%number
-         self%is_open(k) = .not. items(k)%values(column_length)%given
+         self%length(k) = items(k)%number("length")
+         self%is_open(k) = .not. items(k)%is_given("length")
       end do
    end subroutine distance_prepare
 
@@ -113,17 +112,21 @@ contains
    end subroutine distance_coordinate
 
    !> The tension, which is the multiplier of the row.
-   subroutine distance_report(self, channel, k, motion, lambda, values, is_known)
-      class(joint_distance_t), intent(in) :: self   !! the set
-      character(*), intent(in) :: channel           !! the channel
-      integer, intent(in) :: k                      !! item
-      type(motion_t), intent(in) :: motion          !! positions and velocities
-      real(wp), intent(in) :: lambda(:)             !! (1) multiplier of the item [N]
-      real(wp), intent(inout) :: values(:)          !! (1) tension [N]
-      logical, intent(out) :: is_known              !! whether it is the tension
+   subroutine distance_report(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      class(joint_distance_t), intent(in) :: self      !! the set
+      character(*), intent(in) :: channel              !! the channel
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+      type(rows_t), intent(in) :: rows                 !! rows at the motion
+      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N]
+      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s]
+      real(wp), intent(inout) :: values(:, :)          !! (components, all joints) those of the set are filled [any]
 
-      is_known = channel == "tension"
-      if (is_known) values(1) = lambda(1)
+      if (channel == "tension") then
+         values(1, self%column) = lambda(self%first_row + 1:self%first_row + self%n)
+      else
+         call report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      end if
    end subroutine distance_report
 
    !> One row: the distance is l(t).

@@ -62,7 +62,7 @@ contains
 
       allocate (self%radius(2, self%n), self%start(self%n), source=0.0_wp)
       do k = 1, self%n
-         self%radius(:, k) = items(k)%values(3:4)%number
+         self%radius(:, k) = [items(k)%number("radius_i"), items(k)%number("radius_j")]
       end do
    end subroutine gear_prepare
 

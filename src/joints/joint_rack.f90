@@ -23,8 +23,6 @@ module joint_rack
    private
    public :: joint_rack_t
 
-   integer, parameter :: column_radius = 5  !! column of the radius
-
    !> All racks with their pinions of a planar scene.
    type, extends(joint_translational_t) :: joint_rack_t
       real(wp), allocatable :: radius(:)  !! (n) radius of the pinion's pitch circle, negative to the right of the axis [m]
@@ -65,7 +63,7 @@ contains
       call self%set_axes(items, angle)
       allocate (self%radius(self%n), self%start(self%n), source=0.0_wp)
       do k = 1, self%n
-         self%radius(k) = items(k)%values(column_radius)%number
+         self%radius(k) = items(k)%number("radius")
       end do
    end subroutine rack_prepare
 

@@ -3,13 +3,16 @@
 !> Phi = r_i + A_i s'_i - r_j - A_j s'_j                                    (2 rows)
 !> Phi_q = [ I, R90 s_i, -I, -R90 s_j ],   gamma = s_i w_i^2 - s_j w_j^2
 !>
+!> A pin of radius R rubs with the sliding velocity v = R (w_j - w_i) under the normal force N = |lambda| + preload.
+!>
 !> Signs: the force on body i is -lambda, on body j +lambda, at the pin.
 !> Source: Flores et al. (2008), eq. (2.5). Limits: none.
 module joint_revolute
    use item, only: item_t
+   use joint_friction, only: add_friction_columns
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_reference, kind_info_t
+   use kind_info, only: add_reference, kind_info_t, leaves_turn
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -22,6 +25,9 @@ module joint_revolute
       procedure, nopass :: info => revolute_info
       procedure :: prepare => revolute_prepare
       procedure :: evaluate => revolute_evaluate
+      procedure, nopass :: friction_length => revolute_friction_length
+      procedure :: slide => revolute_slide
+      procedure :: press => revolute_press
    end type joint_revolute_t
 
 contains
@@ -34,9 +40,13 @@ contains
       info%help = "ideal pin: two points coincide"
       info%source = "Flores et al. (2008), eq. (2.5)"
       info%n_row = 2
+      info%leaves = leaves_turn
       call add_reference(info, "i", "points", "point of the first body")
       call add_reference(info, "j", "points", "point of the second body")
       call add_joint_channels(info)
+      call add_friction_columns(info, "radius", "radius of the pin, where it rubs", &
+                                "normal force between pin and hole without load, as of a press fit", &
+                                "friction_moment", "N.m", "friction moment on the body of j, of a joint with friction")
    end function revolute_info
 
    !> Nothing beyond the points.
@@ -47,6 +57,44 @@ contains
 
       self%sides_apart = .true.
    end subroutine revolute_prepare
+
+   !> Column of the pin's radius.
+   function revolute_friction_length() result(name)
+      character(:), allocatable :: name   !! the column
+
+      name = "radius"
+   end function revolute_friction_length
+
+   !> Sliding velocities of the pins that rub.
+   subroutine revolute_slide(self, motion)
+      class(joint_revolute_t), intent(inout) :: self  !! the set; `friction` is set
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+
+      integer :: m
+
+      do m = 1, self%friction%n
+         associate (item => self%friction%item(m), radius => self%friction%length(m))
+            self%friction%row(:, m) = [0.0_wp, 0.0_wp, -radius, 0.0_wp, 0.0_wp, radius]
+            self%friction%v(m) = radius*(motion%omega(3, self%body(2, item)) - motion%omega(3, self%body(1, item)))
+         end associate
+      end do
+   end subroutine revolute_slide
+
+   !> Normal force of a pin that rubs.
+   pure subroutine revolute_press(self, m, lambda, normal, slope)
+      class(joint_revolute_t), intent(in) :: self  !! the set
+      integer, intent(in) :: m                     !! place among the items that rub
+      real(wp), intent(in) :: lambda(:)            !! (2 or more) multipliers [N]
+      real(wp), intent(out) :: normal              !! normal force [N]
+      real(wp), intent(out) :: slope(:)            !! (size of lambda) its derivatives [1]
+
+      real(wp) :: reaction
+
+      reaction = sqrt(lambda(1)**2 + lambda(2)**2)
+      normal = reaction + self%friction%preload(m)
+      slope = 0.0_wp
+      if (reaction > 0.0_wp) slope(1:2) = lambda(1:2)/reaction
+   end subroutine revolute_press
 
    !> Fill the rows of all items.
    subroutine revolute_evaluate(self, t, motion, rows)

@@ -7,16 +7,17 @@
 !> Signs: the reaction on a body is -Phi_q^T lambda (forces and moment about the centre of mass).
 !> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j.
 module joint_set
+   use coordinates, only: coordinates_t
    use item, only: item_t
+   use joint_friction, only: joint_friction_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
-   use bodies, only: points_t
    use motion, only: motion_t, point_position
    use rows, only: rows_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: add_joint_channels, joint_set_t, joint_slot_t
+   public :: add_joint_channels, joint_set_t, joint_slot_t, report_shared
 
    !> All items of one kind of joint or driver.
    type, abstract :: joint_set_t
@@ -32,16 +33,21 @@ module joint_set
       integer, allocatable :: body(:, :)         !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s_i(:, :)         !! (3, n) point of body i, its frame [m]
       real(wp), allocatable :: s_j(:, :)         !! (3, n) point of body j, its frame [m]
+      type(joint_friction_t) :: friction         !! of the items that rub
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
       procedure(evaluate_interface), deferred :: evaluate
       procedure :: new => joint_new
-      procedure :: new_of_bodies => joint_new_of_bodies
       procedure :: set_start => joint_set_start
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
-      procedure :: report => joint_report
+      procedure :: way_of => joint_way_of
+      procedure, nopass :: friction_length => joint_friction_length
+      procedure :: slide => joint_slide
+      procedure :: press => joint_press
+      procedure :: report => report_shared
+      procedure :: reaction => joint_reaction
       procedure :: coordinate => joint_coordinate
       procedure :: prescription => joint_prescription
       procedure :: time_of_turns => joint_time_of_turns
@@ -84,31 +90,51 @@ module joint_set
       end subroutine evaluate_interface
    end interface
 
+   interface
+      !> The channels that every ideal joint has.
+      module subroutine add_joint_channels(info)
+         implicit none (type, external)
+         type(kind_info_t), intent(inout) :: info  !! the kind
+      end subroutine add_joint_channels
+
+      !> Values of a channel for all items: of those that joints or drivers share. A kind with channels of its own fills these and
+      !> hands all others on to this one. A channel of `info()` that nobody fills is a mistake of the kind; the tests of the
+      !> registry find it.
+      module subroutine report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+         implicit none (type, external)
+         class(joint_set_t), intent(in) :: self           !! the set
+         character(*), intent(in) :: channel              !! the channel, one that the kind announces
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+         type(rows_t), intent(in) :: rows                 !! rows at the motion
+         real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+         real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
+         real(wp), intent(inout) :: values(:, :)          !! (components, all joints or drivers) those of the set are filled [any]
+      end subroutine report_shared
+
+      !> Reaction of an item on body i: force, and moment about its reaction point.
+      module subroutine joint_reaction(self, item, motion, coordinates, rows, lambda, force, moment)
+         implicit none (type, external)
+         class(joint_set_t), intent(in) :: self           !! the set
+         integer, intent(in) :: item                      !! item of the set
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+         type(rows_t), intent(in) :: rows                 !! rows at the motion
+         real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+         real(wp), intent(out) :: force(3)                !! (3) force on body i, world frame [N]
+         real(wp), intent(out) :: moment(3)               !! (3) moment on body i about the reaction point [N.m]
+      end subroutine joint_reaction
+   end interface
+
 contains
 
    !> Set up the common part: names, bodies and points of the items.
-   subroutine joint_new(self, items, point_i, point_j, points)
+   subroutine joint_new(self, items, body, s_i, s_j)
       class(joint_set_t), intent(inout) :: self   !! the set
       type(item_t), intent(in) :: items(:)        !! (n) rows of the table
-      integer, intent(in) :: point_i(:)           !! (n) point of body i
-      integer, intent(in) :: point_j(:)           !! (n) point of body j
-      type(points_t), intent(in) :: points        !! all points
-
-      integer :: k
-
-      call self%new_of_bodies(items, points%body(point_i), points%body(point_j))
-      do k = 1, self%n
-         self%s_i(:, k) = points%s(:, point_i(k))
-         self%s_j(:, k) = points%s(:, point_j(k))
-      end do
-   end subroutine joint_new
-
-   !> Set up the common part of a kind that ties bodies and not points: the points are the centres of mass.
-   subroutine joint_new_of_bodies(self, items, body_i, body_j)
-      class(joint_set_t), intent(inout) :: self   !! the set
-      type(item_t), intent(in) :: items(:)        !! (n) rows of the table
-      integer, intent(in) :: body_i(:)            !! (n) body i, 0: ground
-      integer, intent(in) :: body_j(:)            !! (n) body j, 0: ground
+      integer, intent(in) :: body(:, :)           !! (2, n) bodies i and j, 0: ground
+      real(wp), intent(in) :: s_i(:, :)           !! (3, n) point of body i, its frame; the origin is the centre of mass [m]
+      real(wp), intent(in) :: s_j(:, :)           !! (3, n) point of body j, its frame [m]
 
       type(kind_info_t) :: info
       integer :: k
@@ -116,14 +142,15 @@ contains
       info = self%info()
       self%n = size(items)
       self%n_row_item = info%n_row
-      allocate (self%names(self%n), self%body(2, self%n))
-      allocate (self%s_i(3, self%n), self%s_j(3, self%n), source=0.0_wp)
+      allocate (self%names(self%n))
       do k = 1, self%n
          self%names(k)%s = items(k)%name
       end do
-      self%body(1, :) = body_i
-      self%body(2, :) = body_j
-   end subroutine joint_new_of_bodies
+      self%body = body
+      self%s_i = s_i
+      self%s_j = s_j
+      allocate (self%friction%item(0))
+   end subroutine joint_new
 
    !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
    subroutine joint_set_start(self, motion)
@@ -157,19 +184,39 @@ contains
       p = point_position(motion, self%body(1, k), self%s_i(:, k))
    end function joint_reaction_point
 
-   !> Values of a channel that the kind has beside those of every joint and driver: none, unless the kind says otherwise.
-   !> A channel of `info()` that nobody fills is a mistake of the kind; the tests of the registry find it.
-   subroutine joint_report(self, channel, k, motion, lambda, values, is_known)
-      class(joint_set_t), intent(in) :: self   !! the set
-      character(*), intent(in) :: channel      !! the channel
-      integer, intent(in) :: k                 !! item
-      type(motion_t), intent(in) :: motion     !! positions and velocities
-      real(wp), intent(in) :: lambda(:)        !! (rows of an item) multipliers of the item [N or N.m]
-      real(wp), intent(inout) :: values(:)     !! (components) values, as they were if the channel is not known [any]
-      logical, intent(out) :: is_known         !! whether the kind knows the channel
+   !> Column of the length that friction needs, of a kind with the columns of friction.
+   function joint_friction_length() result(name)
+      character(:), allocatable :: name   !! the column
 
-      is_known = .false.
-   end subroutine joint_report
+      name = ""
+   end function joint_friction_length
+
+   !> How the items that rub lie: sliding velocities, and what the rates of both bodies add to them. No allocation.
+   subroutine joint_slide(self, motion)
+      class(joint_set_t), intent(inout) :: self  !! the set; `friction` is set
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+   end subroutine joint_slide
+
+   !> Normal force of an item that rubs, from its multipliers.
+   pure subroutine joint_press(self, m, lambda, normal, slope)
+      class(joint_set_t), intent(in) :: self     !! the set
+      integer, intent(in) :: m                   !! place among the items that rub
+      real(wp), intent(in) :: lambda(:)          !! (rows of an item, or more) multipliers [N or N.m]
+      real(wp), intent(out) :: normal            !! normal force, not negative [N]
+      real(wp), intent(out) :: slope(:)          !! (size of lambda) its derivatives [1 or 1/m]
+
+      normal = self%friction%preload(m)
+      slope = 0.0_wp*lambda
+   end subroutine joint_press
+
+   !> Axis along which body j slides in body i, of a kind that leaves a way: none, unless the kind says otherwise.
+   pure function joint_way_of(self, k) result(axis)
+      class(joint_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      real(wp) :: axis(2)                     !! (2) unit vector, frame of body i [1]
+
+      axis = 0.0_wp*self%s_i(1:2, k)
+   end function joint_way_of
 
    !> Coordinate and rate of a driver: of j relative to i, counter-clockwise positive.
    subroutine joint_coordinate(self, k, motion, value, rate)
@@ -240,15 +287,5 @@ contains
       real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
       integer, intent(inout) :: place            !! last place used
    end subroutine joint_load
-
-   !> The channels that every ideal joint has.
-   subroutine add_joint_channels(info)
-      type(kind_info_t), intent(inout) :: info  !! the kind
-
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i")
-      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force")
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m")
-      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation")
-   end subroutine add_joint_channels
 
 end module joint_set

@@ -5,14 +5,19 @@
 !> Phi_1q = [ -n^T, -s . (r_j^P - r_i), n^T, s . s_j ]
 !> gamma_1 = (n . d) w_i^2 + 2 w_i (s . d') + n . (s_j w_j^2 - s_i w_i^2),   gamma_2 = 0
 !>
+!> A slider of length L bears on the guide with both its ends, at L/2 before and behind the point of j: there the reaction and its
+!> moment are the forces lambda_1/2 +- lambda_2/L, so that N = |lambda_1/2 + lambda_2/L| + |lambda_1/2 - lambda_2/L| + preload.
+!> Without a length N = |lambda_1| + preload. It rubs along the axis with the velocity v = s . (v_j^P - v_i there).
+!>
 !> Signs: the force on body j is -n lambda_1. The moment is reported about the point of j.
 !> Source: Flores et al. (2008), eqs. (2.6), (2.8), with a unit axis. Limits: the angle between the
 !> bodies is the one of the deck's start.
 module joint_translational
    use item, only: item_t
+   use joint_friction, only: add_friction_columns
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_number, add_reference, add_word, dim_angle, kind_info_t
+   use kind_info, only: add_number, add_reference, add_word, dim_angle, kind_info_t, leaves_way
    use kinds, only: wp
    use motion, only: motion_t, point_position
    implicit none (type, external)
@@ -30,6 +35,10 @@ module joint_translational
       procedure :: fill_rows
       procedure :: evaluate => translational_evaluate
       procedure :: reaction_point => translational_reaction_point
+      procedure :: way_of => translational_way_of
+      procedure, nopass :: friction_length => translational_friction_length
+      procedure :: slide => translational_slide
+      procedure :: press => translational_press
    end type joint_translational_t
 
 contains
@@ -42,10 +51,14 @@ contains
       info%help = "ideal guide: a point of j stays on a line of i, and the bodies do not turn against each other"
       info%source = "Flores et al. (2008), eqs. (2.6), (2.8)"
       info%n_row = 2
+      info%leaves = leaves_way
       call add_reference(info, "i", "points", "point of the guide")
       call add_reference(info, "j", "points", "point of the slider")
       call add_axis_columns(info, "guide")
       call add_joint_channels(info)
+      call add_friction_columns(info, "slider_length", "distance of the slider's ends, which bear its moment; 0: friction by the " &
+                                //"force alone", "normal force of the slider without load, as of a clamped guide", &
+                                "friction_force", "N", "friction force on the body of j along the axis, of a joint with friction")
    end function translational_info
 
    !> The columns of a direction fixed in body i: numbers 3 and 4 of a kind.
@@ -78,9 +91,9 @@ contains
 
       allocate (self%axis(2, self%n), self%difference(self%n))
       do k = 1, self%n
-         c = cos(items(k)%values(4)%number)
-         s = sin(items(k)%values(4)%number)
-         self%axis(:, k) = merge([c, s], [-s, c], items(k)%values(3)%text == "x")
+         c = cos(items(k)%number("axis_angle"))
+         s = sin(items(k)%number("axis_angle"))
+         self%axis(:, k) = merge([c, s], [-s, c], items(k)%word("axis") == "x")
          self%difference(k) = angle(self%body(1, k)) - angle(self%body(2, k))
       end do
    end subroutine set_axes
@@ -94,6 +107,66 @@ contains
 
       p = point_position(motion, self%body(2, k), self%s_j(:, k))
    end function translational_reaction_point
+
+   !> The axis.
+   pure function translational_way_of(self, k) result(axis)
+      class(joint_translational_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                          !! item
+      real(wp) :: axis(2)                               !! (2) unit vector, frame of body i [1]
+
+      axis = self%axis(:, k)
+   end function translational_way_of
+
+   !> Column of the slider's length.
+   function translational_friction_length() result(name)
+      character(:), allocatable :: name   !! the column
+
+      name = "slider_length"
+   end function translational_friction_length
+
+   !> Sliding velocities of the guides that rub.
+   subroutine translational_slide(self, motion)
+      class(joint_translational_t), intent(inout) :: self  !! the set; `friction` is set
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+
+      real(wp) :: d(2), p(3), s(2)
+      integer :: m
+
+      do m = 1, self%friction%n
+         associate (k => self%friction%item(m), row => self%friction%row(:, m))
+            associate (i => self%body(1, k), j => self%body(2, k))
+               s = motion%rot(1:2, 1, i)*self%axis(1, k) + motion%rot(1:2, 2, i)*self%axis(2, k)
+               p = point_position(motion, j, self%s_j(:, k))
+               d = p(1:2) - motion%r(1:2, i)
+               row(1:3) = -[s(1), s(2), s(2)*d(1) - s(1)*d(2)]
+               d = p(1:2) - motion%r(1:2, j)
+               row(4:6) = [s(1), s(2), s(2)*d(1) - s(1)*d(2)]
+               self%friction%v(m) = dot_product(row(1:2), motion%v(1:2, i)) + row(3)*motion%omega(3, i) &
+                                    + dot_product(row(4:5), motion%v(1:2, j)) + row(6)*motion%omega(3, j)
+            end associate
+         end associate
+      end do
+   end subroutine translational_slide
+
+   !> Normal force of a guide that rubs: of both ends of its slider.
+   pure subroutine translational_press(self, m, lambda, normal, slope)
+      class(joint_translational_t), intent(in) :: self  !! the set
+      integer, intent(in) :: m                          !! place among the items that rub
+      real(wp), intent(in) :: lambda(:)                 !! (2 or more) multipliers [N, N.m]
+      real(wp), intent(out) :: normal                   !! normal force [N]
+      real(wp), intent(out) :: slope(:)                 !! (size of lambda) its derivatives [1, 1/m]
+
+      real(wp) :: behind, before, turn
+
+      turn = 0.0_wp
+      if (self%friction%length(m) > 0.0_wp) turn = 1.0_wp/self%friction%length(m)
+      before = 0.5_wp*lambda(1) + turn*lambda(2)
+      behind = 0.5_wp*lambda(1) - turn*lambda(2)
+      normal = abs(before) + abs(behind) + self%friction%preload(m)
+      slope = 0.0_wp
+      slope(1) = 0.5_wp*(sign(1.0_wp, before) + sign(1.0_wp, behind))
+      slope(2) = turn*(sign(1.0_wp, before) - sign(1.0_wp, behind))
+   end subroutine translational_press
 
    !> Fill the rows of all items.
    subroutine translational_evaluate(self, t, motion, rows)

@@ -113,15 +113,15 @@ contains
       allocate (bodies%is_rate_given(3, n), source=.false.)
       do k = 1, n
          bodies%names(k)%s = items(k)%name
-         bodies%mass(k) = items(k)%values(1)%number
-         bodies%inertia(k) = items(k)%values(2)%number
-         bodies%r(1, k) = items(k)%values(3)%number
-         bodies%r(2, k) = items(k)%values(4)%number
-         bodies%angle(k) = items(k)%values(5)%number
-         bodies%v(1, k) = items(k)%values(6)%number
-         bodies%v(2, k) = items(k)%values(7)%number
-         bodies%omega(k) = items(k)%values(8)%number
-         bodies%is_rate_given(:, k) = items(k)%values(6:8)%given
+         bodies%mass(k) = items(k)%number("mass")
+         bodies%inertia(k) = items(k)%number("inertia")
+         bodies%r(1, k) = items(k)%number("x")
+         bodies%r(2, k) = items(k)%number("y")
+         bodies%angle(k) = items(k)%number("angle")
+         bodies%v(1, k) = items(k)%number("vx")
+         bodies%v(2, k) = items(k)%number("vy")
+         bodies%omega(k) = items(k)%number("omega")
+         bodies%is_rate_given(:, k) = [items(k)%is_given("vx"), items(k)%is_given("vy"), items(k)%is_given("omega")]
       end do
    end subroutine new_bodies
 
@@ -155,9 +155,9 @@ contains
       allocate (points%s(3, n), source=0.0_wp)
       do k = 1, n
          points%names(k)%s = items(k)%name
-         points%body(k) = items(k)%values(1)%index
-         points%s(1, k) = items(k)%values(2)%number
-         points%s(2, k) = items(k)%values(3)%number
+         points%body(k) = items(k)%reference("body")
+         points%s(1, k) = items(k)%number("xi")
+         points%s(2, k) = items(k)%number("eta")
       end do
    end subroutine new_points
 
@@ -171,10 +171,10 @@ contains
       allocate (materials(size(items)))
       do k = 1, size(items)
          materials(k)%name%s = items(k)%name
-         materials(k)%young = items(k)%values(1)%number
-         materials(k)%poisson = items(k)%values(2)%number
-         materials(k)%density = items(k)%values(3)%number
-         materials(k)%strength = items(k)%values(4)%number
+         materials(k)%young = items(k)%number("young")
+         materials(k)%poisson = items(k)%number("poisson")
+         materials(k)%density = items(k)%number("density")
+         materials(k)%strength = items(k)%number("strength")
       end do
    end subroutine new_materials
 

@@ -3,7 +3,7 @@ module imsl_names
    use cell_checks, only: check_range
    use columns, only: column_of
    use diagnostics, only: diagnostics_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: kind_info_t
    use kinds, only: wp
    implicit none (type, external)
@@ -35,7 +35,7 @@ contains
       integer :: k
 
       do k = 1, size(plain)
-         associate (own => item%values(column_of(info, trim(plain(k)))), other => item%values(column_of(info, trim(imsl(k)))))
+         associate (own => item%values(place_of(item, trim(plain(k)))), other => item%values(place_of(item, trim(imsl(k)))))
             if (other%number > 0.0_wp) then
                if (own%given .and. abs(own%number - other%number) > 0.0_wp) then
                   call diagnostics%add(other%location, "'"//trim(imsl(k))//"' and '"//trim(plain(k))// &
@@ -55,7 +55,7 @@ contains
             end if
          end associate
       end do
-      associate (norm => item%values(column_of(info, "norm")), inorm => item%values(column_of(info, "inorm")))
+      associate (norm => item%values(place_of(item, "norm")), inorm => item%values(place_of(item, "inorm")))
          if (inorm%number < 0.0_wp .or. inorm%number > real(ubound(norms, 1), wp)) return
          if (abs(inorm%number - anint(inorm%number)) > 0.0_wp) then
             call diagnostics%add(inorm%location, "'inorm' must be 0, 1, 2 or 3", "not a whole number")

@@ -1,5 +1,6 @@
 !> From a deck to a scene: reads every table, looks up names, checks what tables cannot say of themselves.
 module read_scene
+   use item, only: place_of
    use bodies, only: bodies_info, material_info, new_bodies, new_materials, new_points, points_info
    use clearance_registry, only: n_clearance_kinds
    use columns, only: column_of
@@ -8,6 +9,7 @@ module read_scene
    use diagnostics, only: diagnostics_t
    use force_registry, only: n_force_kinds
    use guard_info, only: guards_info
+   use item, only: place_of
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
    use kind_info, only: kind_info_t
@@ -52,7 +54,7 @@ contains
       call add_names(scene%base(table_bodies)%items, directory%bodies)
       call add_names(scene%base(table_points)%items, directory%points)
       call add_names(scene%base(table_materials)%items, directory%materials)
-      call add_names(scene%joints(1)%items, directory%revolutes)
+      call add_joints(scene, directory)
       call read_laws(deck, scene, directory, diagnostics)
       if (size(scene%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
          call diagnostics%add(location_of_end(deck), "no bodies", "a scene needs at least one", "add a table [bodies]")
@@ -61,8 +63,8 @@ contains
       call check_names(scene, diagnostics)
       if (diagnostics%count() > 0) return
 
-      scene%title = scene%header%values(1)%text
-      scene%gravity(1:2) = scene%header%values(3)%vector(1:2)
+      scene%title = scene%header%word("title")
+      scene%gravity(1:2) = scene%header%values(place_of(scene%header, "gravity"))%vector(1:2)
       call new_bodies(scene%base(table_bodies)%items, scene%bodies)
       call new_points(scene%base(table_points)%items, scene%points)
       call new_materials(scene%base(table_materials)%items, scene%materials)
@@ -228,6 +230,25 @@ contains
       end do
       call move_alloc(grown, laws)
    end subroutine grow_frictions
+
+   !> Names and kinds of all joints and drivers.
+   subroutine add_joints(scene, directory)
+      type(scene_t), intent(in) :: scene              !! tables
+      type(directory_t), intent(inout) :: directory   !! joints are set
+
+      integer :: i, k, n
+
+      n = sum([(size(scene%joints(k)%items), k=1, n_joint_kinds)])
+      allocate (directory%joints(n), directory%kinds(n))
+      n = 0
+      do k = 1, n_joint_kinds
+         do i = 1, size(scene%joints(k)%items)
+            n = n + 1
+            directory%joints(n)%s = scene%joints(k)%items(i)%name
+            directory%kinds(n)%s = scene%joints(k)%info%name
+         end do
+      end do
+   end subroutine add_joints
 
    !> Look up the references of all tables.
    subroutine resolve_tables(directory, scene, diagnostics)

@@ -15,7 +15,8 @@ module references
       type(text_t), allocatable :: bodies(:)      !! bodies, without the ground
       type(text_t), allocatable :: points(:)      !! points
       type(text_t), allocatable :: materials(:)   !! materials
-      type(text_t), allocatable :: revolutes(:)   !! revolute joints
+      type(text_t), allocatable :: joints(:)      !! joints and drivers, kind by kind in the order of the registry
+      type(text_t), allocatable :: kinds(:)       !! their kinds
       type(text_t), allocatable :: laws(:)        !! normal laws
       type(text_t), allocatable :: frictions(:)   !! friction laws
    end type directory_t
@@ -63,16 +64,32 @@ contains
             call look_up_all(directory%points, "point", "points", .false.)
          case ("material")
             call look_up_all(directory%materials, "material", "materials", .false.)
-         case ("joint.revolute")
-            call look_up_all(directory%revolutes, "joint", "revolute joints", .false.)
          case ("contact.")
             call look_up_all(directory%laws, "law", "contact laws", .false.)
          case ("friction.")
             call look_up_all(directory%frictions, "friction", "friction laws", .false.)
+         case default
+            call look_up_joints(info%columns(c)%refers_to)
          end select
       end do
 
    contains
+
+      !> Look up the cells of a column of joints of some kinds; their indices are numbers among all joints.
+      subroutine look_up_joints(kinds)
+         character(*), intent(in) :: kinds   !! blank-separated kinds, or a prefix ending in a dot
+
+         integer, allocatable :: place(:)
+         integer :: k
+
+         place = pack([(k, k=1, size(directory%joints))], [(is_among(directory%kinds(k)%s, kinds), k=1, size(directory%kinds))])
+         call look_up_all(directory%joints(place), "joint", words_of(kinds), .false.)
+         do k = 1, size(items)
+            associate (value => items(k)%values(c))
+               if (value%index > 0) value%index = place(value%index)
+            end associate
+         end do
+      end subroutine look_up_joints
 
       !> Look up the cells of a column.
       subroutine look_up_all(names, one, many, with_ground)
@@ -119,6 +136,35 @@ contains
       end subroutine look_up
 
    end subroutine resolve
+
+   !> Whether a kind is one of some.
+   pure logical function is_among(kind, kinds)
+      character(*), intent(in) :: kind    !! the kind
+      character(*), intent(in) :: kinds   !! blank-separated kinds, or a prefix ending in a dot
+
+      is_among = index(" "//kinds//" ", " "//kind//" ") > 0
+      if (kinds(len(kinds):) == ".") is_among = index(kind, kinds) == 1
+   end function is_among
+
+   !> What joints of some kinds are called together: joints, revolute joints, revolute or translational joints.
+   pure function words_of(kinds) result(words)
+      character(*), intent(in) :: kinds      !! blank-separated kinds, or a prefix ending in a dot
+      character(:), allocatable :: words     !! in a message
+
+      character(*), parameter :: room = "joint."
+      character(:), allocatable :: rest
+      integer :: blank
+
+      words = ""
+      rest = kinds//" "
+      do while (len(rest) > 0)
+         blank = index(rest, " ")
+         if (words /= "") words = words//" or "
+         words = words//rest(len(room) + 1:blank - 1)
+         rest = rest(blank + 1:)
+      end do
+      words = trim(adjustl(words//" joints"))
+   end function words_of
 
    !> Whether a column may hold `none`.
    pure logical function has_none(column)

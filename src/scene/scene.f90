@@ -3,7 +3,7 @@ module scene
    use bodies, only: bodies_t, material_t, points_t
    use clearance_registry, only: n_clearance_kinds
    use contact_registry, only: n_friction_kinds, n_law_kinds
-   use friction_law, only: friction_law_t
+   use friction_law, only: friction_slot_t
    use force_registry, only: n_force_kinds
    use function_registry, only: n_function_kinds
    use item, only: item_t
@@ -39,11 +39,6 @@ module scene
    type :: law_slot_t
       class(normal_law_t), allocatable :: law  !! the law
    end type law_slot_t
-
-   !> A place for a friction law of any kind.
-   type :: friction_slot_t
-      class(friction_law_t), allocatable :: law  !! the law
-   end type friction_slot_t
 
    !> What a deck means.
    type :: scene_t

@@ -5,6 +5,7 @@ module scene_checks
    use columns, only: cell_index, cell_text, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
+   use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
@@ -16,6 +17,7 @@ module scene_checks
    use scene, only: scene_t, table_bodies, table_points
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
+   use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
    public :: check_meaning, check_names, report_doubled
@@ -104,14 +106,13 @@ contains
       integer :: column, i, k
 
       do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%columns(1)%name == "joint") cycle
          do i = 1, size(scene%joints(k)%items)
             call check_pair(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_start_length(scene%joints(k)%info, scene%joints(k)%items(i))
+            call check_friction(scene%joints(k)%info, scene%joints(k)%items(i))
          end do
       end do
       do k = 1, n_force_kinds
-         if (scene%forces(k)%info%columns(1)%name /= "i") cycle
          do i = 1, size(scene%forces(k)%items)
             call check_pair(scene%forces(k)%info, scene%forces(k)%items(i))
          end do
@@ -137,20 +138,17 @@ contains
          type(item_t), intent(in) :: item       !! the row
 
          character(:), allocatable :: group, name
-         integer :: body(2), end
+         type(tie_t) :: tie
 
-         do end = 1, 2
-            body(end) = item%values(end)%index
-            if (info%columns(end)%refers_to == "points") body(end) = scene%points%body(body(end))
-         end do
-         if (body(1) /= body(2)) return
+         tie = tie_of(scene, info, item)
+         if (tie%n < 2 .or. tie%body(1) /= tie%body(2)) return
          name = "ground"
-         if (body(1) > 0) name = scene%bodies%names(body(1))%s
+         if (tie%body(1) > 0) name = scene%bodies%names(tie%body(1))%s
          group = "joint"
          if (index(info%name, "force.") == 1) group = "force"
-         call diagnostics%add(item%values(2)%location, group//" '"//item%name//"' ties '"//name//"' to itself", &
-                              "the same body", "columns "//info%columns(1)%name//" and "//info%columns(2)%name// &
-                              " must name two bodies or points of them")
+         call diagnostics%add(item%values(tie%column(2))%location, group//" '"//item%name//"' ties '"//name//"' to itself", &
+                              "the same body", "columns "//info%columns(tie%column(1))%name//" and "// &
+                              info%columns(tie%column(2))%name//" must name two bodies or points of them")
       end subroutine check_pair
 
       !> A length that is left out is the distance of the points at the start, which must not coincide.
@@ -159,23 +157,45 @@ contains
          type(item_t), intent(in) :: item       !! the row
 
          real(wp), parameter :: least = 1.0e-9_wp  ! distance that counts as none, of the points' coordinates [1]
+         type(tie_t) :: tie
          real(wp) :: length, p(3, 2)
          integer :: c, end
 
          c = find_column(info, "length")
          if (c == 0) return
          if (item%values(c)%given) return
+         tie = tie_of(scene, info, item)
          do end = 1, 2
-            p(:, end) = start_position(scene, item%values(end)%index)
+            p(:, end) = start_position(scene, tie%point(end))
          end do
          length = norm2(p(:, 2) - p(:, 1))
          if (length > least*maxval(abs(p))) then
             call add_default(deck, info%name//" "//item%name//" length = "//to_text(length)//" m, the distance at the start")
             return
          end if
-         call diagnostics%add(item%values(2)%location, "joint '"//item%name//"' has no length", &
+         call diagnostics%add(item%values(tie%column(2))%location, "joint '"//item%name//"' has no length", &
                               "the two points coincide at the start", "give the column length, or move the bodies")
       end subroutine check_start_length
+
+      !> Friction in an ideal joint needs a law that gives a force at any motion, and a pin with a radius.
+      subroutine check_friction(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         integer :: law
+
+         law = cell_index(info, item, "friction")
+         if (law == 0) return
+         if (scene%frictions(law)%law%memory == memory_slip) then
+            call diagnostics%add(item%values(column_of(info, "friction"))%location, "friction law '"//item%word("friction")// &
+                                 "' sticks at events, which ideal joints do not have", "not for an ideal joint", &
+                                 "name a smooth law, or friction.dahl or friction.lugre, which hold by bristles")
+         end if
+         if (find_column(info, "radius") == 0) return
+         if (item%number("radius") > 0.0_wp) return
+         call diagnostics%add(item%values(column_of(info, "friction"))%location, "joint '"//item%name//"' rubs at no radius", &
+                              "needs the column radius", "give the radius of the pin")
+      end subroutine check_friction
 
    end subroutine check_meaning
 

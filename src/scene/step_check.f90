@@ -1,6 +1,6 @@
 !> Whether the method of a scene can make the steps that its deck asks for.
 module step_check
-   use columns, only: column_of
+   use item, only: place_of
    use diagnostics, only: diagnostics_t
    use integrator, only: integrator_t, steps_fixed, steps_variable
    use integrator_registry, only: find_integrator
@@ -20,8 +20,8 @@ contains
 
       class(integrator_t), allocatable :: method
 
-      associate (word => scene%dynamic%values(column_of(scene%dynamic_kind, "method")), &
-                 step => scene%dynamic%values(column_of(scene%dynamic_kind, "step")))
+      associate (word => scene%dynamic%values(place_of(scene%dynamic, "method")), &
+                 step => scene%dynamic%values(place_of(scene%dynamic, "step")))
          call find_integrator(word%text, method)
          if (method%steps() == steps_fixed .and. step%number <= 0.0_wp) then
             call diagnostics%add(word%location, "method '"//word%text//"' needs the length of its steps", &
@@ -31,15 +31,15 @@ contains
                                  "it chooses its steps", "leave 'step' out; 'maximum_step' bounds the steps")
          end if
       end associate
-      associate (onset => scene%dynamic%values(column_of(scene%dynamic_kind, "contact_onset")))
+      associate (onset => scene%dynamic%values(place_of(scene%dynamic, "contact_onset")))
          if (onset%text /= "located" .and. method%steps() == steps_variable) then
             call diagnostics%add(onset%location, "'contact_onset = "//onset%text//"' needs a one-step method", &
-                                 "steps of '"//scene%dynamic%values(column_of(scene%dynamic_kind, "method"))%text// &
+                                 "steps of '"//scene%dynamic%word("method")// &
                                  "' hang on those before", "take verner or rk4, or leave onsets located")
          end if
       end associate
-      associate (hold => scene%dynamic%values(column_of(scene%dynamic_kind, "stabilise")), &
-                 step => scene%dynamic%values(column_of(scene%dynamic_kind, "step")))
+      associate (hold => scene%dynamic%values(place_of(scene%dynamic, "stabilise")), &
+                 step => scene%dynamic%values(place_of(scene%dynamic, "step")))
          if (hold%text == "baumgarte_step" .and. step%number <= 0.0_wp) then
             call diagnostics%add(hold%location, "'baumgarte_step' needs steps of one length", &
                                  "its gains would drive the control of the step to ever smaller steps", &

@@ -5,7 +5,8 @@
 !> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less Phi_q a of the bodies whose motion is known.
 !>
 !> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per contact: lost by damping, lost by
-!> friction ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|.
+!> friction; lost by friction in ideal joints, if any rub ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2,
+!> (F_N - F_elastic) delta', F_T |v_T|, and F_T |v| of joints.
 !>
 !> Events: one function per contact of a loose joint, the penetration while free, its negative while touching; with friction
 !> that sticks, another one per contact (`mechanism_friction`). Contacts with bristles have a state each, after the rates.
@@ -21,6 +22,7 @@ module mechanism
    use kinds, only: i8, wp
    use linkage, only: linkage_t
    use loading, only: loading_t, start_loads
+   use rubbing, only: rubbing_t
    implicit none (type, external)
    private
    public :: mechanism_t
@@ -42,6 +44,7 @@ module mechanism
       real(wp), allocatable :: losses(:, :)                 !! (2, contacts) power lost by contact and friction [W]
       integer :: first_turn = 0                             !! event functions before those of turns; 0: no law jumps at a turn
       type(grip_forces_t) :: grips                          !! contacts whose friction remembers
+      type(rubbing_t) :: rubbing                            !! ideal joints that rub
       class(hold_t), allocatable :: way                     !! way of holding the constraints
       logical :: with_ledger = .true.                       !! whether the ledger is kept
       logical :: with_energies = .true.                     !! whether energies are reported, with or without a ledger
@@ -58,8 +61,9 @@ module mechanism
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
       procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
-      procedure :: bristle_place => mechanism_bristle_place
+      procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
       procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
+      procedure :: rub => mechanism_rub, rub_by_multipliers => mechanism_rub_by_multipliers
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
       procedure :: memory_size => mechanism_memory_size, save => mechanism_save, load => mechanism_load
    end type mechanism_t
@@ -104,7 +108,30 @@ module mechanism
          integer, intent(in) :: slot, contact           !! its set, whose law has bristles, and its number there
       end function mechanism_bristle_place
 
-      !> Deflections of bristles from a state into the contacts.
+      !> Place of the deflection of a joint that rubs, by bristles, in the state.
+      pure module integer function mechanism_rubbing_place(self, joint) result(place)
+         implicit none (type, external)
+         class(mechanism_t), intent(in) :: self     !! the system
+         integer, intent(in) :: joint                   !! its number among those that rub
+      end function mechanism_rubbing_place
+
+      !> Friction forces in ideal joints, those of contacts that stick, and the accelerations with them.
+      module subroutine mechanism_rub(self, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system, accelerations without these forces found
+         integer, intent(out) :: status                 !! 0: found
+      end subroutine mechanism_rub
+
+      !> Friction forces in ideal joints by the multipliers that are set, into the loads.
+      module subroutine mechanism_rub_by_multipliers(self, is_steady, is_added, change)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system, its motion and multipliers set
+         logical, intent(in) :: is_steady               !! forces of steady sliding: no deflections are integrated
+         logical, intent(in) :: is_added                !! whether the loads have the last forces in them already
+         real(wp), intent(out) :: change                !! greatest change of a force, of the greatest force [1]
+      end subroutine mechanism_rub_by_multipliers
+
+      !> Deflections of bristles from a state into contacts and joints.
       module subroutine mechanism_take_bristles(self, y)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
@@ -296,7 +323,11 @@ contains
       if (status /= 0) return
       if (self%linkage%rows%n_unknown > 0 .or. self%grips%n_slip > 0) then
          call self%linkage%find_accelerations(self%loading%g, .true., self%grips%n_slip > 0, status)
-         if (status == 0 .and. self%grips%n_slip > 0) call self%stick(status)
+         if (status == 0 .and. self%rubbing%n > 0) then
+            call self%rub(status)  ! and what sticks
+         else if (status == 0 .and. self%grips%n_slip > 0) then
+            call self%stick(status)
+         end if
          if (status /= 0) return
       end if
       associate (linkage => self%linkage, n => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &

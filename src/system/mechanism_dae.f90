@@ -10,6 +10,7 @@ contains
 
    !> What is left of the equations.
    module procedure mechanism_dae_residual
+      real(wp) :: change
       integer :: m, n, n_state
 
       n = self%linkage%n_position
@@ -20,6 +21,10 @@ contains
       call self%linkage%set_motion(t, y)
       call self%evaluate_terms(t, status)
       if (status /= 0) return
+      if (self%rubbing%n > 0) then  ! friction in joints, into g
+         self%linkage%solution%lambda(:m) = lambda
+         call self%rub_by_multipliers(.false., .false., change)
+      end if
       if (self%grips%n_slip > 0) then  ! forces of contacts that stick, into g
          call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
          if (status == 0) call self%stick(status)

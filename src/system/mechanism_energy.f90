@@ -110,6 +110,9 @@ contains
             end do
          end associate
       end do
+      if (system%rubbing%n > 0) then
+         energy%dissipated_friction = energy%dissipated_friction + y(z + n_ledger + 2*system%n_contact + 1)
+      end if
    end function energy_of
 
    !> Whether any contact is touching.

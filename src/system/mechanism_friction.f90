@@ -71,10 +71,10 @@ contains
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
             associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
-               set%grip%tangent(k)%f_t = grips%force(c)
+               set%grip%tangent(k)%f_t = set%grip%tangent(k)%f_t + grips%force(c)
                set%grip%tangent(k)%is_driven = grips%is_fixed(c) &
                                                .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2
-               self%losses(loss_friction, set%first_contact + k) = -grips%force(c)*set%grip%tangent(k)%v
+               self%losses(loss_friction, set%first_contact + k) = -set%grip%tangent(k)%f_t*set%grip%tangent(k)%v
             end associate
          end do
       end associate
@@ -180,7 +180,12 @@ contains
       place = self%linkage%n_position + self%linkage%n_rate + self%clearances(slot)%set%grip%first_bristle + contact
    end procedure mechanism_bristle_place
 
-   !> Deflections of bristles from a state into the contacts.
+   !> Place of the deflection of a joint that rubs in the state.
+   module procedure mechanism_rubbing_place
+      place = self%linkage%n_position + self%linkage%n_rate + self%rubbing%first_bristle + self%rubbing%bristle(joint)
+   end procedure mechanism_rubbing_place
+
+   !> Deflections of bristles from a state into contacts and joints.
    module procedure mechanism_take_bristles
       integer :: k, place
 
@@ -189,6 +194,12 @@ contains
             if (set%grip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 0)
             set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
+         end associate
+      end do
+      do k = 1, self%rubbing%n
+         if (self%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
+            friction%z(self%rubbing%place(k)) = y(self%rubbing_place(k))
          end associate
       end do
    end procedure mechanism_take_bristles
@@ -204,6 +215,12 @@ contains
             ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
          end associate
       end do
+      do k = 1, self%rubbing%n
+         if (self%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
+            ydot(self%rubbing_place(k)) = friction%z_rate(self%rubbing%place(k))
+         end associate
+      end do
    end procedure mechanism_bristle_rates
 
    !> Their scales: the greatest deflections that last.
@@ -215,6 +232,12 @@ contains
             if (set%grip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 0)
             scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
+         end associate
+      end do
+      do k = 1, self%rubbing%n
+         if (self%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
+            scale(self%rubbing_place(k)) = friction%law(self%rubbing%place(k))%law%bristle_scale()
          end associate
       end do
    end procedure mechanism_bristle_weights

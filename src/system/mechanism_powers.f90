@@ -32,6 +32,7 @@ contains
          power(n_ledger + 2*k - 1) = self%losses(1, k)
          power(n_ledger + 2*k) = self%losses(2, k)
       end do
+      if (self%rubbing%n > 0) power(n_ledger + 2*self%n_contact + 1) = self%rubbing%power
    end procedure ledger_rates
 
 end submodule mechanism_powers

@@ -3,20 +3,18 @@ module mechanism_report
    use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
       room_joints
    use bodies, only: bodies_info
+   use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
-   use motion, only: cross
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
    implicit none (type, external)
    private
-   public :: build_catalogue, energy_info, fill_catalogue, joint_channels, report_state
+   public :: build_catalogue, energy_info, fill_catalogue, report_state
 
    character(*), parameter :: contact_channels = " penetration penetration_rate normal_force friction_force state "
       !! channels of a loose joint that belong to its contact
-   character(*), parameter :: joint_channels = " force moment violation violation_rate coordinate displacement power "
-      !! channels of joints and drivers that are filled here; any other one its kind fills by itself
 
 contains
 
@@ -58,7 +56,7 @@ contains
       call catalogue%add_kind(room_bodies, bodies_info())
       do k = 1, size(system%linkage%joints)
          associate (set => system%linkage%joints(k)%set)
-            call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), set%info())
+            call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), joint_info(set, set%friction%n > 0))
          end associate
       end do
       call add_joint_items(system, .false., catalogue)
@@ -123,10 +121,25 @@ contains
       end do
       do k = 1, n
          associate (set => system%linkage%joints(slot(k))%set)
-            call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(k))%s, info=set%info())
+            call catalogue%add_item(merge(room_drivers, room_joints, is_driver), set%names(item(k))%s, &
+                                    info=joint_info(set, any(set%friction%item == item(k))))
          end associate
       end do
    end subroutine add_joint_items
+
+   !> What a set of joints announces, with the channels of friction or without.
+   function joint_info(set, rubs) result(info)
+      class(joint_set_t), intent(in) :: set   !! the set
+      logical, intent(in) :: rubs             !! with these
+      type(kind_info_t) :: info               !! what is reported
+
+      integer :: k
+
+      info = set%info()
+      if (rubs .or. .not. allocated(info%channels)) return
+      info%channels = pack(info%channels, [(index(friction_channels, " "//info%channels(k)%name//" ") == 0, &
+                                            k=1, size(info%channels))])
+   end function joint_info
 
    !> The channels of a joint with clearance that is taken as ideal.
    subroutine ideal_info(info)
@@ -191,9 +204,9 @@ contains
             case (room_bodies)
                call system%linkage%coordinates%report(group%channel%name, system%linkage%motion, group%data)
             case (room_joints)
-               call report_joints(system, .false., group%channel%name, items_with(catalogue, k), group%data)
+               call report_joints(system, .false., catalogue, k)
             case (room_drivers)
-               call report_joints(system, .true., group%channel%name, items_with(catalogue, k), group%data)
+               call report_joints(system, .true., catalogue, k)
             case (room_clearances, room_contacts)
                call report_clearances(system, group%channel%name, group%data)
             case (room_forces)
@@ -205,91 +218,29 @@ contains
       end do
    end subroutine fill_catalogue
 
-   !> Which items of a group's room have its channel.
-   pure function items_with(catalogue, group) result(has)
-      type(catalogue_t), intent(in) :: catalogue  !! the catalogue
-      integer, intent(in) :: group                !! number of the group
-      logical, allocatable :: has(:)              !! (items) whether each has it
+   !> Values of a channel of the joints, or of the drivers: of the sets that have it.
+   subroutine report_joints(system, is_driver, catalogue, group)
+      class(mechanism_t), intent(in) :: system       !! the system
+      logical, intent(in) :: is_driver               !! drivers, not joints
+      type(catalogue_t), intent(inout) :: catalogue  !! values
+      integer, intent(in) :: group                   !! number of the channel's group
 
-      integer :: item
+      logical :: has
+      integer :: k
 
-      allocate (has(size(catalogue%groups(group)%data, 2)))
-      do item = 1, size(has)
-         has(item) = catalogue%item_has(group, item)
-      end do
-   end function items_with
-
-   !> Values of a channel of the joints, or of the drivers.
-   subroutine report_joints(system, is_driver, channel, has, values)
-      class(mechanism_t), intent(in) :: system  !! the system
-      logical, intent(in) :: is_driver              !! drivers, not joints
-      character(*), intent(in) :: channel           !! the channel
-      logical, intent(in) :: has(:)                 !! (items) whether each item has the channel
-      real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
-
-      real(wp) :: force(3), moment(3), rate, value
-      integer :: column, i, k, row
-      logical :: is_known
-
-      do k = 1, size(system%linkage%joints)
-         associate (set => system%linkage%joints(k)%set)
-            if (set%is_driver .neqv. is_driver) cycle
-            do i = 1, set%n
-               column = set%column(i)
-               if (.not. has(column)) cycle
-               row = set%first_row + (i - 1)*set%n_row_item + 1
-               associate (last => row + set%n_row_item - 1)
-                  select case (channel)
-                  case ("force")
-                     call reaction_on_i(system, set, i, force, moment)
-                     if (is_driver) then
-                        ! along its coordinate, on the body of j
-                        values(1, column) = -system%linkage%solution%lambda(row)
-                     else
-                        values(:, column) = force(:size(values, 1))
-                     end if
-                  case ("moment")
-                     call reaction_on_i(system, set, i, force, moment)
-                     values(1, column) = merge(-moment(3), moment(3), is_driver)
-                  case ("violation")
-                     values(1, column) = norm2(system%linkage%rows%phi(row:last))
-                  case ("violation_rate")
-                     values(1, column) = norm2(system%linkage%solution%phi_dot(row:last))
-                  case ("coordinate", "displacement")
-                     call set%coordinate(i, system%linkage%motion, value, rate)
-                     values(1, column) = value
-                  case ("power")
-                     values(1, column) = sum(system%linkage%solution%lambda(row:last)*system%linkage%rows%phi_t(row:last))
-                  case default
-                     call set%report(channel, i, system%linkage%motion, system%linkage%solution%lambda(row:last), values(:, &
-                                     column), is_known)
-                  end select
-               end associate
-            end do
-         end associate
-      end do
+      associate (linkage => system%linkage, channel => catalogue%groups(group)%channel%name)
+         do k = 1, size(linkage%joints)
+            associate (set => linkage%joints(k)%set)
+               if (set%is_driver .neqv. is_driver) cycle
+               has = catalogue%item_has(group, set%column(1))
+               if (set%friction%n > 0) has = has .or. catalogue%item_has(group, set%column(set%friction%item(1)))
+               if (.not. has) cycle
+               call set%report(channel, linkage%motion, linkage%coordinates, linkage%rows, linkage%solution%lambda, &
+                               linkage%solution%phi_dot, catalogue%groups(group)%data)
+            end associate
+         end do
+      end associate
    end subroutine report_joints
-
-   !> Reaction of a joint on body i: force, and moment about the joint's reaction point.
-   subroutine reaction_on_i(system, set, item, force, moment)
-      class(mechanism_t), intent(in) :: system  !! the system
-      class(joint_set_t), intent(in) :: set         !! the joint's set
-      integer, intent(in) :: item                   !! item of the set
-      real(wp), intent(out) :: force(3)             !! (3) force on body i, world frame [N]
-      real(wp), intent(out) :: moment(3)            !! (3) moment on body i about the reaction point [N.m]
-
-      real(wp) :: load(system%linkage%coordinates%n_v)
-      integer :: body, k, row
-
-      load = 0.0_wp
-      body = set%body(1, item)
-      do k = 1, set%n_row_item
-         row = set%first_row + (item - 1)*set%n_row_item + k
-         load = load - system%linkage%rows%jac(:size(load), row)*system%linkage%solution%lambda(row)
-      end do
-      call system%linkage%coordinates%split_load(load, system%linkage%motion, body, force, moment)
-      moment = moment - cross(set%reaction_point(item, system%linkage%motion) - system%linkage%motion%r(:, body), force)
-   end subroutine reaction_on_i
 
    !> Values of a channel of the joints with clearance, loose ones first, then those taken as ideal.
    subroutine report_clearances(system, channel, values)
@@ -304,18 +255,21 @@ contains
          call system%clearances(k)%set%report(channel, system%linkage%motion, values)
       end do
       n = system%n_loose
-      do k = 1, size(system%linkage%ideal)
-         do i = 1, system%linkage%ideal(k)%set%n
-            n = n + 1
-            select case (channel)
-            case ("force")
-               call reaction_on_i(system, system%linkage%ideal(k)%set, i, force, moment)
-               values(:, n) = -force(:size(values, 1))
-            case ("eccentricity")
-               values(:, n) = 0.0_wp
-            end select
+      associate (linkage => system%linkage)
+         do k = 1, size(linkage%ideal)
+            do i = 1, linkage%ideal(k)%set%n
+               n = n + 1
+               select case (channel)
+               case ("force")
+                  call linkage%ideal(k)%set%reaction(i, linkage%motion, linkage%coordinates, linkage%rows, &
+                                                     linkage%solution%lambda, force, moment)
+                  values(:, n) = -force(:size(values, 1))
+               case ("eccentricity")
+                  values(:, n) = 0.0_wp
+               end select
+            end do
          end do
-      end do
+      end associate
    end subroutine report_clearances
 
    !> Values of a channel of the force elements.

@@ -2,15 +2,18 @@
 module joint_bench
    use bodies, only: points_t
    use fixed_random, only: random_t, seed_of
+   use friction_ambrosio, only: friction_ambrosio_t
+   use friction_law, only: friction_slot_t
    use generic_item, only: fill_item
-   use item, only: item_t
+   use item, only: find_place, item_t
+   use joint_friction, only: new_joint_friction
    use joint_registry, only: new_joint_set
    use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, new_motion
    use planar_coordinates, only: set_planar_motion
-   use rows, only: new_rows, rows_t
+   use rows, only: n_v_planar, new_rows, rows_t
    use span, only: span_of
    use text, only: to_text
    implicit none (type, external)
@@ -69,8 +72,11 @@ contains
       end do
       angle(0) = 0.0_wp
       angle(1:) = random%vector(n_body, -2.0_wp, 2.0_wp)
-      call bench%set%new(items, [(2*k - 1, k=1, n_item)], [(2*k, k=1, n_item)], points)
+      call bench%set%new(items, reshape(points%body, [2, n_item]), points%s(:, 1::2), points%s(:, 2::2))
       call bench%set%prepare(items, angle)
+      if (find_place(items(1), "friction") > 0) then
+         call new_joint_friction(items, friction_laws(), bench%set%friction_length(), n_v_planar, bench%set%friction)
+      end if
       bench%set%first_row = before
       call new_rows(before + n_item*info%n_row + 1, bench%rows)
       call bench%set%declare_rows(bench%rows)
@@ -87,6 +93,17 @@ contains
          bench%a(:, k) = random%vector(3, -2.0_wp, 2.0_wp)*[length, length, 1.0_wp]
       end do
    end subroutine make_bench
+
+   !> A law of friction for each item.
+   function friction_laws() result(laws)
+      type(friction_slot_t) :: laws(n_item)  !! (items) the same law
+
+      integer :: k
+
+      do k = 1, n_item
+         allocate (laws(k)%law, source=friction_ambrosio_t(coefficient=0.3_wp, v0=0.0_wp, v1=1.0e-3_wp))
+      end do
+   end function friction_laws
 
    !> Distance of the two points of an item.
    real(wp) function span_between(bench, item) result(length)

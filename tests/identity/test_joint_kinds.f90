@@ -18,11 +18,10 @@ module test_joint_kinds
    use joint_set, only: joint_set_t
    use rows, only: new_rows, rows_t
    use kind_info, only: kind_info_t
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
    use lapack, only: dgelsd
    use motion, only: motion_t, new_motion
-   use planar_coordinates, only: set_planar_motion
-   use mechanism_report, only: joint_channels
+   use planar_coordinates, only: new_planar_coordinates, planar_coordinates_t, set_planar_motion
    use span, only: span_of
    use text, only: text_t, to_text
    implicit none (type, external)
@@ -378,24 +377,54 @@ contains
       end do
    end subroutine test_memory
 
-   !> Every channel of a kind is filled: those of all joints and drivers by the report, its own by the kind.
+   !> Every channel that a kind announces is filled for each of its items, and for no item of another kind; the force of
+   !> a joint is the load -Phi_q^T lambda on body i.
    subroutine test_own_channels(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
+
       type(bench_t) :: bench
       type(kind_info_t) :: info
-      real(wp) :: values(2)
-      integer :: c, kind
-      logical :: is_known
+      type(planar_coordinates_t) :: coordinates
+      real(wp), allocatable :: lambda(:), phi_dot(:), values(:, :)
+      integer :: c, k, kind
+
+      coordinates = new_planar_coordinates()
       do kind = 1, n_joint_kinds
          call make_bench(kind, 1, bench)
+         call evaluate_after(bench, 0.0_wp)
          info = bench%set%info()
+         bench%set%column = [(2*k, k=1, n_item)]
+         lambda = [(1.5_wp + 0.25_wp*k, k=1, bench%rows%n)]
+         phi_dot = times_jacobian(bench%rows, bench%v) + bench%rows%phi_t
          if (.not. allocated(info%channels)) cycle
          do c = 1, size(info%channels)
-            if (index(joint_channels, " "//info%channels(c)%name//" ") > 0) cycle
-            call bench%set%report(info%channels(c)%name, 2, bench%motion, [3.0_wp, 5.0_wp, 7.0_wp], values, is_known)
-            call check_true(error, is_known .and. ieee_is_finite(values(1)), bench%name//": fills "//info%channels(c)%name)
+            values = reshape([(not_a_number(), k=1, info%channels(c)%components*(2*n_item + 1))], &
+                             [info%channels(c)%components, 2*n_item + 1])
+            if (bench%set%friction%n > 0) bench%set%friction%force = [(0.5_wp*k, k=1, n_item)]
+            call bench%set%report(info%channels(c)%name, bench%motion, coordinates, bench%rows, lambda, phi_dot, values)
+            call check_true(error, all(ieee_is_finite(values(:, 2::2))), bench%name//": fills "//info%channels(c)%name)
+            call check_true(error, .not. any(ieee_is_finite(values(:, 1::2))), bench%name//": leaves others alone")
+            if (info%channels(c)%name == "force" .and. .not. bench%set%is_driver) then
+               call check_close(error, reshape(values(:, 2::2), [2*n_item]), reshape(load_on_i(bench, lambda), [2*n_item]), &
+                                1.0e-14_wp, bench%name//": reaction")
+            end if
          end do
       end do
    end subroutine test_own_channels
+
+   !> Force on body i of each item: minus the sum of its rows times their multipliers.
+   function load_on_i(bench, lambda) result(force)
+      type(bench_t), intent(in) :: bench     !! the kind, evaluated
+      real(wp), intent(in) :: lambda(:)      !! (rows) multipliers [N or N.m]
+      real(wp) :: force(2, n_item)           !! (2, items) force [N]
+
+      integer :: first, k
+
+      do k = 1, n_item
+         first = before + (k - 1)*bench%set%n_row_item
+         force(:, k) = -matmul(bench%rows%jac(1:2, first + 1:first + bench%set%n_row_item), &
+                               lambda(first + 1:first + bench%set%n_row_item))
+      end do
+   end function load_on_i
 
 end module test_joint_kinds
