@@ -185,9 +185,9 @@ contains
 
       associate (guided => linkage%reduced%guided%item, rows => linkage%rows)
          linkage%reduced%driven = [linkage%reduced%known%item%body, pack(guided%body, guided%base > 0)]
-         allocate (linkage%reduced%carried(3, rows%n_known + 2*count(guided%base > 0)), source=0)
-         linkage%reduced%carried(:, :rows%n_known) = rows%known
-         n = rows%n_known
+         n = size(rows%known, 2)
+         allocate (linkage%reduced%carried(3, n + 2*count(guided%base > 0)), source=0)
+         linkage%reduced%carried(:, :n) = rows%known
          do k = 1, size(guided)
             if (guided(k)%base == 0) cycle
             do i = 1, 2

@@ -25,6 +25,7 @@ module force_set
       procedure(bodies_interface), deferred :: bodies_of
       procedure :: elastic_energy => force_elastic_energy
       procedure :: lost_power => force_lost_power
+      procedure, nopass :: memory_version => force_memory_version
       procedure :: memory_size => force_memory_size
       procedure :: save => force_save
       procedure :: load => force_load
@@ -101,6 +102,11 @@ contains
 
       power = 0.0_wp*size(motion%angle)*self%n
    end function force_lost_power
+
+   !> Version of the form of what the set saves; a kind that changes it says so.
+   pure integer function force_memory_version() result(version)
+      version = 1
+   end function force_memory_version
 
    !> Numbers that the set must keep in a checkpoint: none, unless the kind says otherwise.
    integer function force_memory_size(self) result(n)

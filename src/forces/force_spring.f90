@@ -15,15 +15,14 @@
 !> actuator has none there anyhow.
 module force_spring
    use bodies, only: points_t
-   use expression, only: expression_t
    use force_set, only: force_set_t
-   use item, only: item_t, place_of
+   use item, only: item_t
    use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_damping, dim_force, dim_length, &
       dim_stiffness, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position
-   use quadrature, only: integral_of
    use span, only: span_of
+   use spring_law, only: spring_law_t
    implicit none (type, external)
    private
    public :: force_spring_t
@@ -33,14 +32,7 @@ module force_spring
       integer, allocatable :: body(:, :)                !! (2, n) bodies i and j, 0: ground
       real(wp), allocatable :: s_i(:, :)                !! (3, n) point of body i, its frame [m]
       real(wp), allocatable :: s_j(:, :)                !! (3, n) point of body j, its frame [m]
-      real(wp), allocatable :: stiffness(:)             !! (n) k [N/m]
-      real(wp), allocatable :: damping(:)               !! (n) c [N.s/m]
-      real(wp), allocatable :: free_length(:)           !! (n) l_0 [m]
-      real(wp), allocatable :: relaxed(:)               !! (n) length without force of the stiffness, l_0 - f_0/k [m]
-      real(wp), allocatable :: constant(:)              !! (n) constant part of the actuator, f_0 without stiffness [N]
-      type(expression_t), allocatable :: law(:)         !! (n) f_l over the stretch [N]
-      logical, allocatable :: has_law(:)                !! (n) whether it is not zero
-      type(expression_t), allocatable :: actuator(:)    !! (n) f_a [N]
+      type(spring_law_t), allocatable :: law(:)         !! (n) tension over length and its rate, and actuator
    contains
       procedure, nopass :: info => spring_info
       procedure :: prepare => spring_prepare
@@ -86,9 +78,7 @@ contains
       integer :: i, j, k
 
       self%n = size(items)
-      allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n), self%actuator(self%n))
-      allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
-      allocate (self%free_length(self%n), self%law(self%n), self%has_law(self%n))
+      allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n), self%law(self%n))
       do k = 1, self%n
          associate (item => items(k))
             i = item%reference("i")
@@ -97,18 +87,7 @@ contains
             self%body(:, k) = [points%body(i), points%body(j)]
             self%s_i(:, k) = points%s(:, i)
             self%s_j(:, k) = points%s(:, j)
-            self%stiffness(k) = item%number("stiffness")
-            self%damping(k) = item%number("damping")
-            self%free_length(k) = item%number("free_length")
-            self%relaxed(k) = item%number("free_length")
-            self%constant(k) = item%number("preload")
-            if (self%stiffness(k) > 0.0_wp) then
-               self%relaxed(k) = self%relaxed(k) - self%constant(k)/self%stiffness(k)
-               self%constant(k) = 0.0_wp
-            end if
-            self%actuator(k) = item%values(place_of(item, "actuator"))%expression
-            self%law(k) = item%values(place_of(item, "law"))%expression
-            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(item%number("law")) > 0.0_wp
+            call self%law(k)%prepare(item, "free_length")
          end associate
       end do
    end subroutine spring_prepare
@@ -125,15 +104,8 @@ contains
       real(wp), intent(out) :: tension           !! force that pulls the points together [N]
       real(wp), intent(out) :: actuator          !! the actuator's part of it [N]
 
-      real(wp) :: by_law, first_derivative, second_derivative
-
       call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
-      call self%actuator(k)%evaluate(t, actuator, first_derivative, second_derivative)
-      actuator = actuator + self%constant(k)
-      tension = self%stiffness(k)*(length - self%relaxed(k)) + self%damping(k)*rate + actuator
-      if (.not. self%has_law(k)) return
-      call self%law(k)%evaluate(length - self%free_length(k), by_law, first_derivative, second_derivative)
-      tension = tension + by_law
+      call self%law(k)%force(t, length, rate, tension, actuator)
    end subroutine tension_of
 
    !> Add the loads of all items; the power is that of the actuators.
@@ -168,8 +140,7 @@ contains
       energy = 0.0_wp
       do k = 1, self%n
          call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
-         energy = energy + 0.5_wp*self%stiffness(k)*(length - self%relaxed(k))**2
-         if (self%has_law(k)) energy = energy + integral_of(self%law(k), length - self%free_length(k))
+         energy = energy + self%law(k)%energy(length)
       end do
    end function spring_elastic_energy
 
@@ -184,7 +155,7 @@ contains
       power = 0.0_wp
       do k = 1, self%n
          call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
-         power = power + self%damping(k)*rate*rate
+         power = power + self%law(k)%damping*rate*rate
       end do
    end function spring_lost_power
 

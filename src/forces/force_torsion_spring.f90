@@ -13,14 +13,13 @@
 !> section 2.3; Nikravesh, Computer-aided analysis of mechanical systems (1988), chapter 9. Limits: none.
 module force_torsion_spring
    use bodies, only: points_t
-   use expression, only: expression_t
    use force_set, only: force_set_t
-   use item, only: item_t, place_of
+   use item, only: item_t
    use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_angle, dim_angular_damping, &
       dim_angular_stiffness, dim_moment, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use quadrature, only: integral_of
+   use spring_law, only: spring_law_t
    implicit none (type, external)
    private
    public :: force_torsion_spring_t
@@ -28,14 +27,7 @@ module force_torsion_spring
    !> All torsional springs.
    type, extends(force_set_t) :: force_torsion_spring_t
       integer, allocatable :: body(:, :)                !! (2, n) bodies i and j, 0: ground
-      real(wp), allocatable :: stiffness(:)             !! (n) k [N.m/rad]
-      real(wp), allocatable :: damping(:)               !! (n) c [N.m.s/rad]
-      real(wp), allocatable :: free_angle(:)            !! (n) phi_0 [rad]
-      real(wp), allocatable :: relaxed(:)               !! (n) angle without moment of the stiffness, phi_0 - m_0/k [rad]
-      real(wp), allocatable :: constant(:)              !! (n) constant part of the actuator, m_0 without stiffness [N.m]
-      type(expression_t), allocatable :: law(:)         !! (n) m_l over the angle [N.m]
-      logical, allocatable :: has_law(:)                !! (n) whether it is not zero
-      type(expression_t), allocatable :: actuator(:)    !! (n) m_a [N.m]
+      type(spring_law_t), allocatable :: law(:)         !! (n) moment over angle and its rate, and actuator
    contains
       procedure, nopass :: info => torsion_info
       procedure :: prepare => torsion_prepare
@@ -80,25 +72,12 @@ contains
       integer :: k
 
       self%n = size(items)
-      allocate (self%names(self%n), self%body(2, self%n), self%actuator(self%n))
-      allocate (self%stiffness(self%n), self%damping(self%n), self%relaxed(self%n), self%constant(self%n))
-      allocate (self%free_angle(self%n), self%law(self%n), self%has_law(self%n))
+      allocate (self%names(self%n), self%body(2, self%n), self%law(self%n))
       do k = 1, self%n
          associate (item => items(k))
             self%names(k)%s = items(k)%name
             self%body(:, k) = [item%reference("i"), item%reference("j")]
-            self%stiffness(k) = item%number("stiffness")
-            self%damping(k) = item%number("damping")
-            self%free_angle(k) = item%number("free_angle")
-            self%relaxed(k) = item%number("free_angle")
-            self%constant(k) = item%number("preload")
-            if (self%stiffness(k) > 0.0_wp) then
-               self%relaxed(k) = self%relaxed(k) - self%constant(k)/self%stiffness(k)
-               self%constant(k) = 0.0_wp
-            end if
-            self%actuator(k) = item%values(place_of(item, "actuator"))%expression
-            self%law(k) = item%values(place_of(item, "law"))%expression
-            self%has_law(k) = .not. self%law(k)%is_constant .or. abs(item%number("law")) > 0.0_wp
+            call self%law(k)%prepare(item, "free_angle")
          end associate
       end do
    end subroutine torsion_prepare
@@ -114,16 +93,9 @@ contains
       real(wp), intent(out) :: moment                    !! on the body of i [N.m]
       real(wp), intent(out) :: actuator                  !! the actuator's part of it [N.m]
 
-      real(wp) :: by_law, first_derivative, second_derivative
-
       angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
       rate = motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k))
-      call self%actuator(k)%evaluate(t, actuator, first_derivative, second_derivative)
-      actuator = actuator + self%constant(k)
-      moment = self%stiffness(k)*(angle - self%relaxed(k)) + self%damping(k)*rate + actuator
-      if (.not. self%has_law(k)) return
-      call self%law(k)%evaluate(angle - self%free_angle(k), by_law, first_derivative, second_derivative)
-      moment = moment + by_law
+      call self%law(k)%force(t, angle, rate, moment, actuator)
    end subroutine moment_of
 
    !> Add the loads of all items; the power is that of the actuators.
@@ -158,8 +130,7 @@ contains
       energy = 0.0_wp
       do k = 1, self%n
          angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
-         energy = energy + 0.5_wp*self%stiffness(k)*(angle - self%relaxed(k))**2
-         if (self%has_law(k)) energy = energy + integral_of(self%law(k), angle - self%free_angle(k))
+         energy = energy + self%law(k)%energy(angle)
       end do
    end function torsion_elastic_energy
 
@@ -172,7 +143,7 @@ contains
 
       power = 0.0_wp
       do k = 1, self%n
-         power = power + self%damping(k)*(motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k)))**2
+         power = power + self%law(k)%damping*(motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k)))**2
       end do
    end function torsion_lost_power
 

@@ -25,6 +25,8 @@ module hold
       procedure :: begin_step => hold_begin_step
       procedure :: correct_stage => hold_correct
       procedure :: correct_step => hold_correct
+      procedure, nopass :: memory_version => hold_memory_version
+      procedure, nopass :: is_memory_fixed => hold_is_memory_fixed
       procedure :: memory_size => hold_memory_size
       procedure :: save => hold_save
       procedure :: load => hold_load
@@ -99,6 +101,16 @@ contains
 
       status = 0
    end subroutine hold_correct
+
+   !> Version of the form of what the way saves; one that changes it says so.
+   pure integer function hold_memory_version() result(version)
+      version = 1
+   end function hold_memory_version
+
+   !> Whether the way saves as many numbers at any time: it does, unless the way says otherwise.
+   pure logical function hold_is_memory_fixed() result(is_fixed)
+      is_fixed = .true.
+   end function hold_is_memory_fixed
 
    !> Numbers that a checkpoint needs: none, unless the way says otherwise.
    integer function hold_memory_size(self) result(n)

@@ -44,6 +44,7 @@ module hold_partitioning
       procedure :: configure => partitioning_configure
       procedure :: correct_stage => partitioning_correct
       procedure :: correct_step => partitioning_correct_step
+      procedure, nopass :: is_memory_fixed => partitioning_is_memory_fixed
       procedure :: memory_size => partitioning_memory_size
       procedure :: save => partitioning_save
       procedure :: load => partitioning_load
@@ -223,6 +224,11 @@ contains
       least = minval([(abs(self%jac(k, k)), k=1, self%rank)])
       if (least < worse*self%quality*greatest) call sort_coordinates(self, linkage)
    end subroutine check_quality
+
+   !> The order of the coordinates is not there before the first evaluation.
+   pure logical function partitioning_is_memory_fixed() result(is_fixed)
+      is_fixed = .false.
+   end function partitioning_is_memory_fixed
 
    !> Numbers that a checkpoint needs: rank, quality and order, once there are any.
    integer function partitioning_memory_size(self) result(n)

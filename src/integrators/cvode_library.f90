@@ -26,9 +26,8 @@ module cvode_library
    use fsunmatrix_dense_mod, only: fsundensematrix
    use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
    use kinds, only: wp
-   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunlinsolfree, fsunmatdestroy, fsunnonlinsolfree, n_vector, new_cvode, &
-      sunindextype, sunlinearsolver, sunmatrix, sunnonlinearsolver
-   use sundials_library, only: dense_block, increments, library_t, note, problem_t
+   use sundials, only: fn_vgetarraypointer, fsunnonlinsolfree, n_vector, new_cvode, sunindextype, sunmatrix, sunnonlinearsolver
+   use sundials_library, only: dense_block, increments, library_t, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: cvode_library_t
@@ -39,11 +38,6 @@ module cvode_library
    !> CVODE with its objects.
    type, extends(library_t) :: cvode_library_t
       logical :: is_stiff = .false.                             !! BDF, else Adams
-      type(c_ptr) :: memory = c_null_ptr                        !! CVODE's memory
-      type(n_vector), pointer :: state => null()                !! state of the last step
-      type(n_vector), pointer :: look => null()                 !! state looked back at
-      type(sunmatrix), pointer :: jacobian => null()            !! BDF: of the right-hand side
-      type(sunlinearsolver), pointer :: linear => null()        !! BDF: solves Newton's equations
       type(sunnonlinearsolver), pointer :: fixed_point => null()  !! Adams: solves the implicit equations
    contains
       procedure :: begin => cvode_begin
@@ -113,12 +107,7 @@ contains
       call note(fcvodesetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fcvodewftolerances(self%memory, c_funloc(weigh)), status)
       if (self%is_stiff .and. self%problem%is_large()) then
-         associate (system => self%problem%system)
-            select type (system)
-            class is (dae_system_t)
-               call self%problem%newton%start(system)
-            end select
-         end associate
+         call self%problem%start_newton()
          self%linear => fsunlinsol_spgmr(self%state, on_the_left, most_directions, self%context)
          self%problem%lacks_memory = .not. associated(self%linear)
          if (associated(self%linear)) then
@@ -206,10 +195,6 @@ contains
 
       if (c_associated(self%memory)) call fcvodefree(self%memory)
       if (associated(self%fixed_point)) status = fsunnonlinsolfree(self%fixed_point)
-      if (associated(self%linear)) status = fsunlinsolfree(self%linear)
-      if (associated(self%jacobian)) call fsunmatdestroy(self%jacobian)
-      if (associated(self%look)) call fn_vdestroy(self%look)
-      if (associated(self%state)) call fn_vdestroy(self%state)
       call self%close()
    end subroutine cvode_free
 
@@ -232,22 +217,6 @@ contains
       call problem%evaluate(t, state, rate, outcome)
       status = int(outcome, c_int)
    end function right_hand_side
-
-   !> Error weights.
-   integer(c_int) function weigh(y, weight, user_data) bind(c, name="") result(status)
-      type(n_vector), intent(inout) :: y        !! state
-      type(n_vector), intent(inout) :: weight   !! its weights
-      type(c_ptr), value :: user_data           !! the problem
-
-      type(problem_t), pointer :: problem
-      real(c_double), pointer :: state(:), weights(:)
-
-      call c_f_pointer(user_data, problem)
-      state => fn_vgetarraypointer(y)
-      weights => fn_vgetarraypointer(weight)
-      call problem%set_weights(state, weights)
-      status = 0
-   end function weigh
 
    !> Jacobian of the right-hand side by forward differences.
    integer(c_int) function differentiate(t, y, ydot, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &

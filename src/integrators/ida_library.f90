@@ -31,9 +31,8 @@ module ida_library
    use fsunmatrix_sparse_mod, only: fsunsparsematrix, fsunsparsematrix_data, fsunsparsematrix_indexpointers, &
       fsunsparsematrix_indexvalues
    use kinds, only: wp
-   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunlinsolfree, fsunmatdestroy, n_vector, new_ida, sunindextype, &
-      sunlinearsolver, sunmatrix
-   use sundials_library, only: dense_block, increments, library_t, note, problem_t
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, n_vector, new_ida, sunindextype, sunmatrix
+   use sundials_library, only: dense_block, increments, library_t, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: ida_library_t
@@ -42,12 +41,7 @@ module ida_library
 
    !> IDA with its objects.
    type, extends(library_t) :: ida_library_t
-      type(c_ptr) :: memory = c_null_ptr               !! IDA's memory
-      type(n_vector), pointer :: state => null()       !! u of the last step
       type(n_vector), pointer :: rate => null()        !! its derivative
-      type(n_vector), pointer :: look => null()        !! u looked back at
-      type(sunmatrix), pointer :: jacobian => null()   !! of the residual
-      type(sunlinearsolver), pointer :: linear => null()  !! solves Newton's equations
    contains
       procedure :: begin => ida_begin
       procedure :: step => ida_step
@@ -139,7 +133,7 @@ contains
       call note(fidasetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fidawftolerances(self%memory, c_funloc(weigh)), status)
       if (self%problem%is_large()) then
-         call start_newton(self%problem)
+         call self%problem%start_newton()
          self%jacobian => fsunsparsematrix(n, n, int(size(self%problem%newton%row), sunindextype), by_columns, self%context)
          if (associated(self%jacobian)) self%linear => fsunlinsol_klu(self%state, self%jacobian, self%context)
       else
@@ -215,14 +209,8 @@ contains
    subroutine ida_free(self)
       type(ida_library_t), intent(inout) :: self   !! the library
 
-      integer :: status
-
       if (c_associated(self%memory)) call fidafree(self%memory)
-      if (associated(self%linear)) status = fsunlinsolfree(self%linear)
-      if (associated(self%jacobian)) call fsunmatdestroy(self%jacobian)
-      if (associated(self%look)) call fn_vdestroy(self%look)
       if (associated(self%rate)) call fn_vdestroy(self%rate)
-      if (associated(self%state)) call fn_vdestroy(self%state)
       call self%close()
    end subroutine ida_free
 
@@ -274,22 +262,6 @@ contains
       call find_residual(problem, t, numbers, rates, rest, outcome)
       status = int(outcome, c_int)
    end function residual
-
-   !> Error weights.
-   integer(c_int) function weigh(u, weight, user_data) bind(c, name="") result(status)
-      type(n_vector), intent(inout) :: u        !! state and multipliers
-      type(n_vector), intent(inout) :: weight   !! their weights
-      type(c_ptr), value :: user_data           !! the problem
-
-      type(problem_t), pointer :: problem
-      real(c_double), pointer :: numbers(:), weights(:)
-
-      call c_f_pointer(user_data, problem)
-      numbers => fn_vgetarraypointer(u)
-      weights => fn_vgetarraypointer(weight)
-      call problem%set_weights(numbers(:problem%system%n), weights)
-      status = 0
-   end function weigh
 
    !> Jacobian dF/du + c dF/du' by forward differences.
    integer(c_int) function differentiate(t, c, u, rate, left, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &
@@ -346,18 +318,6 @@ contains
       end do
       status = int(outcome, c_int)
    end function differentiate
-
-   !> The structure of a large system's matrix.
-   subroutine start_newton(problem)
-      type(problem_t), intent(inout) :: problem  !! the problem
-
-      associate (system => problem%system)
-         select type (system)
-         class is (dae_system_t)
-            call problem%newton%start(system)
-         end select
-      end associate
-   end subroutine start_newton
 
    !> The Jacobian of a large system.
    subroutine fill_sparse(problem, t, c, u, rate, matrix, status)

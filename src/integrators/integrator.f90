@@ -4,6 +4,7 @@
 !> then `step` holds both ends of it. After a change of the system (an event handled) `restart`
 !> must be called before the next step.
 module integrator
+   use checkpoint, only: add_piece, piece_t
    use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_mixed, norm_relative, onset_located
    use interpolation, only: inner_places, interpolate, step_t
    use kind_info, only: kind_info_t
@@ -28,6 +29,8 @@ module integrator
    integer, parameter :: steps_any = 0        !! fixed steps, or variable ones
    integer, parameter :: steps_fixed = 1      !! fixed steps only
    integer, parameter :: steps_variable = 2   !! variable steps only
+
+   integer, parameter :: base_version = 1     !! of the form of what every integrator saves
 
    !> An integrator with its state.
    type, abstract :: integrator_t
@@ -64,6 +67,8 @@ module integrator
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
       procedure :: state_at => integrator_state_at
+      procedure :: list_memory => integrator_list_memory
+      procedure, nopass :: memory_version => integrator_memory_version
       procedure :: memory_size => integrator_memory_size
       procedure :: save => integrator_save
       procedure :: load => integrator_load
@@ -259,6 +264,23 @@ contains
          call system%weights(y, self%scale)
       end select
    end subroutine set_scales
+
+   !> List what the integrator saves: what every one keeps, then what the method adds.
+   subroutine integrator_list_memory(self, pieces)
+      class(integrator_t), intent(in) :: self                 !! the integrator
+      type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+
+      type(kind_info_t) :: info
+
+      info = self%info()
+      call add_piece(pieces, "the state", base_version, self%base_memory_size())
+      call add_piece(pieces, "method = "//info%name, self%memory_version(), self%memory_size() - self%base_memory_size())
+   end subroutine integrator_list_memory
+
+   !> Version of the form of what the method adds; one that changes what it saves says so.
+   pure integer function integrator_memory_version() result(version)
+      version = 1
+   end function integrator_memory_version
 
    !> Numbers that a checkpoint needs; a method that remembers more adds to it.
    integer function integrator_memory_size(self) result(n)

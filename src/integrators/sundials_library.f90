@@ -15,10 +15,11 @@ module sundials_library
    use kinds, only: eps, wp
    use newton_matrix, only: newton_matrix_t
    use ode_system, only: ode_system_t
-   use sundials, only: fsuncontext_free, new_context, sunmatrix
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, n_vector, new_context, &
+      sunlinearsolver, sunmatrix
    implicit none (type, external)
    private
-   public :: dense_block, increments, library_t, note, problem_t
+   public :: dense_block, increments, library_t, note, problem_t, weigh
 
    real(wp), parameter :: no_weight = 1.0e-30_wp  !! weight of what stays out of the norm; nought would be divided by [any]
 
@@ -37,6 +38,7 @@ module sundials_library
       procedure :: count_evaluation
       procedure :: set_weights
       procedure :: is_large => problem_is_large
+      procedure :: start_newton
       procedure :: fill_newton
    end type problem_t
 
@@ -44,6 +46,11 @@ module sundials_library
    type, abstract :: library_t
       type(problem_t), pointer :: problem => null()   !! what it hands back
       type(c_ptr) :: context = c_null_ptr             !! of all its objects
+      type(c_ptr) :: memory = c_null_ptr              !! the library's own
+      type(n_vector), pointer :: state => null()      !! numbers of the last step
+      type(n_vector), pointer :: look => null()       !! numbers looked back at
+      type(sunmatrix), pointer :: jacobian => null()  !! of what Newton's iteration solves, if there is a matrix
+      type(sunlinearsolver), pointer :: linear => null()  !! solves Newton's equations
    contains
       procedure(begin_interface), deferred :: begin
       procedure(step_interface), deferred :: step
@@ -149,6 +156,18 @@ contains
       end associate
    end function problem_is_large
 
+   !> The structure of the matrix of Newton's equations of a large system.
+   subroutine start_newton(self)
+      class(problem_t), intent(inout) :: self  !! the problem
+
+      associate (system => self%system)
+         select type (system)
+         class is (dae_system_t)
+            call self%newton%start(system)
+         end select
+      end associate
+   end subroutine start_newton
+
    !> The matrix of Newton's equations of a large system, dF/du + c dF/du' at u = (y, lambda, mu); its structure is there.
    subroutine fill_newton(self, t, c, y, ydot, lambda, mu, status)
       class(problem_t), intent(inout) :: self        !! the problem
@@ -242,12 +261,16 @@ contains
       status = new_context(self%context)
    end subroutine library_open
 
-   !> Free both; the objects of the context must be gone.
+   !> Free all that every library has; its own memory and objects must be gone.
    subroutine library_close(self)
       class(library_t), intent(inout) :: self  !! the library
 
       integer :: status
 
+      if (associated(self%linear)) status = fsunlinsolfree(self%linear)
+      if (associated(self%jacobian)) call fsunmatdestroy(self%jacobian)
+      if (associated(self%look)) call fn_vdestroy(self%look)
+      if (associated(self%state)) call fn_vdestroy(self%state)
       if (.not. associated(self%problem)) return
       deallocate (self%problem)
       status = fsuncontext_free(self%context)
@@ -260,5 +283,21 @@ contains
       status = merge(advance_failed_evaluation, advance_too_small, self%problem%is_fatal)
       if (self%problem%is_used_up) status = advance_too_many_evaluations
    end function library_failure
+
+   !> Error weights, as the libraries ask for them.
+   integer(c_int) function weigh(u, weight, user_data) bind(c, name="") result(status)
+      type(n_vector), intent(inout) :: u        !! state, and what follows it
+      type(n_vector), intent(inout) :: weight   !! their weights
+      type(c_ptr), value :: user_data           !! the problem
+
+      type(problem_t), pointer :: problem
+      real(c_double), pointer :: numbers(:), weights(:)
+
+      call c_f_pointer(user_data, problem)
+      numbers => fn_vgetarraypointer(u)
+      weights => fn_vgetarraypointer(weight)
+      call problem%set_weights(numbers(:problem%system%n), weights)
+      status = 0
+   end function weigh
 
 end module sundials_library

@@ -178,7 +178,7 @@ contains
       associate (rows => self%rows, motion => self%motion, solution => self%solution)
          call right_hand_side(rows, self%bodies%n, motion%v, motion%omega, solution%alpha, solution%beta, solution%phi_dot, &
                               solution%b)
-         if (rows%n_known > 0) call take_known(rows, self%bodies%n, motion%a, motion%alpha, solution%b)
+         if (size(rows%known, 2) > 0) call take_known(rows, self%bodies%n, motion%a, motion%alpha, solution%b)
       end associate
    end subroutine linkage_evaluate_rows
 

@@ -27,8 +27,7 @@ module rows
       integer :: n_side = 0                     !! sides of solved rows that are unknown bodies
       integer, allocatable :: side(:, :)        !! (3, sides) row, place before its entries in `jac`, body; sorted by body
       integer, allocatable :: last_side(:)      !! (0:bodies) last side of each body; of body 0: 0
-      integer :: n_known = 0                    !! sides of solved rows that are known bodies other than the ground
-      integer, allocatable :: known(:, :)       !! (3, known sides) row, place before its entries in `jac`, body
+      integer, allocatable :: known(:, :)       !! (3, sides of solved rows that are known bodies, the ground none) as `side`
       real(wp), allocatable :: phi(:)           !! (n) Phi [m or rad]
       real(wp), allocatable :: phi_t(:)         !! (n) partial time derivative of Phi [m/s or rad/s]
       real(wp), allocatable :: jac(:, :)        !! (2 n_v, n) Phi_q [1 or m]
@@ -48,6 +47,7 @@ contains
       rows%n_solve = n
       allocate (rows%body(2, n), source=0)
       allocate (rows%is_angle(n), source=.false.)
+      allocate (rows%known(3, 0))
       allocate (rows%phi(n), rows%phi_t(n), rows%gam(n), rows%jac(2*rows%n_v, n), source=0.0_wp)
    end subroutine new_rows
 
@@ -57,19 +57,19 @@ contains
       logical, intent(in) :: is_known(:)   !! (bodies) whether the motion of a body is a known function of time
       type(rows_t), intent(inout) :: rows  !! rows; their sides are listed
 
-      integer :: body, k, n_body, row, side
+      integer :: body, k, n_body, n_known, row, side
 
       n_body = size(is_known)
       rows%unknown = pack([(body, body=1, n_body)], .not. is_known)
       rows%n_unknown = size(rows%unknown)
       allocate (rows%last_side(0:n_body), source=0)
-      rows%n_known = 0
+      n_known = 0
       do row = 1, rows%n_solve
          do side = 1, 2
             body = rows%body(side, row)
             if (body == 0) cycle
             if (is_known(body)) then
-               rows%n_known = rows%n_known + 1
+               n_known = n_known + 1
             else
                rows%last_side(body) = rows%last_side(body) + 1
             end if
@@ -79,15 +79,16 @@ contains
          rows%last_side(body) = rows%last_side(body - 1) + rows%last_side(body)
       end do
       rows%n_side = rows%last_side(n_body)
-      allocate (rows%side(3, rows%n_side), rows%known(3, rows%n_known), source=0)
-      rows%n_known = 0
+      deallocate (rows%known)
+      allocate (rows%side(3, rows%n_side), rows%known(3, n_known), source=0)
+      n_known = 0
       do row = rows%n_solve, 1, -1
          do side = 2, 1, -1
             body = rows%body(side, row)
             if (body == 0) cycle
             if (is_known(body)) then
-               rows%n_known = rows%n_known + 1
-               rows%known(:, rows%n_known) = [row, side_place(rows%n_v, row, side), body]
+               n_known = n_known + 1
+               rows%known(:, n_known) = [row, side_place(rows%n_v, row, side), body]
             else
                k = rows%last_side(body)
                rows%last_side(body) = k - 1

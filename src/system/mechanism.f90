@@ -14,6 +14,7 @@
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module mechanism
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use checkpoint, only: piece_t
    use clearance_set, only: clearance_slot_t
    use dae_system, only: dae_system_t
    use grip_forces, only: grip_forces_t
@@ -65,6 +66,7 @@ module mechanism
       procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
       procedure :: rub => mechanism_rub, rub_by_multipliers => mechanism_rub_by_multipliers
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
+      procedure :: list_memory => mechanism_list_memory
       procedure :: memory_size => mechanism_memory_size, save => mechanism_save, load => mechanism_load
    end type mechanism_t
 
@@ -176,7 +178,14 @@ module mechanism
          integer, intent(in) :: slot, k                 !! set of the contact, and its number there
       end subroutine mechanism_decide_slip
 
-      !> Numbers that a checkpoint needs: the memory of all sets and the counters.
+      !> List what the system saves, in the order in which it does.
+      module subroutine mechanism_list_memory(self, pieces)
+         implicit none (type, external)
+         class(mechanism_t), intent(in) :: self                  !! the system
+         type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+      end subroutine mechanism_list_memory
+
+      !> Numbers that a checkpoint needs: those of all its pieces.
       module integer function mechanism_memory_size(self) result(n)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self     !! the system

@@ -1,24 +1,66 @@
 !> What a planar scene remembers, for checkpoints.
 submodule(mechanism) mechanism_memory
+   use checkpoint, only: add_piece, size_of_pieces
+   use kind_info, only: kind_info_t
    use memory, only: get, put
+   use text, only: join, text_t
    implicit none (type, external)
+
+   ! versions of the forms of what is saved: raised where that changes
+   integer, parameter :: equations_version = 1  !! of the counters, the pace and the stretch of smooth time
+   integer, parameter :: joint_version = 1      !! of sets of joints and drivers
+   integer, parameter :: contact_version = 1    !! of sets of joints with clearance
+   integer, parameter :: n_equations = 9        !! numbers of the first of them
 
 contains
 
-   !> Numbers that a checkpoint needs: the memory of all sets, the counters, the pace and the stretch of smooth time.
-   module procedure mechanism_memory_size
+   !> List what the system saves: the counters, the pace and the stretch of smooth time; the way of holding the constraints; the
+   !> sets that remember something.
+   module procedure mechanism_list_memory
+      type(kind_info_t) :: info
       integer :: k
 
-      n = 9 + self%way%memory_size()
+      call add_piece(pieces, "the equations", equations_version, n_equations)
+      call add_piece(pieces, "stabilise = "//self%way%name(), self%way%memory_version(), self%way%memory_size(), &
+                     self%way%is_memory_fixed())
       do k = 1, size(self%linkage%joints)
-         n = n + self%linkage%joints(k)%set%memory_size()
+         associate (set => self%linkage%joints(k)%set)
+            info = set%info()
+            call add_set(info%name, set%names, joint_version, set%memory_size(), pieces)
+         end associate
       end do
       do k = 1, size(self%loading%forces)
-         n = n + self%loading%forces(k)%set%memory_size()
+         associate (set => self%loading%forces(k)%set)
+            info = set%info()
+            call add_set(info%name, set%names, set%memory_version(), set%memory_size(), pieces)
+         end associate
       end do
       do k = 1, size(self%clearances)
-         n = n + self%clearances(k)%set%memory_size()
+         associate (set => self%clearances(k)%set)
+            info = set%info()
+            call add_set(info%name, set%names, contact_version, set%memory_size(), pieces)
+         end associate
       end do
+   end procedure mechanism_list_memory
+
+   !> List a set, if it remembers anything, by its kind and its items.
+   subroutine add_set(kind, names, version, n, pieces)
+      character(*), intent(in) :: kind                        !! as `clearance.revolute`
+      type(text_t), intent(in) :: names(:)                    !! (items) their names
+      integer, intent(in) :: version                          !! of the form of what the set saves
+      integer, intent(in) :: n                                !! numbers that it saves
+      type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+
+      if (n == 0) return
+      call add_piece(pieces, kind//" '"//join(names, "', '")//"'", version, n)
+   end subroutine add_set
+
+   !> Numbers that a checkpoint needs.
+   module procedure mechanism_memory_size
+      type(piece_t), allocatable :: pieces(:)
+
+      call self%list_memory(pieces)
+      n = size_of_pieces(pieces)
    end procedure mechanism_memory_size
 
    !> Write what the system remembers.
@@ -28,11 +70,11 @@ contains
       call put(row, place, self%n_evaluations)
       call put(row, place, self%linkage%solution%n_damped)
       call put(row, place, [self%linkage%scales%pace, self%linkage%scales%late_rate, self%grips%h])
-      call self%way%save(row, place)
       call put(row, place, self%linkage%solution%solver%n_factorisations)
       call put(row, place, self%linkage%piece%low)
       call put(row, place, self%linkage%piece%high)
       call put(row, place, self%linkage%piece%end)
+      call self%way%save(row, place)
       do k = 1, size(self%linkage%joints)
          call self%linkage%joints(k)%set%save(row, place)
       end do
@@ -53,11 +95,11 @@ contains
       call get(row, place, self%linkage%scales%pace)
       call get(row, place, self%linkage%scales%late_rate)
       call get(row, place, self%grips%h)
-      call self%way%load(row, place)
       call get(row, place, self%linkage%solution%solver%n_factorisations)
       call get(row, place, self%linkage%piece%low)
       call get(row, place, self%linkage%piece%high)
       call get(row, place, self%linkage%piece%end)
+      call self%way%load(row, place)
       do k = 1, size(self%linkage%joints)
          call self%linkage%joints(k)%set%load(row, place)
       end do

@@ -14,7 +14,7 @@ contains
       associate (linkage => self%linkage, rows => self%linkage%rows, motion => self%linkage%motion, &
                  driven => self%linkage%reduced%driven)
          if (linkage%reduced%known%n > 0) then
-            power(work_drive) = power_of_known(size(driven), driven, rows%n_known, rows%known, linkage%bodies%n, rows%n, &
+            power(work_drive) = power_of_known(size(driven), driven, size(rows%known, 2), rows%known, linkage%bodies%n, rows%n, &
                                                linkage%mass, self%loading%g, rows%jac, linkage%solution%lambda, motion%v, &
                                                motion%omega, motion%a, motion%alpha)
          end if

@@ -1,17 +1,17 @@
 !> Saved, loaded into fresh objects and gone on with, a run is equal bit for bit; so is a run repeated.
 !>
-!> What a checkpoint needs is the memory of the integrator, that of the system, and what the
-!> analysis keeps of each contact at the end of the last step (`contact_watch_t`).
+!> What is saved and refused by name: test_restart_refused.
 module test_restart
    use catalogue, only: room_bodies
    use check, only: check_close, check_equal, check_true, suite_t
+   use checkpoint, only: checkpoint_t
    use contact_watch, only: contact_watch_t, new_contact_watch
    use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t, run_to_end
    use errors, only: error_t
    use integrator, only: advance_event
    use kinds, only: wp
-   use memory, only: get, put
    use recorder, only: event_t, summary_t
+   use run_memory, only: load_run_memory, save_run_memory
    use scratch_deck, only: remove_scratch, write_scratch
    use slip_watch, only: decide_next
    implicit none (type, external)
@@ -102,30 +102,20 @@ contains
    end subroutine make_step
 
    !> Write all that a run must remember.
-   subroutine save_run(run, row)
+   subroutine save_run(run, checkpoint)
       type(run_t), intent(in) :: run                     !! the run
-      real(wp), allocatable, intent(out) :: row(:)       !! (numbers) its memory [any]
+      type(checkpoint_t), intent(inout) :: checkpoint    !! its memory
 
-      integer :: place
-
-      allocate (row(run%loaded%method%memory_size() + run%loaded%system%memory_size() + run%watch%memory_size()), source=0.0_wp)
-      place = 0
-      call run%loaded%method%save(row, place)
-      call run%loaded%system%save(row, place)
-      call run%watch%save(row, place)
+      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, checkpoint)
    end subroutine save_run
 
    !> Take it back into a run that has just begun.
-   subroutine load_run(run, row)
-      type(run_t), intent(inout) :: run     !! a fresh run
-      real(wp), intent(in) :: row(:)        !! (numbers) memory [any]
+   subroutine load_run(run, checkpoint, error)
+      type(run_t), intent(inout) :: run                     !! a fresh run
+      type(checkpoint_t), intent(in) :: checkpoint          !! memory
+      type(error_t), allocatable, intent(out) :: error      !! it was refused
 
-      integer :: place
-
-      place = 0
-      call run%loaded%method%load(row, place)
-      call run%loaded%system%load(row, place)
-      call run%watch%load(row, place)
+      call load_run_memory(checkpoint, run%loaded%method, run%loaded%system, run%watch, error)
    end subroutine load_run
 
    !> Step to the onset of the third contact.
@@ -146,7 +136,7 @@ contains
       integer, parameter :: most = 100  ! checkpoints
       type(run_t), allocatable :: second
       type(run_t) :: first
-      real(wp), allocatable :: rows(:, :), row(:)
+      type(checkpoint_t) :: saved(most)
       integer :: k, n_save
 
       call begin(first, error)
@@ -156,9 +146,7 @@ contains
       do while (first%loaded%method%t < t_end .and. .not. allocated(error))
          if (first%n_event == 2 .and. n_save < most) then
             n_save = n_save + 1
-            call save_run(first, row)
-            if (n_save == 1) allocate (rows(size(row), most), source=0.0_wp)
-            rows(:, n_save) = row
+            call save_run(first, saved(n_save))
          end if
          call make_step(first, error)
       end do
@@ -168,8 +156,8 @@ contains
          if (allocated(error)) return
          allocate (second)
          call begin(second, error)
+         if (.not. allocated(error)) call load_run(second, saved(k), error)
          if (allocated(error)) return
-         call load_run(second, rows(:, k))
          do while (second%loaded%method%t < t_end .and. .not. allocated(error))
             call make_step(second, error)
          end do
@@ -183,7 +171,7 @@ contains
       subroutine compare(run)
          type(run_t), intent(in) :: run  !! that was loaded
 
-         real(wp), allocatable :: one(:), other(:)
+         type(checkpoint_t) :: one, other
          integer :: missed
 
          call check_close(error, run%loaded%method%step%y1, first%loaded%method%step%y1, 0.0_wp, "state at the end")
@@ -195,7 +183,7 @@ contains
                           "evaluations of the system")
          call save_run(first, one)
          call save_run(run, other)
-         call check_close(error, other, one, 0.0_wp, "all that is saved")
+         call check_close(error, other%row, one%row, 0.0_wp, "all that is saved")
          missed = first%n_event - run%n_event
          call check_true(error, missed == 2 .and. run%n_event > 2, "contacts before and after")
          if (allocated(error)) return
@@ -260,7 +248,7 @@ contains
       integer, parameter :: every = 5, most = 400  ! steps between checkpoints; checkpoints
       type(run_t), allocatable :: second
       type(run_t) :: first
-      real(wp), allocatable :: one(:), other(:), rows(:, :), row(:)
+      type(checkpoint_t) :: one, other, saved(most)
       integer :: k, n, n_step
 
       call begin(first, error, deck, setting)
@@ -269,10 +257,8 @@ contains
       n_step = 0
       do while (.not. allocated(error) .and. first%loaded%method%t < t_stop .and. n < most)
          if (modulo(n_step, every) == 0) then
-            call save_run(first, row)
-            if (n == 0) allocate (rows(size(row), most), source=0.0_wp)
             n = n + 1
-            rows(:, n) = row
+            call save_run(first, saved(n))
          end if
          call make_step(first, error)
          n_step = n_step + 1
@@ -283,15 +269,15 @@ contains
          allocate (second)
          call begin(second, error, deck, setting)
          second%end = t_stop
+         if (.not. allocated(error)) call load_run(second, saved(k), error)
          if (allocated(error)) return
-         call load_run(second, rows(:, k))
          do while (second%loaded%method%t < t_stop .and. .not. allocated(error))
             call make_step(second, error)
          end do
          call save_run(first, one)
          call save_run(second, other)
          call check_close(error, second%loaded%method%step%y1, first%loaded%method%step%y1, 0.0_wp, "state at the end")
-         call check_close(error, other, one, 0.0_wp, "all that is saved")
+         call check_close(error, other%row, one%row, 0.0_wp, "all that is saved")
          deallocate (second)
       end do
    end subroutine go_on_from_anywhere
@@ -326,16 +312,18 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(run_t) :: first, second
-      real(wp), allocatable :: again(:), row(:), y(:)
+      type(checkpoint_t) :: again, saved
+      real(wp), allocatable :: y(:)
 
       call begin(first, error)
       if (.not. allocated(error)) call go_to_third_contact(first, error)
       if (.not. allocated(error)) call begin(second, error)
       if (allocated(error)) return
-      call save_run(first, row)
-      call load_run(second, row)
+      call save_run(first, saved)
+      call load_run(second, saved, error)
+      if (allocated(error)) return
       call save_run(second, again)
-      call check_close(error, again, row, 0.0_wp, "saved again")
+      call check_close(error, again%row, saved%row, 0.0_wp, "saved again")
       call check_equal(error, second%loaded%system%clearances(1)%set%n_touching, 1, "contacts")
       allocate (y(second%loaded%system%n), source=0.0_wp)
       call second%loaded%method%state_at(second%loaded%system, second%loaded%method%t, y)

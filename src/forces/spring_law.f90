@@ -1,0 +1,85 @@
+!> What springs have in common, whatever their stretch is: a distance of points, or an angle between bodies.
+!>
+!> With x = l - l_0:
+!> f = k x + c l' + f_0 + f_l(x) + f_a(t)
+!> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x
+!> k stiffness, c damping, l_0 free length or angle, f_0 preload (f at x = 0), f_l law of a spring that is not linear, f_a
+!> actuator. Without stiffness the preload stores nothing: it is then a constant part of the actuator.
+!>
+!> Signs: f is positive if it takes l back towards smaller values. Source and limits: those of the kinds.
+module spring_law
+   use expression, only: expression_t
+   use item, only: item_t, place_of
+   use kinds, only: wp
+   use quadrature, only: integral_of
+   implicit none (type, external)
+   private
+   public :: spring_law_t
+
+   !> The law of one spring. Unit of f: N, or N.m; unit of l: m, or rad.
+   type :: spring_law_t
+      real(wp) :: stiffness = 0.0_wp    !! k [N/m or N.m/rad]
+      real(wp) :: damping = 0.0_wp      !! c [N.s/m or N.m.s/rad]
+      real(wp) :: free = 0.0_wp         !! l_0 [m or rad]
+      real(wp) :: relaxed = 0.0_wp      !! l without force of the stiffness, l_0 - f_0/k [m or rad]
+      real(wp) :: constant = 0.0_wp     !! constant part of the actuator, f_0 without stiffness [N or N.m]
+      type(expression_t) :: law         !! f_l over x [N or N.m]
+      logical :: has_law = .false.      !! whether it is not zero
+      type(expression_t) :: actuator    !! f_a [N or N.m]
+   contains
+      procedure :: prepare => spring_law_prepare
+      procedure :: force => spring_law_force
+      procedure :: energy => spring_law_energy
+   end type spring_law_t
+
+contains
+
+   !> Take a row of a table.
+   subroutine spring_law_prepare(self, item, free)
+      class(spring_law_t), intent(inout) :: self  !! the law
+      type(item_t), intent(in) :: item            !! the row
+      character(*), intent(in) :: free            !! its column for the length or angle without force
+
+      self%stiffness = item%number("stiffness")
+      self%damping = item%number("damping")
+      self%free = item%number(free)
+      self%relaxed = self%free
+      self%constant = item%number("preload")
+      if (self%stiffness > 0.0_wp) then
+         self%relaxed = self%relaxed - self%constant/self%stiffness
+         self%constant = 0.0_wp
+      end if
+      self%actuator = item%values(place_of(item, "actuator"))%expression
+      self%law = item%values(place_of(item, "law"))%expression
+      self%has_law = .not. self%law%is_constant .or. abs(item%number("law")) > 0.0_wp
+   end subroutine spring_law_prepare
+
+   !> Force or moment, and what of it the actuator gives.
+   pure subroutine spring_law_force(self, t, length, rate, force, actuator)
+      class(spring_law_t), intent(in) :: self  !! the law
+      real(wp), intent(in) :: t                !! time [s]
+      real(wp), intent(in) :: length           !! l [m or rad]
+      real(wp), intent(in) :: rate             !! l' [m/s or rad/s]
+      real(wp), intent(out) :: force           !! f [N or N.m]
+      real(wp), intent(out) :: actuator        !! the actuator's part of it [N or N.m]
+
+      real(wp) :: by_law, first_derivative, second_derivative
+
+      call self%actuator%evaluate(t, actuator, first_derivative, second_derivative)
+      actuator = actuator + self%constant
+      force = self%stiffness*(length - self%relaxed) + self%damping*rate + actuator
+      if (.not. self%has_law) return
+      call self%law%evaluate(length - self%free, by_law, first_derivative, second_derivative)
+      force = force + by_law
+   end subroutine spring_law_force
+
+   !> Energy stored by stiffness and law.
+   pure real(wp) function spring_law_energy(self, length) result(energy)
+      class(spring_law_t), intent(in) :: self  !! the law
+      real(wp), intent(in) :: length           !! l [m or rad]
+
+      energy = 0.5_wp*self%stiffness*(length - self%relaxed)**2
+      if (self%has_law) energy = energy + integral_of(self%law, length - self%free)
+   end function spring_law_energy
+
+end module spring_law

@@ -1,0 +1,114 @@
+!> What a run remembers, as one row of numbers in named pieces, each with the version of its form.
+!>
+!> Whoever remembers something lists its pieces, in the order in which it saves them. A checkpoint carries the list of whoever
+!> wrote it, so that whoever would read it can tell by name what differs, and reads nothing that another form was written in.
+module checkpoint
+   use errors, only: error_t, exit_usage, set_error
+   use kinds, only: wp
+   use text, only: counted, to_text
+   implicit none (type, external)
+   private
+   public :: add_piece, checkpoint_t, piece_t, size_of_pieces
+
+   !> A stretch of the row.
+   type :: piece_t
+      character(:), allocatable :: name   !! what remembers it, as `clearance.revolute 'gudgeon'`
+      integer :: version = 1              !! of its form: raised where what is saved, or its order, changes
+      integer :: size = 0                 !! how many numbers
+      logical :: is_fixed = .true.        !! their number does not change while a run goes on
+   end type piece_t
+
+   !> A checkpoint.
+   type :: checkpoint_t
+      type(piece_t), allocatable :: pieces(:)   !! (any) in the order of the row
+      real(wp), allocatable :: row(:)           !! (their numbers) what is remembered [any]
+   contains
+      procedure :: begin => checkpoint_begin
+      procedure :: compare => checkpoint_compare
+   end type checkpoint_t
+
+contains
+
+   !> Append a piece to a list.
+   subroutine add_piece(pieces, name, version, n, is_fixed)
+      type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, may be unallocated
+      character(*), intent(in) :: name                        !! what remembers it
+      integer, intent(in) :: version                          !! of its form
+      integer, intent(in) :: n                                !! how many numbers
+      logical, intent(in), optional :: is_fixed               !! their number does not change; absent: it does not
+
+      type(piece_t), allocatable :: grown(:)
+      integer :: last
+
+      last = 0
+      if (allocated(pieces)) last = size(pieces)
+      allocate (grown(last + 1))
+      if (last > 0) grown(:last) = pieces
+      grown(last + 1)%name = name
+      grown(last + 1)%version = version
+      grown(last + 1)%size = n
+      if (present(is_fixed)) grown(last + 1)%is_fixed = is_fixed
+      call move_alloc(grown, pieces)
+   end subroutine add_piece
+
+   !> How many numbers the pieces of a list have together.
+   pure integer function size_of_pieces(pieces) result(n)
+      type(piece_t), intent(in) :: pieces(:)  !! (any) the list
+
+      n = sum(pieces%size)
+   end function size_of_pieces
+
+   !> Room for the pieces of a list.
+   subroutine checkpoint_begin(self, pieces)
+      class(checkpoint_t), intent(inout) :: self   !! the checkpoint, without numbers
+      type(piece_t), intent(in) :: pieces(:)       !! (any) what will be saved
+
+      self%pieces = pieces
+      if (allocated(self%row)) deallocate (self%row)
+      allocate (self%row(size_of_pieces(pieces)), source=0.0_wp)
+   end subroutine checkpoint_begin
+
+   !> Whether those who remember these pieces can read the checkpoint; the first that differs is named.
+   subroutine checkpoint_compare(self, pieces, error)
+      class(checkpoint_t), intent(in) :: self              !! the checkpoint
+      type(piece_t), intent(in) :: pieces(:)               !! (any) what those who would read it remember
+      type(error_t), allocatable, intent(out) :: error     !! what differs: name, version or size
+
+      integer :: k
+
+      do k = 1, min(size(pieces), size(self%pieces))
+         associate (here => pieces(k), there => self%pieces(k))
+            if (there%name /= here%name) then
+               call refuse("it holds the memory of "//there%name//" where that of "//here%name//" is wanted")
+            else if (there%version /= here%version) then
+               call refuse("the memory of "//here%name//" is of version "//to_text(there%version)// &
+                           ", and version "//to_text(here%version)//" is read")
+            else if (there%size /= here%size .and. here%is_fixed) then
+               call refuse("the memory of "//here%name//" has "//counted(there%size, "number", "numbers")// &
+                           ", and "//to_text(here%size)//" are wanted")
+            end if
+         end associate
+         if (allocated(error)) return
+      end do
+      if (size(self%pieces) > size(pieces)) then
+         call refuse("it holds the memory of "//self%pieces(size(pieces) + 1)%name//", which nothing here has")
+      else if (size(pieces) > size(self%pieces)) then
+         call refuse("the memory of "//pieces(size(self%pieces) + 1)%name//" is missing")
+      else if (size(self%row) /= size_of_pieces(self%pieces)) then
+         call refuse("it has "//counted(size(self%row), "number", "numbers")//", and its pieces say "// &
+                     to_text(size_of_pieces(self%pieces)))
+      end if
+
+   contains
+
+      !> Say what differs.
+      subroutine refuse(difference)
+         character(*), intent(in) :: difference  !! the sentence
+
+         call set_error(error, exit_usage, "the checkpoint does not belong to this run: "//difference//new_line("a")// &
+                        "  = go on with the deck, the options and the version of gudgeon that wrote it")
+      end subroutine refuse
+
+   end subroutine checkpoint_compare
+
+end module checkpoint

@@ -1,0 +1,268 @@
+!> Memory of another run, or of another form, is refused by the name of what differs, and nothing is changed.
+module test_restart_refused
+   use check, only: check_close, check_equal, check_true, suite_t
+   use checkpoint, only: add_piece, checkpoint_t
+   use contact_watch, only: contact_watch_t, new_contact_watch
+   use deck_scene, only: dry_deck, load_file, loaded_t
+   use errors, only: error_t, exit_usage
+   use integrator_controls, only: controls_t
+   use integrator_registry, only: find_integrator
+   use kinds, only: wp
+   use run_memory, only: load_run_memory, save_run_memory
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: run_test_restart_refused
+
+   !> A run that has begun.
+   type :: begun_t
+      type(loaded_t) :: loaded         !! deck, system, integrator
+      type(contact_watch_t) :: watch   !! contacts
+   end type begun_t
+
+contains
+
+   subroutine run_test_restart_refused(suite)
+      type(suite_t), intent(inout) :: suite  !! where tests are registered
+
+      call suite%test("pieces_have_the_names_of_the_deck", test_names)
+      call suite%test("pieces_fill_the_row", test_sizes)
+      call suite%test("another_version", test_versions)
+      call suite%test("another_size", test_other_size)
+      call suite%test("a_piece_more_or_less", test_other_list)
+      call suite%test("another_law", test_other_law)
+      call suite%test("another_method", test_other_method)
+      call suite%test("a_row_cut_off", test_cut_row)
+   end subroutine run_test_restart_refused
+
+   !> Begin the dry slider-crank.
+   subroutine begin(run, error, setting, method)
+      type(begun_t), intent(out) :: run                      !! the run, at t = 0
+      type(error_t), allocatable, intent(out) :: error       !! a mistake
+      character(*), intent(in), optional :: setting          !! a parameter, as name=value
+      character(*), intent(in), optional :: method           !! the integrator; absent: the deck's
+
+      integer :: status
+
+      call load_file(dry_deck, run%loaded, error, setting)
+      if (allocated(error)) return
+      if (present(method)) call use_method(run%loaded, method)
+      call new_contact_watch(run%loaded%system, run%watch)
+      call run%loaded%method%start(run%loaded%system, 0.0_wp, run%loaded%y, 1.0e-3_wp, status)
+      call check_equal(error, status, 0, "start")
+   end subroutine begin
+
+   !> Another integrator with the deck's controls.
+   subroutine use_method(loaded, word)
+      type(loaded_t), intent(inout) :: loaded   !! the deck
+      character(*), intent(in) :: word          !! as in `method = word`
+
+      type(controls_t) :: controls
+
+      controls = loaded%method%controls
+      deallocate (loaded%method)
+      call find_integrator(word, loaded%method)
+      loaded%method%controls = controls
+   end subroutine use_method
+
+   !> A checkpoint is refused with a sentence that holds some words, and the run that would read it stays as it is.
+   subroutine check_refused(run, checkpoint, words, what, error)
+      type(begun_t), intent(inout) :: run                     !! that would read it
+      type(checkpoint_t), intent(in) :: checkpoint            !! memory
+      character(*), intent(in) :: words                       !! that the message must hold
+      character(*), intent(in) :: what                        !! for messages
+      type(error_t), allocatable, intent(inout) :: error      !! first failure
+
+      type(checkpoint_t) :: after, before
+      type(error_t), allocatable :: refusal
+
+      if (allocated(error)) return
+      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, before)
+      call load_run_memory(checkpoint, run%loaded%method, run%loaded%system, run%watch, refusal)
+      call check_true(error, allocated(refusal), what//" is refused")
+      if (allocated(error)) return
+      call check_equal(error, refusal%code, exit_usage, what//": exit code")
+      call check_true(error, index(refusal%message, words) > 0, what//": '"//words//"' in '"//refusal%message//"'")
+      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, after)
+      call check_close(error, after%row, before%row, 0.0_wp, what//": nothing was changed")
+   end subroutine check_refused
+
+   !> A run, and its memory after so many steps.
+   subroutine save_after(n_step, run, checkpoint, error)
+      integer, intent(in) :: n_step                         !! steps
+      type(begun_t), intent(inout) :: run                   !! begun, gone on with
+      type(checkpoint_t), intent(inout) :: checkpoint       !! its memory
+      type(error_t), allocatable, intent(inout) :: error    !! first failure
+
+      integer :: k, status
+
+      if (allocated(error)) return
+      do k = 1, n_step
+         call run%loaded%method%advance(run%loaded%system, 1.0e-3_wp, status)
+         call check_true(error, status >= 0, "a step is made")
+         if (allocated(error)) return
+         call run%watch%after_step(run%loaded%system, run%loaded%method)
+      end do
+      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, checkpoint)
+   end subroutine save_after
+
+   !> The method, the way of holding the constraints and the loose joint are named as in the deck.
+   subroutine test_names(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      character(*), parameter :: wanted(4) = [character(30) :: "method = verner", "stabilise = baumgarte", &
+                                              "clearance.revolute 'gudgeon'", "the contacts from step to step"]
+      type(begun_t) :: run
+      type(checkpoint_t) :: saved
+      integer :: i, k
+
+      call begin(run, error)
+      call save_after(1, run, saved, error)
+      if (allocated(error)) return
+      do i = 1, size(wanted)
+         call check_equal(error, count([(saved%pieces(k)%name == wanted(i), k=1, size(saved%pieces))]), 1, &
+                          "pieces with the name '"//trim(wanted(i))//"'")
+      end do
+   end subroutine test_names
+
+   !> What a fresh run takes back is what was saved, and the pieces say how much that is.
+   subroutine test_sizes(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: again, saved
+
+      call begin(run, error)
+      call save_after(7, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error)
+      if (allocated(error)) return
+      call check_equal(error, sum(saved%pieces%size), size(saved%row), "numbers of all pieces")
+      call check_true(error, all(abs(saved%row) <= huge(1.0_wp)), "all are numbers")
+      if (allocated(error)) return
+      call load_run_memory(saved, fresh%loaded%method, fresh%loaded%system, fresh%watch, error)
+      if (allocated(error)) return
+      call save_run_memory(fresh%loaded%method, fresh%loaded%system, fresh%watch, again)
+      call check_close(error, again%row, saved%row, 0.0_wp, "saved again")
+      call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "time")
+      call check_true(error, run%loaded%method%t > 0.0_wp, "time has passed")
+   end subroutine test_sizes
+
+   !> Each piece in turn is of a form that this program does not read.
+   subroutine test_versions(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: other, saved
+      integer :: k
+
+      call begin(run, error)
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error)
+      if (allocated(error)) return
+      do k = 1, size(saved%pieces)
+         other = saved
+         other%pieces(k)%version = saved%pieces(k)%version + 1
+         call check_refused(fresh, other, other%pieces(k)%name//" is of version "//to_text(other%pieces(k)%version)// &
+                            ", and version "//to_text(saved%pieces(k)%version)//" is read", "another version", error)
+      end do
+   end subroutine test_versions
+
+   !> Each piece in turn has a number more.
+   subroutine test_other_size(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: other, saved
+      integer :: k
+
+      call begin(run, error)
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error)
+      if (allocated(error)) return
+      do k = 1, size(saved%pieces)
+         other = saved
+         other%pieces(k)%size = saved%pieces(k)%size + 1
+         other%row = [saved%row, 0.0_wp]
+         call check_refused(fresh, other, "the memory of "//other%pieces(k)%name//" has "//to_text(other%pieces(k)%size)// &
+                            " number", "another size", error)
+      end do
+   end subroutine test_other_size
+
+   !> The last piece is missing, or there is one that nothing has.
+   subroutine test_other_list(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: other, saved
+
+      call begin(run, error)
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error)
+      if (allocated(error)) return
+      associate (n => size(saved%pieces))
+         other = saved
+         other%pieces = saved%pieces(:n - 1)
+         other%row = saved%row(:size(saved%row) - saved%pieces(n)%size)
+         call check_refused(fresh, other, "the memory of "//saved%pieces(n)%name//" is missing", "a piece less", error)
+         other%pieces = saved%pieces(:3)
+         call check_refused(fresh, other, "the memory of "//saved%pieces(4)%name//" is missing", "three pieces", error)
+         other = saved
+         call add_piece(other%pieces, "clearance.revolute 'third'", 1, 0)
+         call check_refused(fresh, other, "the memory of clearance.revolute 'third', which nothing here has", "a piece more", error)
+         other = saved
+         other%pieces(n)%name = "clearance.revolute 'third'"
+         call check_refused(fresh, other, "the memory of clearance.revolute 'third' where that of "//saved%pieces(n)%name// &
+                            " is wanted", "another name", error)
+      end associate
+   end subroutine test_other_list
+
+   !> A parameter changes no memory; a law whose force jumps where the penetration turns has an event function more.
+   subroutine test_other_law(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: saved
+
+      call begin(run, error)
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error, "c=0.4mm")
+      if (allocated(error)) return
+      call load_run_memory(saved, fresh%loaded%method, fresh%loaded%system, fresh%watch, error)
+      if (allocated(error)) return
+      call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "taken with another clearance")
+      if (.not. allocated(error)) call begin(fresh, error, "law=kelvin_voigt")
+      call check_refused(fresh, saved, "the memory of the state has "//to_text(saved%pieces(1)%size)//" numbers, and "// &
+                         to_text(saved%pieces(1)%size + 5)//" are wanted", "another law", error)
+   end subroutine test_other_law
+
+   !> Memory of Verner's method is none of Adams's.
+   subroutine test_other_method(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: saved
+
+      call begin(run, error)
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error, method="adams")
+      call check_refused(fresh, saved, "it holds the memory of method = verner where that of method = adams is wanted", &
+                         "another method", error)
+   end subroutine test_other_method
+
+   !> The list is whole, the row is not.
+   subroutine test_cut_row(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(begun_t) :: fresh, run
+      type(checkpoint_t) :: other, saved
+
+      call begin(run, error)
+      call save_after(5, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error)
+      if (allocated(error)) return
+      other = saved
+      other%row = saved%row(:size(saved%row) - 1)
+      call check_refused(fresh, other, "its pieces say "//to_text(size(saved%row)), "a row cut off", error)
+   end subroutine test_cut_row
+
+end module test_restart_refused
