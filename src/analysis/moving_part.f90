@@ -3,7 +3,7 @@
 !> A step ends at the latest at an instant at which functions of time are not smooth, and at an event. What happens there is
 !> handled by `handle_part_events` and `pass_part_instant`, when the other parts have come as far.
 module moving_part
-   use contact_watch, only: contact_watch_t
+   use contact_watch, only: contact_watch_t, new_contact_watch
    use errors, only: error_t
    use guards, only: guards_t
    use instants, only: instants_t
@@ -18,7 +18,7 @@ module moving_part
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
-   public :: advance_part, begin_part, handle_part_events, moving_part_t, pass_part_instant
+   public :: advance_part, begin_part, handle_part_events, moving_part_t, new_part, pass_part_instant
 
    integer, parameter :: most_idle = 1000          !! events that may follow one another while hardly any time passes
    integer, parameter :: idle_each = 10            !! and so many more for each event function
@@ -50,9 +50,24 @@ module moving_part
 
 contains
 
+   !> A part that has not begun.
+   subroutine new_part(system, method, instants, guards, part)
+      type(mechanism_t), intent(inout), target :: system      !! its equations
+      class(integrator_t), intent(inout), target :: method    !! its integrator
+      type(instants_t), intent(in) :: instants                !! when its functions of time are not smooth
+      type(guards_t), intent(in) :: guards                    !! what no mechanism does
+      type(moving_part_t), intent(out) :: part                !! the part; points at system and integrator
+
+      part%system => system
+      part%method => method
+      part%instants = instants
+      part%guards = guards
+      call new_contact_watch(system, part%watch)
+   end subroutine new_part
+
    !> Begin at a state at t = 0.
    subroutine begin_part(part, y, end, tally, recorder, error)
-      type(moving_part_t), intent(inout) :: part          !! the part: system, integrator, watch, guards and instants are set
+      type(moving_part_t), intent(inout) :: part          !! the part, new
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       real(wp), intent(in) :: end                         !! end of the motion [s]
       type(run_tally_t), intent(inout) :: tally           !! of the run

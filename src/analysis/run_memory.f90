@@ -1,65 +1,86 @@
-!> All that a motion must remember to go on: the integrator's memory, the system's, and what is watched of the contacts.
+!> All that a part of a motion must remember to go on: the integrator's memory, the system's, what is watched of the contacts, and
+!> where ledger and events stand.
 !>
-!> A run that takes it back is, with a one-step method, equal bit for bit to the one that was not interrupted. What was saved by
+!> A part that takes it back is, with a one-step method, equal bit for bit to the one that was not interrupted. What was saved by
 !> another method, another mechanism or another form is refused by name, and nothing is changed.
+!> Limits: what guards and drivers' jumps have noted for the warnings at the end is not kept.
 module run_memory
    use checkpoint, only: add_piece, checkpoint_t, piece_t
-   use contact_watch, only: contact_watch_t
    use errors, only: error_t
-   use integrator, only: integrator_t
-   use mechanism, only: mechanism_t
+   use memory, only: get, put
+   use moving_part, only: moving_part_t
+   use smooth_piece, only: smooth_piece_t
    implicit none (type, external)
    private
-   public :: load_run_memory, save_run_memory
+   public :: load_part_memory, save_part_memory
 
-   integer, parameter :: watch_version = 1  !! of the form of what is kept of contacts from step to step
+   integer, parameter :: watch_version = 1   !! of the form of what is kept of contacts from step to step
+   integer, parameter :: part_version = 1    !! of the form of where ledger and events stand
+   integer, parameter :: n_part = 10         !! numbers of the latter
 
 contains
 
    !> Save it.
-   subroutine save_run_memory(method, system, watch, checkpoint)
-      class(integrator_t), intent(in) :: method       !! the integrator, between two steps
-      type(mechanism_t), intent(in) :: system         !! the system
-      type(contact_watch_t), intent(in) :: watch      !! its contacts
+   subroutine save_part_memory(part, checkpoint)
+      type(moving_part_t), intent(in) :: part         !! the part, between two steps
       type(checkpoint_t), intent(inout) :: checkpoint !! what is remembered
 
       integer :: place
 
-      call checkpoint%begin(list_of_run(method, system, watch))
+      call checkpoint%begin(list_of_part(part))
       place = 0
-      call method%save(checkpoint%row, place)
-      call system%save(checkpoint%row, place)
-      call watch%save(checkpoint%row, place)
-   end subroutine save_run_memory
+      associate (row => checkpoint%row)
+         call part%method%save(row, place)
+         call part%system%save(row, place)
+         call part%watch%save(row, place)
+         call put(row, place, part%n_idle)
+         call put(row, place, [part%t_event, part%balance_0, part%potential_0, part%residual, part%level, part%magnitude, &
+                               part%lost, part%worst])
+         call put(row, place, part%worst_row)
+      end associate
+   end subroutine save_part_memory
 
-   !> Take it back into a run of the same deck that has been started.
-   subroutine load_run_memory(checkpoint, method, system, watch, error)
+   !> Take it back into a part of a run of the same deck that has begun; the search for instants is brought to where the motion is.
+   subroutine load_part_memory(checkpoint, part, error)
       type(checkpoint_t), intent(in) :: checkpoint         !! what was remembered
-      class(integrator_t), intent(inout) :: method         !! the integrator, started
-      type(mechanism_t), intent(inout) :: system           !! the system
-      type(contact_watch_t), intent(inout) :: watch        !! its contacts
+      type(moving_part_t), intent(inout) :: part           !! the part, begun
       type(error_t), allocatable, intent(out) :: error     !! it is another run's; nothing is changed
 
+      type(smooth_piece_t) :: piece
       integer :: place
 
-      call checkpoint%compare(list_of_run(method, system, watch), error)
+      call checkpoint%compare(list_of_part(part), error)
       if (allocated(error)) return
       place = 0
-      call method%load(checkpoint%row, place)
-      call system%load(checkpoint%row, place)
-      call watch%load(checkpoint%row, place)
-   end subroutine load_run_memory
+      associate (row => checkpoint%row)
+         call part%method%load(row, place)
+         call part%system%load(row, place)
+         call part%watch%load(row, place)
+         call get(row, place, part%n_idle)
+         call get(row, place, part%t_event)
+         call get(row, place, part%balance_0)
+         call get(row, place, part%potential_0)
+         call get(row, place, part%residual)
+         call get(row, place, part%level)
+         call get(row, place, part%magnitude)
+         call get(row, place, part%lost)
+         call get(row, place, part%worst)
+         call get(row, place, part%worst_row)
+      end associate
+      do while (part%instants%next%at < part%system%linkage%piece%end)
+         call part%instants%pass(piece)
+      end do
+   end subroutine load_part_memory
 
-   !> The pieces of a run, in the order in which they are saved.
-   function list_of_run(method, system, watch) result(pieces)
-      class(integrator_t), intent(in) :: method      !! the integrator
-      type(mechanism_t), intent(in) :: system        !! the system
-      type(contact_watch_t), intent(in) :: watch     !! its contacts
+   !> The pieces of a part, in the order in which they are saved.
+   function list_of_part(part) result(pieces)
+      type(moving_part_t), intent(in) :: part        !! the part
       type(piece_t), allocatable :: pieces(:)        !! (any) the list
 
-      call method%list_memory(pieces)
-      call system%list_memory(pieces)
-      call add_piece(pieces, "the contacts from step to step", watch_version, watch%memory_size())
-   end function list_of_run
+      call part%method%list_memory(pieces)
+      call part%system%list_memory(pieces)
+      call add_piece(pieces, "the contacts from step to step", watch_version, part%watch%memory_size())
+      call add_piece(pieces, "where ledger and events stand", part_version, n_part)
+   end function list_of_part
 
 end module run_memory

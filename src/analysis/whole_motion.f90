@@ -5,13 +5,12 @@
 !> integrator.
 module whole_motion
    use friction_law, only: memory_bristle
-   use contact_watch, only: new_contact_watch
    use guards, only: guards_t
    use instants, only: instants_t
    use integrator, only: integrator_t
    use kinds, only: wp
    use mechanism, only: mechanism_t, n_ledger
-   use moving_part, only: moving_part_t
+   use moving_part, only: moving_part_t, new_part
    use run_audit, only: limits_t
    use subsystems, only: subsystem_t
    use time_queue, only: time_queue_t
@@ -56,6 +55,7 @@ contains
       type(instants_t), intent(in) :: instants                     !! when functions of time of any are not smooth
       type(whole_motion_t), intent(out) :: whole                   !! at the start; points at the arguments
 
+      type(guards_t) :: guards
       integer :: k, n
 
       n = max(size(subsystems), 1)
@@ -65,11 +65,7 @@ contains
       whole%front = [(k, k=1, n)]
       call whole%queue%start(n)
       if (size(subsystems) == 0) then
-         whole%parts(1)%system => system
-         whole%parts(1)%method => method
-         whole%parts(1)%guards = limits%guards
-         whole%parts(1)%instants = instants
-         call new_contact_watch(system, whole%parts(1)%watch)
+         call new_part(system, method, instants, limits%guards, whole%parts(1))
          return
       end if
       whole%places => subsystems
@@ -79,11 +75,8 @@ contains
       end associate
       allocate (whole%y(maxval([(subsystems(k)%system%n, k=1, n)])), source=0.0_wp)
       do k = 1, n
-         whole%parts(k)%system => subsystems(k)%system
-         whole%parts(k)%method => subsystems(k)%method
-         whole%parts(k)%instants = subsystems(k)%instants
-         call new_contact_watch(subsystems(k)%system, whole%parts(k)%watch)
-         call limits%guards%share(contacts_of(system, subsystems(k)), whole%parts(k)%guards)
+         call limits%guards%share(contacts_of(system, subsystems(k)), guards)
+         call new_part(subsystems(k)%system, subsystems(k)%method, subsystems(k)%instants, guards, whole%parts(k))
       end do
    end subroutine new_whole_motion
 

@@ -42,7 +42,7 @@ contains
          associate (rows => problem%rows, n_v => n_rates(k))
             call check_equal(error, size(rows%jac, 1), 2*n_v, "columns of a row")
             call check_equal(error, rows%n_side, 3, "sides of unknown bodies")
-            call check_equal(error, rows%n_known, 2, "sides of known bodies")
+            call check_equal(error, size(rows%known, 2), 2, "sides of known bodies")
             all = reshape(rows%jac, [size(rows%jac)])
             place = side_place(n_v, 3, 2)
             call check_close(error, all(place + 1:place + n_v), rows%jac(n_v + 1:, 3), 0.0_wp, "second side of row 3")

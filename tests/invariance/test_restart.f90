@@ -2,33 +2,31 @@
 !>
 !> What is saved and refused by name: test_restart_refused.
 module test_restart
-   use catalogue, only: room_bodies
+   use catalogue, only: catalogue_t, room_bodies
    use check, only: check_close, check_equal, check_true, suite_t
    use checkpoint, only: checkpoint_t
-   use contact_watch, only: contact_watch_t, new_contact_watch
    use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t, run_to_end
    use errors, only: error_t
+   use guards, only: guards_t
    use integrator, only: advance_event
    use kinds, only: wp
+   use moving_part, only: advance_part, begin_part, handle_part_events, moving_part_t, new_part
    use recorder, only: event_t, summary_t
-   use run_memory, only: load_run_memory, save_run_memory
+   use run_memory, only: load_part_memory, save_part_memory
+   use run_tally, only: run_tally_t
    use scratch_deck, only: remove_scratch, write_scratch
-   use slip_watch, only: decide_next
    implicit none (type, external)
    private
    public :: run_test_restart
 
    real(wp), parameter :: t_end = 3.0e-3_wp      !! end of the runs [s]
-   integer, parameter :: n_field = 7             !! numbers of an event
 
    !> A run in hand.
    type :: run_t
       type(loaded_t) :: loaded                   !! deck, system, integrator
-      type(contact_watch_t) :: watch             !! contacts
-      integer :: n_onset = 0                     !! contacts that began
-      integer :: n_event = 0                     !! contacts that ended
-      real(wp) :: end = t_end                    !! no step goes beyond [s]
-      real(wp) :: events(n_field, 50) = 0.0_wp   !! (n_field, contacts) what is told of each [any]
+      type(moving_part_t) :: part                !! these in motion
+      type(run_tally_t) :: tally                 !! contacts that began
+      type(keeper_t) :: keeper                   !! what is told of contacts that ended
    end type run_t
 
 contains
@@ -46,13 +44,16 @@ contains
    end subroutine run_test_restart
 
    !> Load a deck and begin: the dry slider-crank with friction, if none is given.
-   subroutine begin(run, error, deck, setting)
-      type(run_t), intent(out) :: run                    !! the run, at t = 0
+   subroutine begin(run, error, deck, setting, end)
+      type(run_t), intent(out), target :: run            !! the run, at t = 0
       type(error_t), allocatable, intent(out) :: error   !! a mistake
       character(*), intent(in), optional :: deck         !! its path
       character(*), intent(in), optional :: setting      !! a parameter, as name=value
+      real(wp), intent(in), optional :: end              !! no step goes beyond; absent: t_end [s]
 
-      integer :: status
+      type(catalogue_t) :: catalogue
+      type(guards_t) :: none
+      real(wp) :: latest
 
       if (present(deck)) then
          call load_file(deck, run%loaded, error, setting)
@@ -60,9 +61,11 @@ contains
          call load_file(dry_deck, run%loaded, error, "friction=0.03")
       end if
       if (allocated(error)) return
-      call new_contact_watch(run%loaded%system, run%watch)
-      call run%loaded%method%start(run%loaded%system, 0.0_wp, run%loaded%y, t_end, status)
-      call check_equal(error, status, 0, "start")
+      latest = t_end
+      if (present(end)) latest = end
+      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%instants, none, run%part)
+      call run%keeper%start(catalogue, error)
+      if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, latest, run%tally, run%keeper, error)
    end subroutine begin
 
    !> One step and what belongs to it, as an analysis does it.
@@ -70,35 +73,9 @@ contains
       type(run_t), intent(inout) :: run                     !! the run
       type(error_t), allocatable, intent(inout) :: error    !! it failed
 
-      type(event_t) :: row
-      real(wp) :: step_hint
-      integer :: k, status
-      logical :: is_found, is_over
-
-      associate (system => run%loaded%system, method => run%loaded%method)
-         call method%advance(system, run%end, status)
-         call check_true(error, status >= 0, "a step is made")
-         if (allocated(error)) return
-         call run%watch%after_step(system, method)
-         if (status /= advance_event) return
-         step_hint = 0.0_wp
-         do k = 1, method%n_happened
-            call run%watch%handle_event(system, method, method%happened(k), is_over, row, step_hint)
-            if (.not. is_over) then
-               if (method%happened(k) <= system%n_contact) run%n_onset = run%n_onset + 1
-               cycle
-            end if
-            run%n_event = run%n_event + 1
-            run%events(:, run%n_event) = [row%time, row%impact_speed, row%peak_force, row%peak_penetration, row%duration, &
-                                          row%release_speed, row%energy_lost]
-         end do
-         do
-            call decide_next(system, method%t, method%step%y1, is_found, is_over, row)
-            if (.not. is_found) exit
-         end do
-         call method%restart(system, step_hint, status)
-         call check_equal(error, status, 0, "restart")
-      end associate
+      call advance_part(run%part, run%tally, error)
+      if (allocated(error)) return
+      if (run%part%status == advance_event) call handle_part_events(run%part, run%tally, run%keeper, error)
    end subroutine make_step
 
    !> Write all that a run must remember.
@@ -106,7 +83,7 @@ contains
       type(run_t), intent(in) :: run                     !! the run
       type(checkpoint_t), intent(inout) :: checkpoint    !! its memory
 
-      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, checkpoint)
+      call save_part_memory(run%part, checkpoint)
    end subroutine save_run
 
    !> Take it back into a run that has just begun.
@@ -115,7 +92,7 @@ contains
       type(checkpoint_t), intent(in) :: checkpoint          !! memory
       type(error_t), allocatable, intent(out) :: error      !! it was refused
 
-      call load_run_memory(checkpoint, run%loaded%method, run%loaded%system, run%watch, error)
+      call load_part_memory(checkpoint, run%part, error)
    end subroutine load_run
 
    !> Step to the onset of the third contact.
@@ -123,10 +100,10 @@ contains
       type(run_t), intent(inout) :: run                     !! the run
       type(error_t), allocatable, intent(inout) :: error    !! it failed
 
-      do while (.not. allocated(error) .and. run%n_onset < 3)
+      do while (.not. allocated(error) .and. run%tally%contacts < 3)
          call make_step(run, error)
       end do
-      call check_true(error, run%n_event == 2 .and. run%loaded%method%t < t_end, "at the onset of the third contact")
+      call check_true(error, run%keeper%n_event == 2 .and. run%loaded%method%t < t_end, "at the onset of the third contact")
    end subroutine go_to_third_contact
 
    !> Saved after every step of the third contact, the ones just before its peaks among them, loaded, and run on to the end.
@@ -134,8 +111,8 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       integer, parameter :: most = 100  ! checkpoints
-      type(run_t), allocatable :: second
-      type(run_t) :: first
+      type(run_t), allocatable, target :: second
+      type(run_t), target :: first
       type(checkpoint_t) :: saved(most)
       integer :: k, n_save
 
@@ -144,14 +121,14 @@ contains
       if (allocated(error)) return
       n_save = 0
       do while (first%loaded%method%t < t_end .and. .not. allocated(error))
-         if (first%n_event == 2 .and. n_save < most) then
+         if (first%keeper%n_event == 2 .and. n_save < most) then
             n_save = n_save + 1
             call save_run(first, saved(n_save))
          end if
          call make_step(first, error)
       end do
       call check_true(error, n_save > 10 .and. n_save < most, "checkpoints through the whole contact")
-      call check_true(error, first%n_event > 4, "several contacts")
+      call check_true(error, first%keeper%n_event > 4, "several contacts")
       do k = 1, n_save
          if (allocated(error)) return
          allocate (second)
@@ -184,13 +161,23 @@ contains
          call save_run(first, one)
          call save_run(run, other)
          call check_close(error, other%row, one%row, 0.0_wp, "all that is saved")
-         missed = first%n_event - run%n_event
-         call check_true(error, missed == 2 .and. run%n_event > 2, "contacts before and after")
+         missed = first%keeper%n_event - run%keeper%n_event
+         call check_true(error, missed == 2 .and. run%keeper%n_event > 2, "contacts before and after")
          if (allocated(error)) return
-         call check_close(error, [run%events(:, :run%n_event)], [first%events(:, missed + 1:first%n_event)], 0.0_wp, "events")
+         call check_close(error, told(run%keeper%events(:run%keeper%n_event)), &
+                          told(first%keeper%events(missed + 1:first%keeper%n_event)), 0.0_wp, "events")
       end subroutine compare
 
    end subroutine test_goes_on
+
+   !> The numbers of events.
+   pure function told(events) result(numbers)
+      type(event_t), intent(in) :: events(:)      !! (any) events
+      real(wp) :: numbers(7*size(events))         !! (7 events) what is told of each [any]
+
+      numbers = [events%time, events%impact_speed, events%peak_force, events%peak_penetration, events%duration, &
+                 events%release_speed, events%energy_lost]
+   end function told
 
    !> A law whose force jumps where the penetration turns: impacts, and a pin that comes to rest.
    subroutine test_goes_on_turning(error)
@@ -246,13 +233,12 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! what failed
 
       integer, parameter :: every = 5, most = 400  ! steps between checkpoints; checkpoints
-      type(run_t), allocatable :: second
-      type(run_t) :: first
+      type(run_t), allocatable, target :: second
+      type(run_t), target :: first
       type(checkpoint_t) :: one, other, saved(most)
       integer :: k, n, n_step
 
-      call begin(first, error, deck, setting)
-      first%end = t_stop
+      call begin(first, error, deck, setting, t_stop)
       n = 0
       n_step = 0
       do while (.not. allocated(error) .and. first%loaded%method%t < t_stop .and. n < most)
@@ -263,12 +249,11 @@ contains
          call make_step(first, error)
          n_step = n_step + 1
       end do
-      call check_true(error, n > 5 .and. n < most .and. first%n_onset > 0, "checkpoints through a contact")
+      call check_true(error, n > 5 .and. n < most .and. first%tally%contacts > 0, "checkpoints through a contact")
       do k = 1, n
          if (allocated(error)) return
          allocate (second)
-         call begin(second, error, deck, setting)
-         second%end = t_stop
+         call begin(second, error, deck, setting, t_stop)
          if (.not. allocated(error)) call load_run(second, saved(k), error)
          if (allocated(error)) return
          do while (second%loaded%method%t < t_stop .and. .not. allocated(error))
@@ -286,7 +271,7 @@ contains
    subroutine test_memory_size(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(run_t) :: run
+      type(run_t), target :: run
       real(wp) :: row(1000)
       integer :: place
 
@@ -311,7 +296,7 @@ contains
    subroutine test_loading(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(run_t) :: first, second
+      type(run_t), target :: first, second
       type(checkpoint_t) :: again, saved
       real(wp), allocatable :: y(:)
 

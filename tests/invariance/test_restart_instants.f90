@@ -1,14 +1,18 @@
 !> Saved at any step of a motion whose load jumps and bends, loaded into fresh objects and gone on with, a run is equal bit for bit.
 !>
-!> The stretch of smooth time is part of the system's memory; the search for instants is begun anew and brought to it.
+!> The stretch of smooth time is part of the system's memory; the search for instants, begun anew, is brought to it.
 !> The history of a multistep method is not saved: its runs go on bit for bit from where it begins anew.
 module test_restart_instants
    use check, only: check_close, check_equal, check_true, suite_t
-   use deck_scene, only: load_text, loaded_t
+   use catalogue, only: catalogue_t
+   use checkpoint, only: checkpoint_t
+   use deck_scene, only: keeper_t, load_text, loaded_t
    use errors, only: error_t
-   use instants, only: instants_t
+   use guards, only: guards_t
    use kinds, only: wp
-   use smooth_piece, only: smooth_piece_t
+   use moving_part, only: advance_part, begin_part, moving_part_t, new_part, pass_part_instant
+   use run_memory, only: load_part_memory, save_part_memory
+   use run_tally, only: run_tally_t
    implicit none (type, external)
    private
    public :: run_test_restart_instants
@@ -20,7 +24,9 @@ module test_restart_instants
    !> A run in hand.
    type :: run_t
       type(loaded_t) :: loaded                !! deck, system, integrator
-      type(instants_t) :: instants            !! when the load is not smooth
+      type(moving_part_t) :: part             !! these in motion
+      type(run_tally_t) :: tally              !! of it
+      type(keeper_t) :: keeper                !! what it tells
       integer :: n_passed = 0                 !! instants passed
    end type run_t
 
@@ -47,50 +53,42 @@ contains
       logical, intent(in) :: has_history                  !! whether it is saved at instants only
       type(error_t), allocatable, intent(out) :: error    !! what failed
 
-      type(run_t), allocatable :: second
-      type(run_t) :: first
-      real(wp), allocatable :: rows(:, :), row(:)
+      type(run_t), allocatable, target :: second
+      type(run_t), target :: first
+      type(checkpoint_t), allocatable :: saved(:)
+      type(checkpoint_t) :: at_end, other
       integer :: k, n_save
       logical :: begins, ends
 
       call begin(method, first, error)
       if (allocated(error)) return
-      allocate (row(memory_size(first)), source=0.0_wp)
-      allocate (rows(size(row), most), source=0.0_wp)
+      allocate (saved(most))
       n_save = 0
       begins = .true.
-      do while (first%loaded%method%t < t_end .and. .not. allocated(error))
-         ends = first%instants%is_at(first%loaded%method%t)
+      do while (first%part%method%t < t_end .and. .not. allocated(error))
+         ends = first%part%instants%is_at(first%part%method%t)
          if (begins .or. ends .or. .not. has_history) then
             n_save = n_save + 1
-            call save_run(first, rows(:, n_save))
+            call save_part_memory(first%part, saved(n_save))
          end if
          begins = ends
-         if (ends) then
-            call pass(first, error)
-         else
-            call make_step(first, error)
-         end if
+         call go_one_step(first, error)
          call check_true(error, n_save < most, "room for the checkpoints")
       end do
       call check_equal(error, first%n_passed, n_instant, "instants passed")
       if (allocated(error)) return
-      call save_run(first, row)
+      call save_part_memory(first%part, at_end)
       do k = 1, n_save
          allocate (second)
          call begin(method, second, error)
-         if (allocated(error)) return
-         call load_run(second, rows(:, k))
-         do while (second%loaded%method%t < t_end .and. .not. allocated(error))
-            if (second%instants%is_at(second%loaded%method%t)) then
-               call pass(second, error)
-            else
-               call make_step(second, error)
-            end if
+         if (.not. allocated(error)) call load_part_memory(saved(k), second%part, error)
+         do while (second%part%method%t < t_end .and. .not. allocated(error))
+            call go_one_step(second, error)
          end do
-         call check_close(error, second%loaded%method%step%y1, first%loaded%method%step%y1, 0.0_wp, "state at the end")
-         call save_run(second, rows(:, k))
-         call check_close(error, rows(:, k), row, 0.0_wp, "all that is saved")
+         if (allocated(error)) return
+         call check_close(error, second%part%method%step%y1, first%part%method%step%y1, 0.0_wp, "state at the end")
+         call save_part_memory(second%part, other)
+         call check_close(error, other%row, at_end%row, 0.0_wp, "all that is saved")
          if (allocated(error)) return
          deallocate (second)
       end do
@@ -99,11 +97,12 @@ contains
    !> A mass on a guide and a spring; the load jumps at 0, 0.4 and 0.5 s and bends at 0.9 s.
    subroutine begin(method, run, error)
       character(*), intent(in) :: method                 !! name of the integrator
-      type(run_t), intent(out) :: run                    !! the run, at t = 0
+      type(run_t), intent(out), target :: run            !! the run, at t = 0
       type(error_t), allocatable, intent(out) :: error   !! a mistake
 
       character(*), parameter :: nl = new_line("a")
-      integer :: status
+      type(catalogue_t) :: catalogue
+      type(guards_t) :: none
 
       call load_text("deck = 1"//nl//"[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m] angle[rad]"//nl//"p 1 1 1 0 0"//nl// &
                      "[points]"//nl//"name body xi[m] eta[m]"//nl//"o ground 0 0"//nl//"c p 0 0"//nl// &
@@ -114,71 +113,22 @@ contains
                      "[analysis.dynamic]"//nl//"start = given"//nl//"end = 1.5 s"//nl//"method = "//method//nl// &
                      "tolerance = 1e-6"//nl//"[output]"//nl//"every = 0.1 s"//nl, run%loaded, error)
       if (allocated(error)) return
-      run%instants = run%loaded%plan%instants
-      call run%instants%begin(t_end, run%loaded%system%linkage%piece)
-      call run%loaded%method%start(run%loaded%system, 0.0_wp, run%loaded%y, t_end, status)
-      call check_equal(error, status, 0, "start")
+      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%instants, none, run%part)
+      call run%keeper%start(catalogue, error)
+      if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, t_end, run%tally, run%keeper, error)
    end subroutine begin
 
-   !> One step, to the next instant at the latest.
-   subroutine make_step(run, error)
+   !> One step, to the next instant at the latest; or on behind that instant.
+   subroutine go_one_step(run, error)
       type(run_t), intent(inout) :: run                     !! the run
       type(error_t), allocatable, intent(inout) :: error    !! it failed
 
-      real(wp) :: t_stop
-      integer :: status
-
-      call run%instants%stop_after(run%loaded%system, run%loaded%method, t_stop)
-      call run%loaded%method%advance(run%loaded%system, t_stop, status)
-      call check_equal(error, status, 0, "a step is made")
-   end subroutine make_step
-
-   !> Go on behind an instant.
-   subroutine pass(run, error)
-      type(run_t), intent(inout) :: run                     !! the run
-      type(error_t), allocatable, intent(inout) :: error    !! it failed
-
-      integer :: status
-
-      call run%instants%pass(run%loaded%system%linkage%piece)
-      run%n_passed = run%n_passed + 1
-      call run%loaded%method%restart(run%loaded%system, 0.0_wp, status)
-      call check_equal(error, status, 0, "restart")
-   end subroutine pass
-
-   !> Numbers of a checkpoint.
-   integer function memory_size(run)
-      type(run_t), intent(in) :: run  !! the run
-
-      memory_size = run%loaded%method%memory_size() + run%loaded%system%memory_size()
-   end function memory_size
-
-   !> Write all that a run must remember.
-   subroutine save_run(run, row)
-      type(run_t), intent(in) :: run        !! the run
-      real(wp), intent(inout) :: row(:)     !! (numbers) its memory [any]
-
-      integer :: place
-
-      place = 0
-      call run%loaded%method%save(row, place)
-      call run%loaded%system%save(row, place)
-   end subroutine save_run
-
-   !> Take it back into a run that has just begun, and bring the search for instants to where the motion is.
-   subroutine load_run(run, row)
-      type(run_t), intent(inout) :: run     !! a fresh run
-      real(wp), intent(in) :: row(:)        !! (numbers) memory [any]
-
-      type(smooth_piece_t) :: piece
-      integer :: place
-
-      place = 0
-      call run%loaded%method%load(row, place)
-      call run%loaded%system%load(row, place)
-      do while (run%instants%next%at < run%loaded%system%linkage%piece%end)
-         call run%instants%pass(piece)
-      end do
-   end subroutine load_run
+      if (run%part%instants%is_at(run%part%method%t)) then
+         call pass_part_instant(run%part, run%tally, run%keeper, error)
+         run%n_passed = run%n_passed + 1
+      else
+         call advance_part(run%part, run%tally, error)
+      end if
+   end subroutine go_one_step
 
 end module test_restart_instants

@@ -2,13 +2,16 @@
 module test_restart_refused
    use check, only: check_close, check_equal, check_true, suite_t
    use checkpoint, only: add_piece, checkpoint_t
-   use contact_watch, only: contact_watch_t, new_contact_watch
-   use deck_scene, only: dry_deck, load_file, loaded_t
+   use catalogue, only: catalogue_t
+   use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t
    use errors, only: error_t, exit_usage
+   use guards, only: guards_t
    use integrator_controls, only: controls_t
    use integrator_registry, only: find_integrator
    use kinds, only: wp
-   use run_memory, only: load_run_memory, save_run_memory
+   use moving_part, only: advance_part, begin_part, moving_part_t, new_part
+   use run_memory, only: load_part_memory, save_part_memory
+   use run_tally, only: run_tally_t
    use text, only: to_text
    implicit none (type, external)
    private
@@ -17,7 +20,9 @@ module test_restart_refused
    !> A run that has begun.
    type :: begun_t
       type(loaded_t) :: loaded         !! deck, system, integrator
-      type(contact_watch_t) :: watch   !! contacts
+      type(moving_part_t) :: part      !! these in motion
+      type(run_tally_t) :: tally       !! of it
+      type(keeper_t) :: keeper         !! what it tells
    end type begun_t
 
 contains
@@ -37,19 +42,20 @@ contains
 
    !> Begin the dry slider-crank.
    subroutine begin(run, error, setting, method)
-      type(begun_t), intent(out) :: run                      !! the run, at t = 0
+      type(begun_t), intent(out), target :: run              !! the run, at t = 0
       type(error_t), allocatable, intent(out) :: error       !! a mistake
       character(*), intent(in), optional :: setting          !! a parameter, as name=value
       character(*), intent(in), optional :: method           !! the integrator; absent: the deck's
 
-      integer :: status
+      type(catalogue_t) :: catalogue
+      type(guards_t) :: none
 
       call load_file(dry_deck, run%loaded, error, setting)
       if (allocated(error)) return
       if (present(method)) call use_method(run%loaded, method)
-      call new_contact_watch(run%loaded%system, run%watch)
-      call run%loaded%method%start(run%loaded%system, 0.0_wp, run%loaded%y, 1.0e-3_wp, status)
-      call check_equal(error, status, 0, "start")
+      call new_part(run%loaded%system, run%loaded%method, run%loaded%plan%instants, none, run%part)
+      call run%keeper%start(catalogue, error)
+      if (.not. allocated(error)) call begin_part(run%part, run%loaded%y, 1.0e-3_wp, run%tally, run%keeper, error)
    end subroutine begin
 
    !> Another integrator with the deck's controls.
@@ -77,13 +83,13 @@ contains
       type(error_t), allocatable :: refusal
 
       if (allocated(error)) return
-      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, before)
-      call load_run_memory(checkpoint, run%loaded%method, run%loaded%system, run%watch, refusal)
+      call save_part_memory(run%part, before)
+      call load_part_memory(checkpoint, run%part, refusal)
       call check_true(error, allocated(refusal), what//" is refused")
       if (allocated(error)) return
       call check_equal(error, refusal%code, exit_usage, what//": exit code")
       call check_true(error, index(refusal%message, words) > 0, what//": '"//words//"' in '"//refusal%message//"'")
-      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, after)
+      call save_part_memory(run%part, after)
       call check_close(error, after%row, before%row, 0.0_wp, what//": nothing was changed")
    end subroutine check_refused
 
@@ -94,16 +100,14 @@ contains
       type(checkpoint_t), intent(inout) :: checkpoint       !! its memory
       type(error_t), allocatable, intent(inout) :: error    !! first failure
 
-      integer :: k, status
+      integer :: k
 
-      if (allocated(error)) return
       do k = 1, n_step
-         call run%loaded%method%advance(run%loaded%system, 1.0e-3_wp, status)
-         call check_true(error, status >= 0, "a step is made")
          if (allocated(error)) return
-         call run%watch%after_step(run%loaded%system, run%loaded%method)
+         call advance_part(run%part, run%tally, error)
       end do
-      call save_run_memory(run%loaded%method, run%loaded%system, run%watch, checkpoint)
+      if (allocated(error)) return
+      call save_part_memory(run%part, checkpoint)
    end subroutine save_after
 
    !> The method, the way of holding the constraints and the loose joint are named as in the deck.
@@ -112,7 +116,7 @@ contains
 
       character(*), parameter :: wanted(4) = [character(30) :: "method = verner", "stabilise = baumgarte", &
                                               "clearance.revolute 'gudgeon'", "the contacts from step to step"]
-      type(begun_t) :: run
+      type(begun_t), target :: run
       type(checkpoint_t) :: saved
       integer :: i, k
 
@@ -129,7 +133,7 @@ contains
    subroutine test_sizes(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: again, saved
 
       call begin(run, error)
@@ -139,9 +143,9 @@ contains
       call check_equal(error, sum(saved%pieces%size), size(saved%row), "numbers of all pieces")
       call check_true(error, all(abs(saved%row) <= huge(1.0_wp)), "all are numbers")
       if (allocated(error)) return
-      call load_run_memory(saved, fresh%loaded%method, fresh%loaded%system, fresh%watch, error)
+      call load_part_memory(saved, fresh%part, error)
       if (allocated(error)) return
-      call save_run_memory(fresh%loaded%method, fresh%loaded%system, fresh%watch, again)
+      call save_part_memory(fresh%part, again)
       call check_close(error, again%row, saved%row, 0.0_wp, "saved again")
       call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "time")
       call check_true(error, run%loaded%method%t > 0.0_wp, "time has passed")
@@ -151,7 +155,7 @@ contains
    subroutine test_versions(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: other, saved
       integer :: k
 
@@ -171,7 +175,7 @@ contains
    subroutine test_other_size(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: other, saved
       integer :: k
 
@@ -192,7 +196,7 @@ contains
    subroutine test_other_list(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: other, saved
 
       call begin(run, error)
@@ -220,14 +224,14 @@ contains
    subroutine test_other_law(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: saved
 
       call begin(run, error)
       call save_after(5, run, saved, error)
       if (.not. allocated(error)) call begin(fresh, error, "c=0.4mm")
       if (allocated(error)) return
-      call load_run_memory(saved, fresh%loaded%method, fresh%loaded%system, fresh%watch, error)
+      call load_part_memory(saved, fresh%part, error)
       if (allocated(error)) return
       call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "taken with another clearance")
       if (.not. allocated(error)) call begin(fresh, error, "law=kelvin_voigt")
@@ -239,7 +243,7 @@ contains
    subroutine test_other_method(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: saved
 
       call begin(run, error)
@@ -253,7 +257,7 @@ contains
    subroutine test_cut_row(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(begun_t) :: fresh, run
+      type(begun_t), target :: fresh, run
       type(checkpoint_t) :: other, saved
 
       call begin(run, error)
