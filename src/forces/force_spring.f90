@@ -140,7 +140,7 @@ contains
       energy = 0.0_wp
       do k = 1, self%n
          call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
-         energy = energy + self%law(k)%energy(length)
+         call self%law(k)%add_energy(length, energy)
       end do
    end function spring_elastic_energy
 

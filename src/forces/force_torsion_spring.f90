@@ -130,7 +130,7 @@ contains
       energy = 0.0_wp
       do k = 1, self%n
          angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
-         energy = energy + self%law(k)%energy(angle)
+         call self%law(k)%add_energy(angle, energy)
       end do
    end function torsion_elastic_energy
 

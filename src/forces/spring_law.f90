@@ -29,7 +29,7 @@ module spring_law
    contains
       procedure :: prepare => spring_law_prepare
       procedure :: force => spring_law_force
-      procedure :: energy => spring_law_energy
+      procedure :: add_energy => spring_law_add_energy
    end type spring_law_t
 
 contains
@@ -73,13 +73,14 @@ contains
       force = force + by_law
    end subroutine spring_law_force
 
-   !> Energy stored by stiffness and law.
-   pure real(wp) function spring_law_energy(self, length) result(energy)
+   !> Add the energy stored by stiffness and law.
+   pure subroutine spring_law_add_energy(self, length, energy)
       class(spring_law_t), intent(in) :: self  !! the law
       real(wp), intent(in) :: length           !! l [m or rad]
+      real(wp), intent(inout) :: energy        !! of all springs so far [J]
 
-      energy = 0.5_wp*self%stiffness*(length - self%relaxed)**2
+      energy = energy + 0.5_wp*self%stiffness*(length - self%relaxed)**2
       if (self%has_law) energy = energy + integral_of(self%law, length - self%free)
-   end function spring_law_energy
+   end subroutine spring_law_add_energy
 
 end module spring_law
