@@ -92,7 +92,7 @@ contains
                call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
             end if
             if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
-            call keep_depth(system, k, i, max(deepest, penetration%value))
+            call system%clearances(k)%set%note_depth(i, max(deepest, penetration%value))
             call keep_force(self, system, method, k, i, peak, force%value)
             if (system%with_ledger) then
                call follow_cut_off(system%clearances(k)%set, i, penetration%value, force%value, &
@@ -103,18 +103,6 @@ contains
          end do
       end do
    end subroutine after_step
-
-   !> Raise the greatest penetration that a contact remembers.
-   subroutine keep_depth(system, slot, item, delta)
-      type(mechanism_t), intent(inout) :: system  !! the system
-      integer, intent(in) :: slot                     !! set of the contact
-      integer, intent(in) :: item                     !! contact of the set
-      real(wp), intent(in) :: delta                   !! penetration [m]
-
-      associate (contact => system%clearances(slot)%set%contact(item))
-         contact%peak_penetration = max(contact%peak_penetration, delta)
-      end associate
-   end subroutine keep_depth
 
    !> Raise the greatest force that a contact remembers, by what the last step had. Where it stood at the start of the step and the
    !> step does not go beyond it, the row that is owed is told now.
@@ -136,7 +124,7 @@ contains
          else if (self%owes_row(number) .and. at_end <= contact%peak_force) then
             call tell(peak_t(method%step%t0, contact%peak_force, method%step%y0))
          end if
-         contact%peak_force = max(contact%peak_force, peak%force, at_end)
+         call system%clearances(slot)%set%note_force(item, max(peak%force, at_end))
          self%owes_row(number) = at_end >= contact%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
       end associate
 
@@ -225,8 +213,8 @@ contains
                if (.not. contact%is_touching) cycle
                number = system%clearances(k)%set%first_contact + i
                call look(system, k, i, self%force(number), self%penetration(number))
-               call keep_depth(system, k, i, self%penetration(number)%value)
-               contact%peak_force = max(contact%peak_force, self%force(number)%value)
+               call system%clearances(k)%set%note_depth(i, self%penetration(number)%value)
+               call system%clearances(k)%set%note_force(i, self%force(number)%value)
                self%owes_row(number) = self%force(number)%value >= contact%peak_force .and. &
                                        self%force(number)%value > (1.0_wp + noise)*self%told(number)
             end associate
@@ -324,8 +312,7 @@ contains
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                call set%end_contact(i, method%t, 0.0_wp, loss_of(system, method%step%y1, k, i), .false., row)
-               set%contact(i)%is_touching = .false.
-               set%n_touching = set%n_touching - 1
+               call set%take_off(i)
                is_open = .true.
                return
             end do

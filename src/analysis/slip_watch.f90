@@ -77,7 +77,7 @@ contains
          row%time = t
          row%kind = trim(merge(word_stick//" ", word_slip//"  ", set%grip%slip(k) == sticks))
          row%item = set%names(set%item_of(k))%s
-         row%contact = set%labels(modulo(k - 1, set%n_contact_item) + 1)%s
+         row%contact = set%label_of(k)
          row%impact_speed = not_a_number()
          row%peak_force = not_a_number()
          row%peak_penetration = not_a_number()

@@ -94,7 +94,7 @@ contains
       n_slip = 0
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            set%grip%first_bristle = n_bristle
+            call set%place_bristles(n_bristle)
             if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%n_contact
             if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
          end associate

@@ -55,6 +55,7 @@ module clearance_set
       procedure :: span_of => clearance_span_of
       procedure :: fit_law => clearance_fit_law
       procedure :: note_swing => clearance_note_swing
+      procedure :: lay => clearance_lay
       procedure :: contact_time => clearance_contact_time
    end type clearance_set_t
 
@@ -288,6 +289,19 @@ contains
       end associate
       if (time > 0.0_wp) self%contact(k)%swing = pi/time
    end subroutine clearance_note_swing
+
+   !> Keep how a contact lies at a motion, for its friction, which remembers; its forces are left alone.
+   subroutine clearance_lay(self, k, motion)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                       !! contact of the set
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+
+      type(tangent_t) :: tangent
+
+      tangent = self%grip%tangent(k)
+      call self%lie(k, motion, tangent)
+      self%grip%tangent(k) = tangent
+   end subroutine clearance_lay
 
    !> Duration of an elastic impact of the two bodies, if they were free.
    pure real(wp) function clearance_contact_time(self, k, speed, inverse_mass) result(time)

@@ -32,6 +32,17 @@ module contact_states
       procedure :: label_of
       procedure :: begin_contact
       procedure :: end_contact
+      procedure :: take_off
+      procedure :: touch_where
+      procedure :: begin_at_rest
+      procedure :: note_depth
+      procedure :: note_force
+      procedure :: set_course
+      procedure :: slip_as
+      procedure :: note_decision
+      procedure :: stick_with
+      procedure :: place_bristles
+      procedure :: bend_bristles
       procedure :: memory_size => states_memory_size
       procedure :: save => states_save
       procedure :: load => states_load
@@ -106,6 +117,112 @@ contains
          end if
       end associate
    end subroutine end_contact
+
+   !> A contact that the end of the run cut short is told of: it is off the list of those that touch.
+   pure subroutine take_off(self, k)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+
+      self%contact(k)%is_touching = .false.
+      self%n_touching = self%n_touching - 1
+   end subroutine take_off
+
+   !> Contacts touch where their surfaces overlap, whatever they did before: so a search of an equilibrium takes them.
+   pure subroutine touch_where(self, delta)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      real(wp), intent(in) :: delta(:)                !! (all contacts) penetrations [m]
+
+      self%contact%is_touching = delta(self%first_contact + 1:self%first_contact + self%n_contact) > 0.0_wp
+      self%n_touching = count(self%contact%is_touching)
+   end subroutine touch_where
+
+   !> The contacts that touch in an equilibrium begin there, at t = 0 and without a speed.
+   subroutine begin_at_rest(self)
+      class(contact_states_t), intent(inout) :: self  !! the set
+
+      integer :: k
+
+      self%n_touching = 0
+      do k = 1, self%n_contact
+         if (self%contact(k)%is_touching) call self%begin_contact(k, 0.0_wp, 0.0_wp, 0.0_wp)
+      end do
+   end subroutine begin_at_rest
+
+   !> Raise the greatest penetration that a contact remembers.
+   pure subroutine note_depth(self, k, delta)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: delta                   !! penetration that it had [m]
+
+      self%contact(k)%peak_penetration = max(self%contact(k)%peak_penetration, delta)
+   end subroutine note_depth
+
+   !> Raise the greatest force that a contact remembers.
+   pure subroutine note_force(self, k, force)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: force                   !! normal force that it had [N]
+
+      self%contact(k)%peak_force = max(self%contact(k)%peak_force, force)
+   end subroutine note_force
+
+   !> A contact goes on in another course: it approaches, parts, or rests.
+   pure subroutine set_course(self, k, course, rest_speed)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      integer, intent(in) :: course                   !! approaches, parts or rests
+      real(wp), intent(in), optional :: rest_speed    !! greatest rate of one that rests [m/s]
+
+      self%contact(k)%course = course
+      if (present(rest_speed)) self%contact(k)%rest_speed = rest_speed
+   end subroutine set_course
+
+   !> It is decided that a contact slides this way or sticks.
+   pure subroutine slip_as(self, k, slip)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      integer, intent(in) :: slip                     !! sign of its sliding velocity, 0: it sticks
+
+      self%grip%slip(k) = slip
+   end subroutine slip_as
+
+   !> When it was decided, and the speed the wrong way at which its slip is to end next.
+   pure subroutine note_decision(self, k, t, band)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: t                       !! time [s]
+      real(wp), intent(in) :: band                    !! speed against the slip at which it ends [m/s]
+
+      self%grip%since(k) = t
+      self%grip%band(k) = band
+   end subroutine note_decision
+
+   !> Friction of a contact that sticks, as found with the accelerations.
+   pure subroutine stick_with(self, k, force, is_driven)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: force                   !! on body j along t [N]
+      logical, intent(in) :: is_driven                !! drivers alone prescribe how it slides
+
+      self%grip%tangent(k)%f_t = force
+      self%grip%tangent(k)%is_driven = is_driven
+   end subroutine stick_with
+
+   !> Where the deflections of the bristles are among those of all sets.
+   pure subroutine place_bristles(self, first)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: first                    !! deflections of earlier sets
+
+      self%grip%first_bristle = first
+   end subroutine place_bristles
+
+   !> Take the deflections of bristles from a state.
+   pure subroutine bend_bristles(self, state)
+      class(contact_states_t), intent(inout) :: self  !! the set, with friction that has bristles
+      real(wp), intent(in) :: state(:)                !! (n_contact) the entries of the state [m]
+
+      self%grip%z = state - self%grip%origin
+   end subroutine bend_bristles
 
    !> Numbers that the set must keep in a checkpoint.
    integer function states_memory_size(self) result(n)

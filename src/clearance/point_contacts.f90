@@ -167,7 +167,6 @@ contains
       class(point_contacts_t), intent(inout) :: self  !! the set, its contacts measured and pressed
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
-      type(tangent_t) :: tangent
       integer :: k
 
       if (.not. self%has_faces) self%work%f_rub = self%work%f_n
@@ -179,10 +178,8 @@ contains
       do k = 1, self%n_contact
          self%work%f_t(k) = 0.0_wp
          if (.not. self%contact(k)%is_touching) cycle
-         tangent = self%grip%tangent(k)
-         call self%lie(k, motion, tangent)
-         tangent%f_n = self%work%f_rub(k)
-         self%grip%tangent(k) = tangent
+         call self%lay(k, motion)
+         self%grip%tangent(k)%f_n = self%work%f_rub(k)
          call slip_force(self%grip, self%friction, k)
          self%work%f_t(k) = self%grip%tangent(k)%f_t
       end do
