@@ -1,5 +1,6 @@
 !> Motion in time: drives an integrator from event to event and hands everything to a recorder.
 module dynamic
+   use contact_places, only: touch_function
    use contact_watch, only: close_open, contact_watch_t, new_contact_watch
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t
@@ -289,7 +290,7 @@ contains
             if (allocated(error)) return
             call cpu_time(cpu_1)
             run%aside = run%aside + (cpu_1 - cpu_0)
-         else if (method%happened(k) <= system%n_contact) then
+         else if (system%functions%kind_of(method%happened(k)) == touch_function) then
             run%summary%contacts = run%summary%contacts + 1
          end if
       end do

@@ -4,9 +4,11 @@
 !> E = kinetic + potential + elastic. It is zero but for the error of the integration: an error
 !> measure that needs no reference solution.
 module mechanism_energy
+   use clearance_set, only: loss_contact, loss_friction
+   use contact_places, only: lost_damper, place_of_loss, work_drive, work_load, work_stabilisation
    use cut_off, only: lost_by_damping
    use kinds, only: wp
-   use mechanism, only: lost_damper, n_ledger, mechanism_t, work_drive, work_load, work_stabilisation
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: energy_t, energy_of, mechanical_energy
@@ -92,21 +94,22 @@ contains
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       type(energy_t) :: energy                         !! energies
 
-      integer :: i, k, z
+      integer :: first, i, k, z
 
       call add_mechanical(system, energy)
       if (.not. system%with_ledger) return
-      z = system%n - system%n_quadrature
-      energy%drive_work = y(z + work_drive)
-      energy%load_work = y(z + work_load)
-      energy%stabilisation_work = y(z + work_stabilisation)
-      energy%dissipated_damper = y(z + lost_damper)
+      first = system%in_state(0)
+      energy%drive_work = y(first + work_drive)
+      energy%load_work = y(first + work_load)
+      energy%stabilisation_work = y(first + work_stabilisation)
+      energy%dissipated_damper = y(first + lost_damper)
       do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set, first => z + n_ledger + 2*system%clearances(k)%set%first_contact)
+         associate (set => system%clearances(k)%set)
             do i = 1, set%n_contact
-               energy%dissipated_contact = energy%dissipated_contact &
-                                           + lost_by_damping(set, i, system%linkage%motion, y(first + 2*i - 1))
-               energy%dissipated_friction = energy%dissipated_friction + y(first + 2*i)
+               z = first + place_of_loss(set%first_contact + i, loss_contact)
+               energy%dissipated_contact = energy%dissipated_contact + lost_by_damping(set, i, system%linkage%motion, y(z))
+               z = first + place_of_loss(set%first_contact + i, loss_friction)
+               energy%dissipated_friction = energy%dissipated_friction + y(z)
             end do
          end associate
       end do

@@ -11,6 +11,7 @@
 !> Source: see `mechanism_friction`. Limits: contacts change one after another, each for the others as they are.
 submodule(mechanism:mechanism_friction) slip_events
    use contact_grip, only: is_undecided, tangent_t
+   use contact_places, only: slip_function
    use floors, only: at_rest, chatter_time, least_band, look_ahead, standstill, torn, widest_band
    implicit none (type, external)
 
@@ -21,8 +22,9 @@ contains
       real(wp) :: moment
       integer :: k, number, slot, status
 
-      g(self%n_contact + 1:) = -1.0_wp
-      rate(self%n_contact + 1:) = 0.0_wp
+      number = self%functions%place(slip_function, 0)
+      g(number + 1:number + self%n_contact) = -1.0_wp
+      rate(number + 1:number + self%n_contact) = 0.0_wp
       moment = self%time_of_difference(t)
       if (any_sticks(self)) then
          call self%evaluate(t, y, self%grips%ydot, status)
@@ -35,7 +37,7 @@ contains
          associate (set => self%clearances(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               number = self%n_contact + set%first_contact + k
+               number = self%functions%place(slip_function, set%first_contact + k)
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
                associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
                   if (slip == sticks) then
@@ -63,8 +65,8 @@ contains
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               g(self%n_contact + set%first_contact + k) = short_of(self, set%grip%tangent(k), &
-                                                                    set%friction%stick_limit(set%grip%tangent(k)%f_n))
+               g(self%functions%place(slip_function, set%first_contact + k)) = &
+                  short_of(self, set%grip%tangent(k), set%friction%stick_limit(set%grip%tangent(k)%f_n))
             end do
          end associate
       end do
