@@ -2,7 +2,9 @@
 !>
 !> Body i carries the bearing, guide or plane, body j the journal, slider or ball. Contacts and what they remember: see
 !> `contact_states`. The force of a contact acts between its onset and its end, on both bodies with action equal to reaction; the
-!> power that damping and friction take is given to the energy ledger, contact by contact.
+!> power that damping and friction take is given to the energy ledger, contact by contact. Where the normal law has a force between
+!> surfaces that are apart (`acts_apart`, as a film has), a contact that is free acts too, wherever that force is positive; onset and end
+!> are still where the surfaces meet, and friction is that of surfaces which touch.
 module clearance_set
    use bodies, only: material_t, points_t
    use contact_grip, only: new_grip, tangent_t
@@ -105,7 +107,7 @@ module clearance_set
          character(:), allocatable, intent(out) :: help         !! what would be right
       end subroutine mistake_interface
 
-      !> Add the contact forces of the touching contacts, and the power they lose. No allocation.
+      !> Add the forces of the contacts that act, and the power they lose. No allocation.
       subroutine evaluate_interface(self, motion, loads, losses)
          import :: clearance_set_t, loads_t, motion_t, wp
          implicit none (type, external)
@@ -125,7 +127,7 @@ module clearance_set
          real(wp), intent(inout) :: rate(:)          !! (all contacts) its rate [m/s]
       end subroutine gaps_interface
 
-      !> Normal force of a touching contact and its rate, for the location of its maximum.
+      !> Normal force of a contact that acts and its rate, for the location of its maximum.
       subroutine watch_interface(self, k, motion, delta, rate, force, force_rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
@@ -159,7 +161,7 @@ module clearance_set
          real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values; others are left alone [any]
       end subroutine report_interface
 
-      !> Elastic energy that the touching contacts store.
+      !> Elastic energy that the contacts store which act.
       function energy_interface(self, motion) result(energy)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)

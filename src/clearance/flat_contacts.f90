@@ -63,7 +63,7 @@ contains
    include "press.inc"
    include "planar_loads.inc"
 
-   !> Measure the contacts that touch, all of them where they share faces.
+   !> Measure the contacts that touch, all of them where they share faces or act apart.
    subroutine measure_touching(self, motion)
       class(flat_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion           !! positions and velocities
@@ -72,7 +72,7 @@ contains
       integer :: k
 
       do k = 1, self%n_contact
-         if (.not. (self%contact(k)%is_touching .or. self%has_faces)) cycle
+         if (.not. (self%contact(k)%is_touching .or. self%has_faces .or. self%law%acts_apart)) cycle
          call measure_one(self, k, .true., motion, contact)
          self%work%contacts(k) = contact
       end do

@@ -44,7 +44,7 @@ contains
       rate = contact%rate
       force = 0.0_wp
       force_rate = 0.0_wp
-      if (.not. self%contact(k)%is_touching) return
+      if (.not. (self%contact(k)%is_touching .or. self%law%acts_apart)) return
       call press(1, self%law, self%contact(k:k), self%parameters(:, k:k), [contact], d, d_rate, impact_speed, f, slope_delta, &
                  slope_rate, elastic)
       force = f(1)
@@ -117,7 +117,7 @@ contains
       do c = 1, n
          call self%measure(first + c, allocated(self%friction), motion, contacts(c))
       end do
-      if (self%n_touching == 0) return
+      if (self%n_touching == 0 .and. .not. self%law%acts_apart) return
       call self%press(item, contacts, f_n, f_elastic)
       f_rub = f_n
       if (self%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub)
@@ -136,7 +136,7 @@ contains
 
       energy = 0.0_wp
       do k = 1, self%n_contact
-         if (.not. self%contact(k)%is_touching) cycle
+         if (.not. (self%contact(k)%is_touching .or. self%law%acts_apart)) cycle
          call self%measure(k, .false., motion, contact)
          energy = energy + self%law%potential(contact%delta, self%parameters(:, k))
       end do

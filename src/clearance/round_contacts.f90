@@ -60,18 +60,20 @@ contains
    include "press.inc"
    include "planar_loads.inc"
 
-   !> Measure the contacts that touch, with their sliding velocities where there is friction.
+   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
    subroutine measure_touching(self, motion)
       class(round_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
-      call measure_journals(self%n, self%contact, self%body, self%s_i, self%s_j, self%journal, ubound(motion%angle, 1), motion%r, &
-                            motion%rot, motion%v, motion%omega, allocated(self%friction), self%work%contacts)
+      call measure_journals(self%n, self%law%acts_apart, self%contact, self%body, self%s_i, self%s_j, self%journal, &
+                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, allocated(self%friction), &
+                            self%work%contacts)
    end subroutine measure_touching
 
    !> The same on plain arrays.
-   pure subroutine measure_journals(n, memory, body, s_i, s_j, journal, n_body, r, rot, v, omega, with_sliding, contacts)
+   pure subroutine measure_journals(n, all_act, memory, body, s_i, s_j, journal, n_body, r, rot, v, omega, with_sliding, contacts)
       integer, intent(in) :: n                            !! number of contacts
+      logical, intent(in) :: all_act                      !! those that are free too
       type(contact_memory_t), intent(in) :: memory(n)     !! (n) states
       integer, intent(in) :: body(2, n)                   !! (2, n) bodies of bearing and journal
       real(wp), intent(in) :: s_i(3, n)                   !! (3, n) centre of the bearing, frame of its body [m]
@@ -83,13 +85,13 @@ contains
       real(wp), intent(in) :: v(3, 0:n_body)              !! (3, 0:bodies) velocities [m/s]
       real(wp), intent(in) :: omega(3, 0:n_body)          !! (3, 0:bodies) angular velocities [rad/s]
       logical, intent(in) :: with_sliding                 !! their sliding velocities too
-      type(point_contact_t), intent(inout) :: contacts(n) !! (n) kinematics of those that touch
+      type(point_contact_t), intent(inout) :: contacts(n) !! (n) kinematics of those that act
 
       real(wp) :: distance
       integer :: k
 
       do k = 1, n
-         if (.not. memory(k)%is_touching) cycle
+         if (.not. (memory(k)%is_touching .or. all_act)) cycle
          call measure_journal(body(:, k), s_i(:, k), s_j(:, k), journal(k), n_body, r, rot, v, omega, contacts(k), distance)
          if (with_sliding) call measure_sliding(journal(k), distance, body(:, k), n_body, v, omega, contacts(k))
       end do

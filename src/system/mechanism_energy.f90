@@ -82,7 +82,7 @@ contains
       do k = 1, size(system%loading%forces)
          energy%elastic = energy%elastic + system%loading%forces(k)%set%elastic_energy(system%linkage%motion)
       end do
-      if (.not. any_touching(system)) return
+      if (.not. any_acts(system)) return
       do k = 1, size(system%clearances)
          energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%linkage%motion)
       end do
@@ -115,16 +115,16 @@ contains
       end do
    end function energy_of
 
-   !> Whether any contact is touching.
-   pure logical function any_touching(system)
+   !> Whether any contact touches, or may have a force without it.
+   pure logical function any_acts(system)
       class(mechanism_t), intent(in) :: system  !! the system
 
       integer :: k
 
-      any_touching = .false.
+      any_acts = .false.
       do k = 1, size(system%clearances)
-         any_touching = any_touching .or. system%clearances(k)%set%n_touching > 0
+         any_acts = any_acts .or. system%clearances(k)%set%n_touching > 0 .or. system%clearances(k)%set%law%acts_apart
       end do
-   end function any_touching
+   end function any_acts
 
 end module mechanism_energy
