@@ -4,7 +4,9 @@
 !> told at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or a
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
+   use clearance_set, only: loss_contact, loss_friction
    use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   use contact_places, only: place_of_loss, slip_function, touch_function, turn_function
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
@@ -12,7 +14,7 @@ module contact_watch
    use integrator_controls, only: onset_located
    use kinds, only: not_a_number, pi, wp
    use memory, only: get, put
-   use mechanism, only: n_ledger, mechanism_t
+   use mechanism, only: mechanism_t
    use recorder, only: event_t
    use slip_watch, only: handle_slip
    use turn_watch, only: handle_turn
@@ -94,29 +96,17 @@ contains
                call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
             end if
             if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
-            call keep_depth(system, k, i, max(deepest, penetration%value))
+            call system%clearances(k)%set%note_depth(i, max(deepest, penetration%value))
             call keep_force(self, system, method, k, i, peak, force%value)
             if (system%with_ledger) then
                call follow_cut_off(system%clearances(k)%set, i, penetration%value, force%value, &
-                                   method%step%y1(loss_place(system, number)))
+                                   method%step%y1(system%in_state(place_of_loss(number, loss_contact))))
             end if
             self%force(number) = force
             self%penetration(number) = penetration
          end do
       end do
    end subroutine after_step
-
-   !> Raise the greatest penetration that a contact remembers.
-   subroutine keep_depth(system, slot, item, delta)
-      type(mechanism_t), intent(inout) :: system  !! the system
-      integer, intent(in) :: slot                     !! set of the contact
-      integer, intent(in) :: item                     !! contact of the set
-      real(wp), intent(in) :: delta                   !! penetration [m]
-
-      associate (contact => system%clearances(slot)%set%contact(item))
-         contact%peak_penetration = max(contact%peak_penetration, delta)
-      end associate
-   end subroutine keep_depth
 
    !> Raise the greatest force that a contact remembers, by what the last step had. Where it stood at the start of the step and the
    !> step does not go beyond it, the row that is owed is told now.
@@ -129,17 +119,19 @@ contains
       type(peak_t), intent(in) :: peak                !! maximum within the step
       real(wp), intent(in) :: at_end                  !! force at its end [N]
 
+      real(wp) :: greatest
       integer :: number
 
       number = system%clearances(slot)%set%first_contact + item
-      associate (contact => system%clearances(slot)%set%contact(item))
-         if (peak%force > max(contact%peak_force, at_end)) then
+      associate (set => system%clearances(slot)%set)
+         greatest = set%contact(item)%peak_force
+         if (peak%force > max(greatest, at_end)) then
             if (peak%force > (1.0_wp + noise)*self%told(number)) call tell(peak)
-         else if (self%owes_row(number) .and. at_end <= contact%peak_force) then
-            call tell(peak_t(method%step%t0, contact%peak_force, method%step%y0))
+         else if (self%owes_row(number) .and. at_end <= greatest) then
+            call tell(peak_t(method%step%t0, greatest, method%step%y0))
          end if
-         contact%peak_force = max(contact%peak_force, peak%force, at_end)
-         self%owes_row(number) = at_end >= contact%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
+         call set%note_force(item, max(peak%force, at_end))
+         self%owes_row(number) = at_end >= set%contact(item)%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
       end associate
 
    contains
@@ -188,8 +180,8 @@ contains
       self%shift = 0.0_wp
       do n = 1, method%n_happened
          number = method%happened(n)
-         if (number > system%n_contact) then
-            has_jump = has_jump .or. (system%first_turn > 0 .and. number > system%first_turn)
+         if (system%functions%kind_of(number) /= touch_function) then
+            has_jump = has_jump .or. system%functions%kind_of(number) == turn_function
             cycle
          end if
          call system%find_contact(number, k, i)
@@ -230,17 +222,17 @@ contains
       end if
       do k = 1, size(system%clearances)
          if (system%clearances(k)%set%n_touching == 0) cycle
-         do i = 1, system%clearances(k)%set%n_contact
-            associate (contact => system%clearances(k)%set%contact(i))
-               if (.not. contact%is_touching) cycle
-               number = system%clearances(k)%set%first_contact + i
+         associate (set => system%clearances(k)%set)
+            do i = 1, set%n_contact
+               if (.not. set%contact(i)%is_touching) cycle
+               number = set%first_contact + i
                call look(system, k, i, self%force(number), self%penetration(number))
-               call keep_depth(system, k, i, self%penetration(number)%value)
-               contact%peak_force = max(contact%peak_force, self%force(number)%value)
-               self%owes_row(number) = self%force(number)%value >= contact%peak_force .and. &
+               call set%note_depth(i, self%penetration(number)%value)
+               call set%note_force(i, self%force(number)%value)
+               self%owes_row(number) = self%force(number)%value >= set%contact(i)%peak_force .and. &
                                        self%force(number)%value > (1.0_wp + noise)*self%told(number)
-            end associate
-         end do
+            end do
+         end associate
       end do
       if (self%shift > 0.0_wp) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
    end subroutine after_restart
@@ -261,8 +253,8 @@ contains
       type(trend_t) :: force, penetration
 
       call system%find_contact(number, k, i)
-      if (number > system%n_contact) then
-         is_over = .not. (system%first_turn > 0 .and. number > system%first_turn)
+      if (system%functions%kind_of(number) /= touch_function) then
+         is_over = system%functions%kind_of(number) == slip_function
          if (is_over) then
             call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
          else
@@ -283,7 +275,7 @@ contains
          if (is_over) then
             loss = loss_of(system, method%step%y1, k, i)
             if (system%with_ledger) then
-               z = loss_place(system, number)
+               z = system%in_state(place_of_loss(number, loss_contact))
                method%step%y1(z) = lost_by_damping(set, i, system%linkage%motion, method%step%y1(z))
             end if
             call set%end_contact(i, method%t, -rate, loss, .true., row)
@@ -296,7 +288,7 @@ contains
          end if
          if (.not. (set%energy_jumps .and. system%with_ledger)) return
          lost = stored - set%elastic_energy(system%linkage%motion)
-         z = loss_place(system, number)
+         z = system%in_state(place_of_loss(number, loss_contact))
          method%step%y1(z) = method%step%y1(z) + lost
          if (is_over) row%energy_lost = row%energy_lost + lost
       end associate
@@ -334,8 +326,7 @@ contains
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                call set%end_contact(i, method%t, 0.0_wp, loss_of(system, method%step%y1, k, i), .false., row)
-               set%contact(i)%is_touching = .false.
-               set%n_touching = set%n_touching - 1
+               call set%take_off(i)
                is_open = .true.
                return
             end do
@@ -395,17 +386,11 @@ contains
       loss = not_a_number()
       if (.not. system%with_ledger) return
       associate (set => system%clearances(slot)%set)
-         z = loss_place(system, set%first_contact + item)
-         loss = lost_by_damping(set, item, system%linkage%motion, y(z)) + y(z + 1)
+         z = system%in_state(place_of_loss(set%first_contact + item, loss_contact))
+         loss = lost_by_damping(set, item, system%linkage%motion, y(z))
+         z = system%in_state(place_of_loss(set%first_contact + item, loss_friction))
+         loss = loss + y(z)
       end associate
    end function loss_of
-
-   !> Place in the state of what the ledger lost by damping in a contact; what it lost by friction is the next.
-   pure integer function loss_place(system, number) result(z)
-      type(mechanism_t), intent(in) :: system  !! the system, with a ledger
-      integer, intent(in) :: number                !! number of the contact
-
-      z = system%n - system%n_quadrature + n_ledger + 2*number - 1
-   end function loss_place
 
 end module contact_watch

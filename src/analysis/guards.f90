@@ -263,9 +263,7 @@ contains
       character(:), allocatable :: words              !! joint, contact and law
 
       words = "joint '"//set%names(set%item_of(c))%s//"'"
-      associate (label => set%labels(modulo(c - 1, set%n_contact_item) + 1)%s)
-         if (label /= "") words = words//", contact "//label
-      end associate
+      if (set%label_of(c) /= "") words = words//", contact "//set%label_of(c)
       words = words//", law '"//set%law%name//"'"
    end function joint_words
 

@@ -3,6 +3,7 @@
 !> A step ends at the latest at an instant at which functions of time are not smooth, and at an event. What happens there is
 !> handled by `handle_part_events` and `pass_part_instant`, when the other parts have come as far.
 module moving_part
+   use contact_places, only: touch_function
    use contact_watch, only: contact_watch_t, new_contact_watch
    use errors, only: error_t
    use guards, only: guards_t
@@ -155,7 +156,7 @@ contains
                if (allocated(error)) return
                call cpu_time(cpu_1)
                tally%aside = tally%aside + (cpu_1 - cpu_0)
-            else if (method%happened(k) <= system%n_contact) then
+            else if (system%functions%kind_of(method%happened(k)) == touch_function) then
                tally%contacts = tally%contacts + 1
             end if
          end do

@@ -2,6 +2,7 @@
 module slip_watch
    use catalogue, only: state_free, state_name
    use contact_grip, only: is_undecided, sticks
+   use contact_places, only: slip_function, turn_function
    use floors, only: at_rest
    use friction_law, only: memory_slip
    use integrator, only: integrator_t
@@ -77,7 +78,7 @@ contains
          row%time = t
          row%kind = trim(merge(word_stick//" ", word_slip//"  ", set%grip%slip(k) == sticks))
          row%item = set%names(set%item_of(k))%s
-         row%contact = set%labels(modulo(k - 1, set%n_contact_item) + 1)%s
+         row%contact = set%label_of(k)
          row%impact_speed = not_a_number()
          row%peak_force = not_a_number()
          row%peak_penetration = not_a_number()
@@ -96,20 +97,22 @@ contains
       type(mechanism_t), intent(in) :: system       !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator
 
-      integer :: contact, k, slot
+      integer :: contact, k, number, slot
       logical :: is_slow
 
       method%n_happened = 0
-      if (system%first_turn > 0) then
-         do k = system%first_turn + 1, system%first_turn + system%n_contact
-            if (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp) cycle
+      if (system%functions%has_turn) then
+         do k = 1, system%n_contact
+            number = system%functions%place(turn_function, k)
+            if (method%g(number) > 0.0_wp .or. .not. method%g1(number) > 0.0_wp) cycle
             method%n_happened = method%n_happened + 1
-            method%happened(method%n_happened) = k
+            method%happened(method%n_happened) = number
          end do
       end if
-      if (system%grips%n_slip == 0) return
-      do k = system%n_contact + 1, 2*system%n_contact
-         call system%find_contact(k, slot, contact)
+      if (.not. system%functions%has_slip) return
+      do k = 1, system%n_contact
+         number = system%functions%place(slip_function, k)
+         call system%find_contact(number, slot, contact)
          associate (set => system%clearances(slot)%set)
             is_slow = .false.
             if (set%grip%memory == memory_slip .and. set%contact(contact)%is_touching) then
@@ -117,9 +120,9 @@ contains
                          abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%linkage%scales%pace*system%linkage%scales%length
             end if
          end associate
-         if (.not. is_slow .and. (method%g(k) > 0.0_wp .or. .not. method%g1(k) > 0.0_wp)) cycle
+         if (.not. is_slow .and. (method%g(number) > 0.0_wp .or. .not. method%g1(number) > 0.0_wp)) cycle
          method%n_happened = method%n_happened + 1
-         method%happened(method%n_happened) = k
+         method%happened(method%n_happened) = number
       end do
    end subroutine note_jumps
 

@@ -99,18 +99,13 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! no equilibrium
 
       type(equilibrium_t) :: equilibrium
-      integer :: i, k
+      integer :: k
 
       call find_equilibrium(scene, system, q, report, equilibrium, error)
       if (allocated(error)) return
       v = 0.0_wp
       do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
-            set%n_touching = 0
-            do i = 1, set%n_contact
-               if (set%contact(i)%is_touching) call set%begin_contact(i, 0.0_wp, 0.0_wp, 0.0_wp)
-            end do
-         end associate
+         call system%clearances(k)%set%begin_at_rest()
       end do
    end subroutine start_at_rest
 

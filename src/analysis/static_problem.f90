@@ -49,17 +49,14 @@ contains
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
 
       real(wp) :: delta(system%n_contact), rate(system%n_contact), rest(size(system%linkage%mass))
-      integer :: i, k
+      integer :: k
 
       rest = 0.0_wp
       call evaluate_rows(system%linkage, 0.0_wp, q, rest)
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
             call set%gaps(system%linkage%motion, delta, rate)
-            do i = 1, set%n_contact
-               set%contact(i)%is_touching = delta(set%first_contact + i) > 0.0_wp
-            end do
-            set%n_touching = count(set%contact%is_touching)
+            call set%touch_where(delta)
          end associate
       end do
       call system%evaluate_loads(0.0_wp)

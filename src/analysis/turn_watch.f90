@@ -30,19 +30,18 @@ contains
       real(wp) :: acceleration(system%n_contact), delta(system%n_contact), rate(system%n_contact)
       integer :: number
 
-      number = system%clearances(slot)%set%first_contact + k
-      associate (contact => system%clearances(slot)%set%contact(k))
-         if (contact%course == rests) then
+      associate (set => system%clearances(slot)%set)
+         number = set%first_contact + k
+         if (set%contact(k)%course == rests) then
             call system%turns(t, y, rate, acceleration)
-            contact%course = merge(approaches, parts, rate(number) > 0.0_wp)
+            call set%set_course(k, merge(approaches, parts, rate(number) > 0.0_wp))
             return
          end if
-         contact%course = merge(parts, approaches, contact%course == approaches)
+         call set%set_course(k, merge(parts, approaches, set%contact(k)%course == approaches))
          call system%turns(t, y, rate, acceleration)
-         if (contact%course*acceleration(number) >= 0.0_wp) return
-         call system%clearances(slot)%set%gaps(system%linkage%motion, delta, rate)
-         contact%course = rests
-         contact%rest_speed = speed_of_rest(system, slot, k, delta(number))
+         if (set%contact(k)%course*acceleration(number) >= 0.0_wp) return
+         call set%gaps(system%linkage%motion, delta, rate)
+         call set%set_course(k, rests, speed_of_rest(system, slot, k, delta(number)))
       end associate
    end subroutine handle_turn
 

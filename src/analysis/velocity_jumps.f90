@@ -11,11 +11,12 @@
 !> Source: Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems (1989), section 11.6 (impulsive motion).
 !> Limits: bodies that are known functions of time have smooth drivers, and no jump.
 module velocity_jumps
+   use contact_places, only: work_drive
    use floors, only: at_rest
    use integrator, only: integrator_t
    use kinds, only: wp
    use mechanism_energy, only: mechanical_energy
-   use mechanism, only: mechanism_t, work_drive
+   use mechanism, only: mechanism_t
    use text, only: append_text, real_text, text_t, to_text
    implicit none (type, external)
    private
@@ -81,7 +82,7 @@ contains
          call linkage%set_motion(method%t, method%step%y1)
          gained = mechanical_energy(system) - before
          if (system%with_ledger) then
-            z = system%n - system%n_quadrature + work_drive
+            z = system%in_state(work_drive)
             method%step%y1(z) = method%step%y1(z) + gained
          end if
          k = maxloc(solution%row_weight(:n)*jump, dim=1)

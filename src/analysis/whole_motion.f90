@@ -4,12 +4,13 @@
 !> the whole is put together, for reports. A mechanism whose bodies are all joined is one part, and its state is that of the
 !> integrator.
 module whole_motion
+   use contact_places, only: n_loss, n_quadratures, place_of_loss
    use friction_law, only: memory_bristle
    use guards, only: guards_t
    use instants, only: instants_t
    use integrator, only: integrator_t
    use kinds, only: wp
-   use mechanism, only: mechanism_t, n_ledger
+   use mechanism, only: mechanism_t
    use moving_part, only: moving_part_t, new_part
    use run_audit, only: limits_t
    use subsystems, only: subsystem_t
@@ -287,9 +288,9 @@ contains
                      y(whole%bristle_place(place%slot(m), c)) = own(system%bristle_place(k, i))
                   end if
                   if (.not. system%with_ledger) cycle
-                  from = system%n - system%n_quadrature + n_ledger + 2*m
-                  to = whole%n - whole%n_quadrature + n_ledger + 2*(target%first_contact + c)
-                  y(to - 1:to) = own(from - 1:from)
+                  from = system%n - system%n_quadrature + place_of_loss(m, 1)
+                  to = whole%n - whole%n_quadrature + place_of_loss(target%first_contact + c, 1)
+                  y(to:to + n_loss - 1) = own(from:from + n_loss - 1)
                end associate
             end do
          end associate
@@ -302,7 +303,7 @@ contains
       if (system%rubbing%n > 0) y(whole%n) = y(whole%n) + own(system%n)
       from = system%n - system%n_quadrature
       to = whole%n - whole%n_quadrature
-      y(to + 1:to + n_ledger) = y(to + 1:to + n_ledger) + own(from + 1:from + n_ledger)
+      y(to + 1:to + n_quadratures(0)) = y(to + 1:to + n_quadratures(0)) + own(from + 1:from + n_quadratures(0))
    end subroutine add_contacts
 
 end module whole_motion

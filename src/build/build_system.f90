@@ -5,6 +5,7 @@ module build_system
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use build_known, only: choose_bodies, reduction_t, set_guided, set_known, start_angles
    use build_linkage, only: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
+   use contact_places, only: n_loss, n_quadratures, slip_function, touch_function, turn_function
    use find_known, only: has_smooth_cells
    use force_registry, only: n_force_kinds, new_force_set
    use friction_law, only: memory_bristle, memory_slip
@@ -17,7 +18,7 @@ module build_system
    use loading, only: loading_t
    use motion, only: new_loads
    use rubbing, only: new_rubbing
-   use mechanism, only: n_ledger, mechanism_t
+   use mechanism, only: mechanism_t
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
    use start_piece, only: piece_at_start
@@ -68,15 +69,17 @@ contains
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
-      allocate (system%losses(2, system%n_contact), source=0.0_wp)
-      system%n_quadrature = merge(n_ledger + 2*system%n_contact + merge(1, 0, system%rubbing%n > 0), 0, system%with_ledger)
+      allocate (system%losses(n_loss, system%n_contact), source=0.0_wp)
+      system%n_quadrature = merge(n_quadratures(system%n_contact) + merge(1, 0, system%rubbing%n > 0), 0, system%with_ledger)
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
-      system%n_event = system%n_contact
       call count_grips(system)
+      system%functions%n_contact = system%n_contact
+      call system%functions%add(touch_function)
+      if (system%grips%n_slip > 0) call system%functions%add(slip_function)
       if (any([(system%clearances(k)%set%law%jumps_at_turn, k=1, size(system%clearances))])) then
-         system%first_turn = system%n_event
-         system%n_event = system%n_event + system%n_contact
+         call system%functions%add(turn_function)
       end if
+      system%n_event = system%functions%n
       system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0 &
                         .and. system%rubbing%n == 0
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
@@ -85,8 +88,7 @@ contains
       end if
    end subroutine new_system
 
-   !> Room for friction that remembers: a state for each contact with bristles, a second event function for each contact if
-   !> any can stick.
+   !> Room for friction that remembers: a state for each contact with bristles.
    subroutine count_grips(system)
       type(mechanism_t), intent(inout) :: system  !! the system, all else counted
 
@@ -96,7 +98,7 @@ contains
       n_slip = 0
       do k = 1, size(system%clearances)
          associate (set => system%clearances(k)%set)
-            set%grip%first_bristle = n_bristle
+            call set%place_bristles(n_bristle)
             if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%n_contact
             if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
          end associate
@@ -104,7 +106,6 @@ contains
       system%rubbing%first_bristle = n_bristle
       n_bristle = n_bristle + system%rubbing%n_bristle
       system%n = system%n + n_bristle
-      if (n_slip > 0) system%n_event = 2*system%n_contact
       call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%grips)
    end subroutine count_grips
 

@@ -1,18 +1,19 @@
-!> Two discs or balls that touch from outside: rollers, billiard balls, the stop on a pin.
+!> Planar: two discs or balls that touch from outside: rollers, billiard balls, the stop on a pin.
 !>
 !> delta = R_i + R_j - |e|,  e = r_j^P - r_i^P,  n = -e / |e|: that of a pin in a hole of radius -R_i, see
-!> `clearance_revolute`, which has forces, sliding velocities and rates.
+!> `round_contacts`, which has rates and sliding velocities; forces: `point_contacts`.
 !>
 !> Signs: the reported force is that on the second disc, world frame; the friction force is its component along t = R90 n.
 !> Source: Flores et al. (2008), sections 3.1 and 4.2; (3.3) for the stiffness of two balls. Limits: stiffness of the balls of these
 !> radii, also for discs, unless a law says otherwise; centres that coincide have no normal.
 module clearance_discs
    use bodies, only: material_t
-   use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
    use kinds, only: wp
+   use point_contacts, only: add_contact_channels
+   use round_contacts, only: round_contacts_t
    use surfaces, only: set_materials, shape_external, surfaces_t
    implicit none (type, external)
    private
@@ -24,7 +25,7 @@ module clearance_discs
    integer, parameter :: column_material_j = 6    !! column of material_j
 
    !> Pairs of discs.
-   type, extends(clearance_revolute_t) :: clearance_discs_t
+   type, extends(round_contacts_t) :: clearance_discs_t
    contains
       procedure, nopass :: info => discs_info
       procedure, nopass :: ideal_kind => no_ideal_kind
@@ -52,11 +53,7 @@ contains
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second disc from that of the first")
       call add_channel(info, "force", "N", "world", 2, "force on the second disc")
-      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
-      call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching")
-      call add_channel(info, "normal_force", "N", "none", 1, "normal contact force")
-      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the second disc along t = R90 n")
-      call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
+      call add_contact_channels(info, "second disc")
    end function discs_info
 
    !> Radii of each item.
@@ -67,6 +64,7 @@ contains
       integer :: k
 
       call self%make_room()
+      allocate (self%journal(self%n))
       do k = 1, self%n
          associate (values => items(k)%values, journal => self%journal(k))
             journal%side = -1.0_wp

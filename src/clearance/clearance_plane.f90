@@ -1,7 +1,7 @@
-!> A disc or a ball of body j against a plane fixed in body i.
+!> Planar: a disc or a ball of body j against a plane fixed in body i.
 !>
 !> With the outward normal N of the plane, C the centre of the ball and P a point of the plane:
-!> delta = R - N . (r_C - r_P),   n = -N,   rate, forces and friction: see `flat_contacts`.
+!> delta = R - N . (r_C - r_P),   n = -N,   rates: see `flat_contacts`, forces: `point_contacts`.
 !>
 !> Signs: the reported force is that on the ball, world frame; the friction force is its component along t = R90 n, which
 !> is N turned by a right angle clockwise: +x of a floor below.
@@ -10,11 +10,12 @@
 module clearance_plane
    use bodies, only: material_t
    use clearance_set, only: no_ideal_kind, no_mistake
-   use flat_contacts, only: add_contact_channels, flat_contacts_t
+   use flat_contacts, only: flat_contacts_t
    use item, only: item_t
    use joint_translational, only: add_axis_columns
    use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
    use kinds, only: wp
+   use point_contacts, only: add_contact_channels
    use surfaces, only: set_materials, shape_plane, surfaces_t
    implicit none (type, external)
    private
@@ -65,7 +66,7 @@ contains
       real(wp) :: c, s
       integer :: k
 
-      call self%make_room()
+      call self%make_planes()
       do k = 1, self%n
          associate (values => items(k)%values)
             c = cos(values(column_angle)%number)

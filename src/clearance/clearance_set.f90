@@ -1,23 +1,21 @@
 !> The contract of joints with clearance: all items that share a geometry, a normal law and a friction law.
 !>
-!> Body i carries the bearing, guide or plane, body j the journal, slider or ball. An item has one contact or several, as
-!> many as its geometry has labels: contact m is number (m - 1) mod n_contact_item + 1 of its item. A contact is free or
-!> touching; it changes only at located events: the impact speed is stored at the onset and the force acts between onset
-!> and end. Forces act on both bodies with action equal to reaction; the power that damping and friction take is given to
-!> the energy ledger, contact by contact.
+!> Body i carries the bearing, guide or plane, body j the journal, slider or ball. Contacts and what they remember: see
+!> `contact_states`. The force of a contact acts between its onset and its end, on both bodies with action equal to reaction; the
+!> power that damping and friction take is given to the energy ledger, contact by contact. Where the normal law has a force between
+!> surfaces that are apart (`acts_apart`, as a film has), a contact that is free acts too, wherever that force is positive; onset and end
+!> are still where the surfaces meet, and friction is that of surfaces which touch.
 module clearance_set
    use bodies, only: material_t, points_t
-   use catalogue, only: state_contact, state_free, state_name
-   use contact_grip, only: grip_t, n_grip_memory, new_grip, slip_force, tangent_t
-   use contact_memory, only: contact_memory_t, n_contact_memory, rests
+   use contact_grip, only: new_grip, tangent_t
+   use contact_states, only: contact_states_t
    use floors, only: gentle
-   use friction_law, only: friction_law_t, memory_none
+   use friction_law, only: friction_law_t
    use item, only: item_t
    use kind_info, only: kind_info_t
-   use kinds, only: not_a_number, pi, wp
+   use kinds, only: pi, wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
-   use recorder, only: event_t
    use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
@@ -29,18 +27,10 @@ module clearance_set
    integer, parameter :: loss_friction = 2  !! power taken by friction
 
    !> All items that share a geometry and its laws.
-   type, abstract :: clearance_set_t
-      integer :: n = 0                                      !! number of items
-      integer :: n_contact_item = 1                         !! contacts of an item
-      integer :: n_contact = 0                              !! contacts of all items
-      integer :: n_touching = 0                             !! number of contacts that touch
-      integer :: first = 0                                  !! items of earlier sets
-      integer :: first_contact = 0                          !! contacts of earlier sets
+   type, abstract, extends(contact_states_t) :: clearance_set_t
       logical :: is_round = .false.                         !! the clearance is a radial one
       logical :: has_faces = .false.                        !! contacts of an item share a face, and what it stores
       logical :: energy_jumps = .false.                     !! stored energy and forces may jump where a contact begins or ends
-      type(text_t), allocatable :: names(:)                 !! (n) names
-      type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item
       integer, allocatable :: body(:, :)                    !! (2, n) bodies of bearing and journal, 0: ground
       real(wp), allocatable :: s_i(:, :)                    !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)                    !! (3, n) centre of the journal, frame of its body [m]
@@ -50,8 +40,6 @@ module clearance_set
       class(normal_law_t), allocatable :: law               !! normal law of all items
       class(normal_law_t), allocatable :: face_law          !! normal law of faces, where the geometry has some; unallocated: none
       class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
-      type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
-      type(grip_t) :: grip                                  !! what the contacts remember of their friction
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure, nopass :: contact_labels => clearance_contact_labels
@@ -66,19 +54,11 @@ module clearance_set
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
-      procedure :: item_of => clearance_item_of
       procedure :: span_of => clearance_span_of
-      procedure :: press => clearance_press
-      procedure :: rub => clearance_rub
       procedure :: fit_law => clearance_fit_law
-      procedure :: begin_contact => clearance_begin_contact
       procedure :: note_swing => clearance_note_swing
-      procedure :: adopt => clearance_adopt
-      procedure :: end_contact => clearance_end_contact
+      procedure :: lay => clearance_lay
       procedure :: contact_time => clearance_contact_time
-      procedure :: memory_size => clearance_memory_size
-      procedure :: save => clearance_save
-      procedure :: load => clearance_load
    end type clearance_set_t
 
    !> A place for a set of any geometry.
@@ -127,7 +107,7 @@ module clearance_set
          character(:), allocatable, intent(out) :: help         !! what would be right
       end subroutine mistake_interface
 
-      !> Add the contact forces of the touching contacts, and the power they lose. No allocation.
+      !> Add the forces of the contacts that act, and the power they lose. No allocation.
       subroutine evaluate_interface(self, motion, loads, losses)
          import :: clearance_set_t, loads_t, motion_t, wp
          implicit none (type, external)
@@ -147,7 +127,7 @@ module clearance_set
          real(wp), intent(inout) :: rate(:)          !! (all contacts) its rate [m/s]
       end subroutine gaps_interface
 
-      !> Normal force of a touching contact and its rate, for the location of its maximum.
+      !> Normal force of a contact that acts and its rate, for the location of its maximum.
       subroutine watch_interface(self, k, motion, delta, rate, force, force_rate)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
@@ -181,7 +161,7 @@ module clearance_set
          real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values; others are left alone [any]
       end subroutine report_interface
 
-      !> Elastic energy that the touching contacts store.
+      !> Elastic energy that the contacts store which act.
       function energy_interface(self, motion) result(energy)
          import :: clearance_set_t, motion_t, wp
          implicit none (type, external)
@@ -235,14 +215,6 @@ contains
       labels(1)%s = ""
    end function clearance_contact_labels
 
-   !> The item that a contact belongs to.
-   pure integer function clearance_item_of(self, contact) result(item)
-      class(clearance_set_t), intent(in) :: self  !! the set
-      integer, intent(in) :: contact              !! contact of the set
-
-      item = (contact - 1)/self%n_contact_item + 1
-   end function clearance_item_of
-
    !> How far what takes part in a contact is from the centres of mass of both bodies, for bounds of round-off; the clearance and
    !> lengths like it count too.
    pure function clearance_span_of(self, contact) result(span)
@@ -254,79 +226,6 @@ contains
          span = [sum(abs(self%s_i(:, item))), sum(abs(self%s_j(:, item))) + self%clearance(item)]
       end associate
    end function clearance_span_of
-
-   !> Normal forces of some contacts. A law whose force jumps from F_a to F_p where the penetration turns follows the course of the
-   !> contact, which changes at located events only; one that rests has (F_a + F_p)/2 + (F_a - F_p)/2 rate/rest_speed.
-   pure subroutine clearance_press(self, first, last, delta, rate, impact_speed, f, df_ddelta, df_drate, f_elastic)
-      class(clearance_set_t), intent(in) :: self             !! the set
-      integer, intent(in) :: first                           !! first contact
-      integer, intent(in) :: last                            !! last contact
-      real(wp), intent(in) :: delta(first:last)              !! (first:last) penetration [m]
-      real(wp), intent(in) :: rate(first:last)               !! (first:last) its rate [m/s]
-      real(wp), intent(in) :: impact_speed(first:last)       !! (first:last) impact speed [m/s]
-      real(wp), intent(out) :: f(first:last)                 !! (first:last) normal force [N]
-      real(wp), intent(out) :: df_ddelta(first:last)         !! (first:last) its derivative by penetration [N/m]
-      real(wp), intent(out) :: df_drate(first:last)          !! (first:last) its derivative by rate [N.s/m]
-      real(wp), intent(out) :: f_elastic(first:last)         !! (first:last) its elastic part [N]
-
-      if (self%law%jumps_at_turn) then
-         call press_in_course(self, first, last, delta, rate, impact_speed, f, df_ddelta, df_drate, f_elastic)
-      else
-         call self%law%force(last - first + 1, delta, rate, impact_speed, self%parameters(:, first:last), f, df_ddelta, &
-                             df_drate, f_elastic)
-      end if
-   end subroutine clearance_press
-
-   !> The same with a law whose force jumps where the penetration turns.
-   pure subroutine press_in_course(self, first, last, delta, rate, impact_speed, f, df_ddelta, df_drate, f_elastic)
-      class(clearance_set_t), intent(in) :: self             !! the set
-      integer, intent(in) :: first                           !! first contact
-      integer, intent(in) :: last                            !! last contact
-      real(wp), intent(in) :: delta(first:last)              !! (first:last) penetration [m]
-      real(wp), intent(in) :: rate(first:last)               !! (first:last) its rate [m/s]
-      real(wp), intent(in) :: impact_speed(first:last)       !! (first:last) impact speed [m/s]
-      real(wp), intent(out) :: f(first:last)                 !! (first:last) normal force [N]
-      real(wp), intent(out) :: df_ddelta(first:last)         !! (first:last) its derivative by penetration [N/m]
-      real(wp), intent(out) :: df_drate(first:last)          !! (first:last) its derivative by rate [N.s/m]
-      real(wp), intent(out) :: f_elastic(first:last)         !! (first:last) its elastic part [N]
-
-      real(wp), dimension(first:last) :: parting, parting_ddelta, parting_drate, speed, weight
-
-      speed = max(abs(rate), tiny(1.0_wp))
-      call self%law%force(last - first + 1, delta, -speed, impact_speed, self%parameters(:, first:last), parting, parting_ddelta, &
-                          parting_drate, f_elastic)
-      call self%law%force(last - first + 1, delta, speed, impact_speed, self%parameters(:, first:last), f, df_ddelta, df_drate, &
-                          f_elastic)
-      associate (contact => self%contact(first:last))
-         weight = 0.5_wp*real(1 + contact%course, wp)
-         where (contact%course == rests) weight = 0.5_wp + 0.5_wp*rate/contact%rest_speed
-         df_drate = weight*df_drate + (1.0_wp - weight)*parting_drate
-         where (contact%course == rests) df_drate = df_drate + 0.5_wp*(f - parting)/contact%rest_speed
-      end associate
-      f = weight*f + (1.0_wp - weight)*parting
-      df_ddelta = weight*df_ddelta + (1.0_wp - weight)*parting_ddelta
-   end subroutine press_in_course
-
-   !> Friction of the touching contacts by a law with a memory, and the power that it takes.
-   subroutine clearance_rub(self, motion, f_n, f_t, losses)
-      class(clearance_set_t), intent(inout) :: self  !! the set
-      type(motion_t), intent(in) :: motion           !! positions and velocities
-      real(wp), intent(in) :: f_n(:)                 !! (n_contact) normal forces [N]
-      real(wp), intent(out) :: f_t(:)                !! (n_contact) friction force on body j along t = R90 n [N]
-      real(wp), intent(inout) :: losses(:, :)        !! (2, all contacts) power lost by damping and friction [W]
-
-      integer :: k
-
-      do k = 1, self%n_contact
-         f_t(k) = 0.0_wp
-         if (.not. self%contact(k)%is_touching) cycle
-         call self%lie(k, motion, self%grip%tangent(k))
-         self%grip%tangent(k)%f_n = f_n(k)
-         call slip_force(self%grip, self%friction, k)
-         f_t(k) = self%grip%tangent(k)%f_t
-         losses(loss_friction, self%first_contact + k) = -f_t(k)*self%grip%tangent(k)%v
-      end do
-   end subroutine clearance_rub
 
    !> Of geometries that hold nothing together: no ideal joint.
    function no_ideal_kind() result(kind)
@@ -375,19 +274,6 @@ contains
       end do
    end subroutine clearance_fit_law
 
-   !> A contact begins: store its impact speed.
-   subroutine clearance_begin_contact(self, k, t, impact_speed, loss)
-      class(clearance_set_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: k                       !! contact of the set
-      real(wp), intent(in) :: t                      !! time of the onset [s]
-      real(wp), intent(in) :: impact_speed           !! penetration rate at the onset [m/s]
-      real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now [J]
-
-      self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
-      self%n_touching = self%n_touching + 1
-      call self%grip%forget(k)
-   end subroutine clearance_begin_contact
-
    !> How fast a contact that has begun swings: as an impact with its speed, or as one that gets as deep as it is, which one that
    !> begins overlapping is without any speed. 0 if that is not known.
    pure subroutine clearance_note_swing(self, k, delta)
@@ -406,53 +292,18 @@ contains
       if (time > 0.0_wp) self%contact(k)%swing = pi/time
    end subroutine clearance_note_swing
 
-   !> Take over what a contact of another set of the same laws remembers; deflections of bristles are in the state.
-   subroutine clearance_adopt(self, k, other, k_other)
+   !> Keep how a contact lies at a motion, for its friction, which remembers; its forces are left alone.
+   subroutine clearance_lay(self, k, motion)
       class(clearance_set_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                       !! contact of the set
-      class(clearance_set_t), intent(in) :: other    !! the other set
-      integer, intent(in) :: k_other                 !! contact of it
+      type(motion_t), intent(in) :: motion           !! positions and velocities
 
-      self%n_touching = self%n_touching + merge(1, 0, other%contact(k_other)%is_touching) &
-                        - merge(1, 0, self%contact(k)%is_touching)
-      self%contact(k) = other%contact(k_other)
-      call self%grip%adopt(k, other%grip, k_other)
-   end subroutine clearance_adopt
+      type(tangent_t) :: tangent
 
-   !> A contact ends, or the run ends within it: tell its story in one row.
-   subroutine clearance_end_contact(self, k, t, release_speed, loss, is_over, event)
-      class(clearance_set_t), intent(inout) :: self  !! the set
-      integer, intent(in) :: k                       !! contact of the set
-      real(wp), intent(in) :: t                      !! time of the end [s]
-      real(wp), intent(in) :: release_speed          !! separation speed [m/s]
-      real(wp), intent(in) :: loss                   !! what the ledger has lost in the contact by now; NaN: no ledger [J]
-      logical, intent(in) :: is_over                 !! .false.: the run ended within the contact
-      type(event_t), intent(out) :: event            !! the row
-
-      associate (contact => self%contact(k))
-         event%time = contact%onset
-         event%kind = "contact"
-         event%item = self%names(self%item_of(k))%s
-         event%contact = self%labels(modulo(k - 1, self%n_contact_item) + 1)%s
-         event%impact_speed = contact%impact_speed
-         event%peak_force = contact%peak_force
-         event%peak_penetration = contact%peak_penetration
-         event%energy_lost = loss - contact%loss_at_onset
-         event%state_before = state_name(state_free)
-         if (is_over) then
-            event%duration = t - contact%onset
-            event%release_speed = release_speed
-            event%state_after = state_name(state_free)
-            contact%is_touching = .false.
-            self%n_touching = self%n_touching - 1
-            call self%grip%forget(k)
-         else
-            event%duration = not_a_number()
-            event%release_speed = not_a_number()
-            event%state_after = state_name(state_contact)
-         end if
-      end associate
-   end subroutine clearance_end_contact
+      tangent = self%grip%tangent(k)
+      call self%lie(k, motion, tangent)
+      self%grip%tangent(k) = tangent
+   end subroutine clearance_lay
 
    !> Duration of an elastic impact of the two bodies, if they were free.
    pure real(wp) function clearance_contact_time(self, k, speed, inverse_mass) result(time)
@@ -467,42 +318,5 @@ contains
       time = self%law%contact_time(self%parameters(:, k), speed, &
                                    inverse_mass(self%body(1, item)) + inverse_mass(self%body(2, item)))
    end function clearance_contact_time
-
-   !> Numbers that the set must keep in a checkpoint.
-   integer function clearance_memory_size(self) result(n)
-      class(clearance_set_t), intent(in) :: self  !! the set
-
-      n = n_contact_memory*self%n_contact
-      if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
-   end function clearance_memory_size
-
-   !> Write what the set remembers.
-   subroutine clearance_save(self, row, place)
-      class(clearance_set_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
-
-      integer :: k
-
-      do k = 1, self%n_contact
-         call self%contact(k)%save(row, place)
-      end do
-      call self%grip%save(row, place)
-   end subroutine clearance_save
-
-   !> Read what the set remembers.
-   subroutine clearance_load(self, row, place)
-      class(clearance_set_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
-
-      integer :: k
-
-      do k = 1, self%n_contact
-         call self%contact(k)%load(row, place)
-      end do
-      self%n_touching = count(self%contact%is_touching)
-      call self%grip%load(row, place)
-   end subroutine clearance_load
 
 end module clearance_set

@@ -1,23 +1,13 @@
-!> Planar translational joint with clearance: a slider of body j loose between two straight surfaces of body i.
+!> Planar: a translational joint with clearance, a slider of body j loose between two straight surfaces of body i.
 !>
 !> The guide's line goes through its point P along the unit axis s, fixed in body i; its surfaces lie on both sides of it, at
 !> half the slider's height plus the gap of the side: upper along R90 s (normal n = R90 s, into the material), lower against it
 !> (n = -R90 s). The slider is a rectangle, length along its own axis, height across, about its centre. Its corners are A, B, C, D,
 !> counter-clockwise from the one behind and below. Each corner may touch each surface: contacts A_upper ... D_lower, with
-!> delta = n . (r_A - r_P) - (height/2 + gap), forces and friction as in `flat_contacts`, acting on both bodies at the corner.
+!> delta = n . (r_A - r_P) - (height/2 + gap), rates as in `flat_contacts`, forces as in `point_contacts`, at the corner.
 !> A contact lasts while the corner is between the ends of the guide, guide_start <= s . (r_A - r_P) <= guide_end.
 !>
-!> Faces, where both corners of a long side are at one surface, penetrating by d_1 and d_2, L the length, K_f that of `face_law`:
-!> corners     each corner for itself, with the normal law
-!> book        the face law instead: F = K_f (d_1 + d_2)/2 at L/3 (d_1 + 2 d_2)/(d_1 + d_2) from corner 1; it begins and ends
-!>             with the located onset and end of the second corner, with a jump of the force
-!> blend       (1 - w) corners + w face, w = S(min(d_1, d_2)/max(d_1, d_2)), S(r) = r^2 (3 - 2 r): no jump
-!> foundation  springs K_f/L per length under the part that penetrates; of one corner l = L d_1/(d_1 - d_2), F = K_f d_1 l/(2 L)
-!>             at l/3: no jump, and no corner law
-!> The face force is damped with the rate at its point of application and the impact speed (v_1 d_1 + v_2 d_2)/(d_1 + d_2), that
-!> of the corners weighted by their depth, so that a corner that comes or goes changes nothing. It acts as two forces at the
-!> corners with the same resultant. What blend gives beyond the gradient of its own energy (1 - w) U_corners + w U_face is
-!> counted as lost in contact (it may be negative: weights that depend on the position have no potential).
+!> Faces, where both corners of a long side are at one surface (column `faces`): see `slider_contacts`.
 !>
 !> `corners` is the default: it is what the book's study of the slider-crank uses, it needs no width and no second law, and two
 !> rounded corners are what touches first.
@@ -30,17 +20,15 @@
 module clearance_translational
    use bodies, only: material_t
    use clearance_set, only: clearance_fit_law
-   use flat_contacts, only: add_contact_channels, flat_contacts_t, flat_gaps, flat_report, flat_t
    use floors, only: gentle
    use item, only: item_t
    use joint_translational, only: add_axis_columns
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, kind_info_t
    use kinds, only: wp
-   use motion, only: motion_t
    use normal_law, only: n_law_parameter, parameter_gentle
-   use slider_faces, only: bedding_energy, blend_energy, find_blend, find_face
+   use point_contacts, only: add_contact_channels
+   use slider_contacts, only: faces_blend, faces_book, faces_corners, faces_foundation, lower, n_corner, slider_contacts_t, upper
    use surfaces, only: set_materials, shape_face, shape_plane, surfaces_t
-   use text, only: text_t
    implicit none (type, external)
    private
    public :: clearance_translational_t
@@ -63,37 +51,18 @@ module clearance_translational
    integer, parameter :: column_face_law = 20        !! column of face_law
    integer, parameter :: column_faces = 21           !! column of faces
 
-   integer, parameter :: n_corner = 4                !! corners
-   integer, parameter :: upper = 1                   !! contacts 1 to 4: corners at the upper surface
-   integer, parameter :: lower = 2                   !! contacts 5 to 8: corners at the lower surface
-   integer, parameter :: side_1(2) = [1, 4]          !! first corners of the long sides: A and D
-   integer, parameter :: side_2(2) = [2, 3]          !! second corners: B and C
    real(wp), parameter :: corner_x(n_corner) = [-0.5_wp, 0.5_wp, 0.5_wp, -0.5_wp]   !! of the length [1]
    real(wp), parameter :: corner_y(n_corner) = [-0.5_wp, -0.5_wp, 0.5_wp, 0.5_wp]   !! of the height [1]
 
-   integer, parameter :: faces_corners = 0     !! ways of treating faces
-   integer, parameter :: faces_book = 1        !! the same
-   integer, parameter :: faces_blend = 2       !! the same
-   integer, parameter :: faces_foundation = 3  !! the same
-
-   !> Sliders between surfaces, in the plane.
-   type, extends(flat_contacts_t) :: clearance_translational_t
-      real(wp), allocatable :: axis(:, :)              !! (2, n) unit axis of the guide, frame of i [1]
-      real(wp), allocatable :: ends(:, :)              !! (2, n) ends of the guide along it, from P [m]
-      integer, allocatable :: faces(:)                 !! (n) way of treating faces
-      real(wp), allocatable :: face_parameters(:, :)   !! (n_law_parameter, n) of the face law [any]
+   !> Sliders in guides, in the plane.
+   type, extends(slider_contacts_t) :: clearance_translational_t
    contains
       procedure, nopass :: info => translational_info
-      procedure, nopass :: contact_labels => translational_contact_labels
       procedure, nopass :: ideal_kind => translational_ideal_kind
       procedure :: prepare => translational_prepare
       procedure, nopass :: mistake => translational_mistake
       procedure, nopass :: describe => translational_describe
       procedure :: fit_law => translational_fit_law
-      procedure :: gaps => translational_gaps
-      procedure :: report => translational_report
-      procedure :: share_faces => translational_share_faces
-      procedure :: face_energy => translational_face_energy
    end type clearance_translational_t
 
 contains
@@ -142,19 +111,6 @@ contains
       call add_contact_channels(info, "slider")
    end function translational_info
 
-   !> Corners A to D at the upper, then at the lower surface.
-   function translational_contact_labels() result(labels)
-      type(text_t), allocatable :: labels(:)  !! (8) names
-
-      integer :: c
-
-      allocate (labels(2*n_corner))
-      do c = 1, n_corner
-         labels(c)%s = achar(iachar("A") + c - 1)//"_upper"
-         labels(n_corner + c)%s = achar(iachar("A") + c - 1)//"_lower"
-      end do
-   end function translational_contact_labels
-
    !> Without clearance a translational joint.
    function translational_ideal_kind() result(kind)
       character(:), allocatable :: kind  !! name of the kind of joint
@@ -170,7 +126,7 @@ contains
       real(wp) :: along(2), gap(2)
       integer :: c, k, m, side
 
-      call self%make_room()
+      call self%make_planes()
       allocate (self%axis(2, self%n), self%ends(2, self%n), self%face_parameters(n_law_parameter, self%n), source=0.0_wp)
       allocate (self%faces(self%n), source=faces_corners)
       do k = 1, self%n
@@ -278,158 +234,5 @@ contains
          self%face_parameters(parameter_gentle, k) = gentle**2*pair%inverse_mass
       end do
    end subroutine translational_fit_law
-
-   !> Penetrations and rates; of a corner beyond an end of the guide how far it is beyond, negative, if that is less.
-   subroutine translational_gaps(self, motion, delta, rate)
-      class(clearance_translational_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion                  !! positions and velocities
-      real(wp), intent(inout) :: delta(:)                   !! (all contacts) penetration [m]
-      real(wp), intent(inout) :: rate(:)                    !! (all contacts) its rate [m/s]
-
-      type(flat_t) :: contact
-      real(wp) :: d(2), inside(2), s(2), speed, v(2)
-      integer :: c, i, j, k, m
-
-      call flat_gaps(self, motion, delta, rate)
-      do k = 1, self%n
-         if (self%ends(2, k) >= huge(1.0_wp)) cycle
-         i = self%body(1, k)
-         j = self%body(2, k)
-         s = motion%rot(1:2, 1, i)*self%axis(1, k) + motion%rot(1:2, 2, i)*self%axis(2, k)
-         do c = 1, self%n_contact_item
-            m = (k - 1)*self%n_contact_item + c
-            call self%measure(m, motion, contact)
-            d = contact%arm_i - motion%rot(1:2, 1, i)*self%s_i(1, k) - motion%rot(1:2, 2, i)*self%s_i(2, k)
-            v = motion%v(1:2, j) + motion%omega(3, j)*[-contact%arm_j(2), contact%arm_j(1)] &
-                - motion%v(1:2, i) - motion%omega(3, i)*[-contact%arm_i(2), contact%arm_i(1)]
-            speed = dot_product(s, v)
-            inside = [dot_product(s, d) - self%ends(1, k), self%ends(2, k) - dot_product(s, d)]
-            if (minval(inside) >= delta(self%first_contact + m)) cycle
-            delta(self%first_contact + m) = minval(inside)
-            rate(self%first_contact + m) = merge(speed, -speed, inside(1) < inside(2))
-         end do
-      end do
-   end subroutine translational_gaps
-
-   !> Values of a channel: eccentricity and moment here, the rest as of all flat contacts.
-   subroutine translational_report(self, channel, motion, values)
-      class(clearance_translational_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel                   !! name of the channel
-      type(motion_t), intent(in) :: motion                  !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)               !! (components, all items or contacts) values [any]
-
-      real(wp) :: across(2), arm(2)
-      integer :: i, j, k
-
-      if (channel /= "eccentricity") then
-         call flat_report(self, channel, motion, values)
-         return
-      end if
-      do k = 1, self%n
-         i = self%body(1, k)
-         j = self%body(2, k)
-         across = motion%rot(1:2, 2, i)*self%axis(1, k) - motion%rot(1:2, 1, i)*self%axis(2, k)
-         arm = motion%r(1:2, j) + matmul(motion%rot(1:2, 1:2, j), self%s_j(1:2, k)) &
-               - motion%r(1:2, i) - matmul(motion%rot(1:2, 1:2, i), self%s_i(1:2, k))
-         values(:, self%first + k) = dot_product(across, arm)*across
-      end do
-   end subroutine translational_report
-
-   !> The contacts of the two corners of a long side at a surface: number q of the four of an item.
-   pure function corners_of(q) result(c)
-      integer, intent(in) :: q  !! sides 1, 2 at the upper, 3, 4: at the lower surface
-      integer :: c(2)           !! (2) contacts of the item
-
-      integer :: side
-
-      side = modulo(q - 1, 2) + 1
-      c = (q - side)/2*n_corner + [side_1(side), side_2(side)]
-   end function corners_of
-
-   !> Let faces of an item take over from their corners.
-   subroutine translational_share_faces(self, item, contacts, f_n, f_elastic, f_rub)
-      class(clearance_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: item                           !! the item
-      type(flat_t), intent(in) :: contacts(:)               !! (8) penetrations and rates of its contacts
-      real(wp), intent(inout) :: f_n(:)                     !! (8) normal forces, as the normal law gives them [N]
-      real(wp), intent(inout) :: f_elastic(:)               !! (8) derivatives of the stored energy by the penetrations [N]
-      real(wp), intent(inout) :: f_rub(:)                   !! (8) normal forces that friction feels [N]
-
-      real(wp) :: d(2), f(2), f_d(2), impact_speed(2), rate(2)
-      integer :: c(2), q
-      logical :: is_touching(2)
-
-      f_rub = f_n
-      if (self%faces(item) == faces_corners) return
-      do q = 1, n_corner
-         c = corners_of(q)
-         associate (memory => self%contact((item - 1)*self%n_contact_item + c))
-            is_touching = memory%is_touching
-            impact_speed = merge(memory%impact_speed, 0.0_wp, is_touching)
-         end associate
-         if (.not. any(is_touching) .or. (self%faces(item) /= faces_foundation .and. .not. all(is_touching))) cycle
-         if (.not. all(is_touching)) impact_speed = sum(impact_speed)
-         d = contacts(c)%delta
-         rate = contacts(c)%rate
-         f = f_n(c)
-         f_d = f_elastic(c)
-         if (self%faces(item) == faces_blend) then
-            call find_blend(self%face_law, self%face_parameters(:, item), d, rate, impact_speed, corner_energy(self, item, c, d), &
-                            f, f_d)
-         else
-            call find_face(self%face_law, self%face_parameters(:, item), d, rate, impact_speed, f, f_d)
-         end if
-         f_n(c) = f
-         f_elastic(c) = f_d
-         f_rub(c) = merge(merge(f, sum(f), all(is_touching)), 0.0_wp, is_touching)
-      end do
-   end subroutine translational_share_faces
-
-   !> Elastic energy of two corners.
-   function corner_energy(self, item, c, d) result(energy)
-      class(clearance_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: item                           !! the item
-      integer, intent(in) :: c(2)                           !! (2) contacts of the item
-      real(wp), intent(in) :: d(2)                          !! (2) their penetrations [m]
-      real(wp) :: energy                                    !! of those that touch [J]
-
-      integer :: k, m
-
-      energy = 0.0_wp
-      do k = 1, 2
-         m = (item - 1)*self%n_contact_item + c(k)
-         if (self%contact(m)%is_touching) energy = energy + self%law%potential(d(k), self%parameters(:, m))
-      end do
-   end function corner_energy
-
-   !> Elastic energy of the corners and faces of an item.
-   function translational_face_energy(self, item, contacts) result(energy)
-      class(clearance_translational_t), intent(in) :: self  !! the set
-      integer, intent(in) :: item                           !! the item
-      type(flat_t), intent(in) :: contacts(:)               !! (8) penetrations and rates of its contacts
-      real(wp) :: energy                                    !! energy stored [J]
-
-      real(wp) :: d(2), of_corners
-      integer :: c(2), q
-      logical :: is_touching(2)
-
-      energy = 0.0_wp
-      do q = 1, n_corner
-         c = corners_of(q)
-         is_touching = self%contact((item - 1)*self%n_contact_item + c)%is_touching
-         if (.not. any(is_touching)) cycle
-         d = contacts(c)%delta
-         of_corners = corner_energy(self, item, c, d)
-         if (self%faces(item) == faces_foundation) then
-            energy = energy + bedding_energy(self%face_law, self%face_parameters(:, item), d)
-         else if (self%faces(item) == faces_corners .or. .not. all(is_touching)) then
-            energy = energy + of_corners
-         else if (self%faces(item) == faces_blend) then
-            energy = energy + blend_energy(self%face_law, self%face_parameters(:, item), d, of_corners)
-         else
-            energy = energy + bedding_energy(self%face_law, self%face_parameters(:, item), d)
-         end if
-      end do
-   end function translational_face_energy
 
 end module clearance_translational

@@ -3,12 +3,12 @@
 !> A contact slides (slip = 1 or -1, the sign of v_T), sticks (0), or is undecided since its onset. With bristles it has a
 !> deflection z. The tangential row of a contact is
 !>
-!> v_T = t . (v_j - v_i),  v_T' = t . (a_j + alpha_j R90 s_j - a_i - alpha_i R90 s_i) + drift,
+!> v_T = t . (v_j - v_i),  v_T' = t . (a_j + alpha_j x s_j - a_i - alpha_i x s_i) + drift,
 !>
 !> velocities of the material points at arms s_i, s_j from the centres of mass, and drift what of v_T' does not depend on
 !> accelerations: the normal turns, and the points of contact move through the bodies.
 !>
-!> Signs: forces are those on body j along t = R90 n. Source: Flores et al. (2008), section 3.5.
+!> Signs: forces are those on body j along t. Source: Flores et al. (2008), section 3.5.
 module contact_grip
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use kinds, only: wp
@@ -24,9 +24,9 @@ module contact_grip
 
    !> How a contact lies, at one motion.
    type :: tangent_t
-      real(wp) :: t(2) = 0.0_wp        !! (2) unit tangent, world frame [1]
-      real(wp) :: arm_i(2) = 0.0_wp    !! (2) where the force on i acts, from its centre of mass, world frame [m]
-      real(wp) :: arm_j(2) = 0.0_wp    !! (2) where the force on j acts, from its centre of mass, world frame [m]
+      real(wp) :: t(3) = 0.0_wp        !! (3) unit tangent, world frame [1]
+      real(wp) :: arm_i(3) = 0.0_wp    !! (3) where the force on i acts, from its centre of mass, world frame [m]
+      real(wp) :: arm_j(3) = 0.0_wp    !! (3) where the force on j acts, from its centre of mass, world frame [m]
       real(wp) :: v = 0.0_wp           !! sliding velocity of j along t [m/s]
       real(wp) :: drift = 0.0_wp       !! part of its rate that does not depend on accelerations [m/s^2]
       real(wp) :: f_n = 0.0_wp         !! normal force [N]

@@ -32,6 +32,7 @@ module normal_law
    type, abstract :: normal_law_t
       character(:), allocatable :: name   !! name of the row
       logical :: jumps_at_turn = .false.  !! the force jumps where the penetration turns (rate = 0), which must be located
+      logical :: acts_apart = .false.     !! there is a force between surfaces that do not touch, as of a film: see `press.inc`
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(prepare_interface), deferred :: prepare
@@ -77,7 +78,7 @@ module normal_law
          implicit none (type, external)
          class(normal_law_t), intent(in) :: self                !! the law
          integer, intent(in) :: n                               !! number of contacts
-         real(wp), intent(in) :: delta(n)                       !! (n) penetration; no force where it is not positive [m]
+         real(wp), intent(in) :: delta(n)                       !! (n) penetration; no force where it is not positive, but for acts_apart [m]
          real(wp), intent(in) :: rate(n)                        !! (n) penetration rate [m/s]
          real(wp), intent(in) :: impact_speed(n)                !! (n) rate at the onset, positive [m/s]
          real(wp), intent(in) :: parameters(n_law_parameter, n) !! (n_law_parameter, n) from `fit` [any]

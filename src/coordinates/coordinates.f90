@@ -204,8 +204,8 @@ module coordinates
       pure subroutine along_interface(direction, arm, row)
          import :: wp
          implicit none (type, external)
-         real(wp), intent(in) :: direction(:)       !! (axes) the direction [1]
-         real(wp), intent(in) :: arm(:)             !! (axes) from the centre of mass to the point [m]
+         real(wp), intent(in) :: direction(3)       !! (3) the direction, world frame [1]
+         real(wp), intent(in) :: arm(3)             !! (3) from the centre of mass to the point [m]
          real(wp), intent(out) :: row(:)            !! (n_v) the row [1 or m]
       end subroutine along_interface
    end interface

@@ -329,11 +329,11 @@ contains
 
    !> The direction, and its moment.
    pure subroutine planar_along(direction, arm, row)
-      real(wp), intent(in) :: direction(:)   !! (2) the direction [1]
-      real(wp), intent(in) :: arm(:)         !! (2) from the centre of mass to the point [m]
+      real(wp), intent(in) :: direction(3)   !! (3) the direction, in the plane [1]
+      real(wp), intent(in) :: arm(3)         !! (3) from the centre of mass to the point [m]
       real(wp), intent(out) :: row(:)        !! (3) the row [1, 1, m]
 
-      row(1:2) = direction
+      row(1:2) = direction(1:2)
       row(3) = arm(1)*direction(2) - arm(2)*direction(1)
    end subroutine planar_along
 

@@ -16,6 +16,7 @@ module mechanism
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use checkpoint, only: piece_t
    use clearance_set, only: clearance_slot_t
+   use contact_places, only: event_functions_t
    use dae_system, only: dae_system_t
    use grip_forces, only: grip_forces_t
    use guided_motion, only: guided_rates, set_guided_acceleration
@@ -27,13 +28,6 @@ module mechanism
    implicit none (type, external)
    private
    public :: mechanism_t
-   public :: lost_damper, n_ledger, work_drive, work_load, work_stabilisation
-
-   integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
-   integer, parameter :: work_load = 2           !! quadrature: work of applied loads
-   integer, parameter :: work_stabilisation = 3  !! quadrature: work of constraint forces on the drift
-   integer, parameter :: lost_damper = 4         !! quadrature: lost in dampers
-   integer, parameter :: n_ledger = 4            !! quadratures before those of the contacts
 
    !> A planar scene.
    type, extends(dae_system_t) :: mechanism_t
@@ -43,7 +37,7 @@ module mechanism
       integer :: n_loose = 0                                !! loose joints in all
       integer :: n_contact = 0                              !! contacts of all loose joints
       real(wp), allocatable :: losses(:, :)                 !! (2, contacts) power lost by contact and friction [W]
-      integer :: first_turn = 0                             !! event functions before those of turns; 0: no law jumps at a turn
+      type(event_functions_t) :: functions                  !! which event functions there are
       type(grip_forces_t) :: grips                          !! contacts whose friction remembers
       type(rubbing_t) :: rubbing                            !! ideal joints that rub
       class(hold_t), allocatable :: way                     !! way of holding the constraints
@@ -60,7 +54,7 @@ module mechanism
       procedure :: events => mechanism_events, last_events => mechanism_last_events
       procedure :: event_noise => mechanism_event_noise, set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
-      procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset
+      procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset, in_state
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
       procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
       procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
@@ -238,7 +232,7 @@ module mechanism
       pure module subroutine ledger_rates(self, power)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
+         real(wp), intent(out), contiguous :: power(:)  !! (quadratures) powers [W]
       end subroutine ledger_rates
 
       !> Error scales.
@@ -411,6 +405,14 @@ contains
          call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
       end associate
    end subroutine mechanism_evaluate_loads
+
+   !> Place in the state of a quadrature of the ledger; of number 0: entries before them.
+   pure integer function in_state(self, quadrature) result(place)
+      class(mechanism_t), intent(in) :: self   !! the system, with a ledger
+      integer, intent(in) :: quadrature        !! number of the quadrature, see `contact_places`
+
+      place = self%n - self%n_quadrature + quadrature
+   end function in_state
 
    !> Multipliers of the last evaluation.
    subroutine mechanism_multipliers(self, lambda)

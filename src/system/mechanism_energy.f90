@@ -4,9 +4,11 @@
 !> E = kinetic + potential + elastic. It is zero but for the error of the integration: an error
 !> measure that needs no reference solution.
 module mechanism_energy
+   use clearance_set, only: loss_contact, loss_friction
+   use contact_places, only: lost_damper, n_quadratures, place_of_loss, work_drive, work_load, work_stabilisation
    use cut_off, only: lost_by_damping
    use kinds, only: wp
-   use mechanism, only: lost_damper, n_ledger, mechanism_t, work_drive, work_load, work_stabilisation
+   use mechanism, only: mechanism_t
    implicit none (type, external)
    private
    public :: energy_t, energy_of, mechanical_energy
@@ -80,7 +82,7 @@ contains
       do k = 1, size(system%loading%forces)
          energy%elastic = energy%elastic + system%loading%forces(k)%set%elastic_energy(system%linkage%motion)
       end do
-      if (.not. any_touching(system)) return
+      if (.not. any_acts(system)) return
       do k = 1, size(system%clearances)
          energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%linkage%motion)
       end do
@@ -92,39 +94,40 @@ contains
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       type(energy_t) :: energy                         !! energies
 
-      integer :: i, k, z
+      integer :: first, i, k, z
 
       call add_mechanical(system, energy)
       if (.not. system%with_ledger) return
-      z = system%n - system%n_quadrature
-      energy%drive_work = y(z + work_drive)
-      energy%load_work = y(z + work_load)
-      energy%stabilisation_work = y(z + work_stabilisation)
-      energy%dissipated_damper = y(z + lost_damper)
+      first = system%in_state(0)
+      energy%drive_work = y(first + work_drive)
+      energy%load_work = y(first + work_load)
+      energy%stabilisation_work = y(first + work_stabilisation)
+      energy%dissipated_damper = y(first + lost_damper)
       do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set, first => z + n_ledger + 2*system%clearances(k)%set%first_contact)
+         associate (set => system%clearances(k)%set)
             do i = 1, set%n_contact
-               energy%dissipated_contact = energy%dissipated_contact &
-                                           + lost_by_damping(set, i, system%linkage%motion, y(first + 2*i - 1))
-               energy%dissipated_friction = energy%dissipated_friction + y(first + 2*i)
+               z = first + place_of_loss(set%first_contact + i, loss_contact)
+               energy%dissipated_contact = energy%dissipated_contact + lost_by_damping(set, i, system%linkage%motion, y(z))
+               z = first + place_of_loss(set%first_contact + i, loss_friction)
+               energy%dissipated_friction = energy%dissipated_friction + y(z)
             end do
          end associate
       end do
       if (system%rubbing%n > 0) then
-         energy%dissipated_friction = energy%dissipated_friction + y(z + n_ledger + 2*system%n_contact + 1)
+         energy%dissipated_friction = energy%dissipated_friction + y(z + n_quadratures(system%n_contact) + 1)
       end if
    end function energy_of
 
-   !> Whether any contact is touching.
-   pure logical function any_touching(system)
+   !> Whether any contact touches, or may have a force without it.
+   pure logical function any_acts(system)
       class(mechanism_t), intent(in) :: system  !! the system
 
       integer :: k
 
-      any_touching = .false.
+      any_acts = .false.
       do k = 1, size(system%clearances)
-         any_touching = any_touching .or. system%clearances(k)%set%n_touching > 0
+         any_acts = any_acts .or. system%clearances(k)%set%n_touching > 0 .or. system%clearances(k)%set%law%acts_apart
       end do
-   end function any_touching
+   end function any_acts
 
 end module mechanism_energy

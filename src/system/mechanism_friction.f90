@@ -71,9 +71,8 @@ contains
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
             associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
-               set%grip%tangent(k)%f_t = set%grip%tangent(k)%f_t + grips%force(c)
-               set%grip%tangent(k)%is_driven = grips%is_fixed(c) &
-                                               .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2
+               call set%stick_with(k, set%grip%tangent(k)%f_t + grips%force(c), grips%is_fixed(c) &
+                                   .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2)
                self%losses(loss_friction, set%first_contact + k) = -set%grip%tangent(k)%f_t*set%grip%tangent(k)%v
             end associate
          end do
@@ -193,7 +192,7 @@ contains
          associate (set => self%clearances(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 0)
-            set%grip%z = y(place + 1:place + set%n_contact) - set%grip%origin
+            call set%bend_bristles(y(place + 1:place + set%n_contact))
          end associate
       end do
       do k = 1, self%rubbing%n

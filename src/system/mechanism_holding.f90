@@ -1,5 +1,6 @@
 !> The correction of states at the ends of steps, with its place in the ledger.
 submodule(mechanism) mechanism_holding
+   use contact_places, only: work_stabilisation
    use hold_projection, only: hold_projection_t
    use mechanism_energy, only: mechanical_energy
    implicit none (type, external)
@@ -47,7 +48,7 @@ contains
       integer :: z
 
       if (.not. self%with_ledger) return
-      z = self%n - self%n_quadrature + work_stabilisation
+      z = self%in_state(work_stabilisation)
       y(z) = y(z) + (mechanical_energy(self) - before)
    end subroutine book
 

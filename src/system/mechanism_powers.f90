@@ -1,5 +1,6 @@
 !> The powers of the ledger, as of the last evaluation.
 submodule(mechanism) mechanism_powers
+   use contact_places, only: lost_damper, n_quadratures, put_losses, work_drive, work_load, work_stabilisation
    use known_motion, only: power_of_known
    implicit none (type, external)
 
@@ -28,11 +29,8 @@ contains
       do k = 1, size(self%loading%forces)
          power(lost_damper) = power(lost_damper) + self%loading%forces(k)%set%lost_power(self%linkage%motion)
       end do
-      do k = 1, self%n_contact
-         power(n_ledger + 2*k - 1) = self%losses(1, k)
-         power(n_ledger + 2*k) = self%losses(2, k)
-      end do
-      if (self%rubbing%n > 0) power(n_ledger + 2*self%n_contact + 1) = self%rubbing%power
+      call put_losses(self%n_contact, self%losses, power)
+      if (self%rubbing%n > 0) power(n_quadratures(self%n_contact) + 1) = self%rubbing%power
    end procedure ledger_rates
 
 end submodule mechanism_powers

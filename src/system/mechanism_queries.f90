@@ -1,6 +1,7 @@
 !> What is asked of a planar scene beside its evaluation: event functions.
 submodule(mechanism) mechanism_queries
    use contact_memory, only: rests
+   use contact_places, only: touch_function, turn_function
    use gap_noise, only: find_gap_noise
    implicit none (type, external)
 
@@ -13,14 +14,14 @@ contains
       else
          call self%linkage%set_motion(t, y)
       end if
-      if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
+      if (self%functions%has_turn .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
    end procedure mechanism_events
 
    !> The same at the present motion.
    module procedure mechanism_last_events
       if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) call self%friction_events(t, y, g, rate)
-      if (self%first_turn > 0 .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
+      if (self%functions%has_turn .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
    end procedure mechanism_last_events
 
@@ -34,10 +35,11 @@ contains
       real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2]
 
       real(wp) :: acceleration(self%n_contact), speed(self%n_contact)
-      integer :: i, k, number
+      integer :: i, k, number, place
 
-      g(self%first_turn + 1:) = -1.0_wp
-      rate(self%first_turn + 1:) = 0.0_wp
+      place = self%functions%place(turn_function, 0)
+      g(place + 1:place + self%n_contact) = -1.0_wp
+      rate(place + 1:place + self%n_contact) = 0.0_wp
       if (.not. any([(self%clearances(k)%set%law%jumps_at_turn .and. self%clearances(k)%set%n_touching > 0, &
                       k=1, size(self%clearances))])) return
       call self%turns(t, y, speed, acceleration)
@@ -47,12 +49,13 @@ contains
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                number = set%first_contact + i
+               place = self%functions%place(turn_function, number)
                if (set%contact(i)%course == rests) then
-                  g(self%first_turn + number) = abs(speed(number)) - set%contact(i)%rest_speed
-                  rate(self%first_turn + number) = sign(1.0_wp, speed(number))*acceleration(number)
+                  g(place) = abs(speed(number)) - set%contact(i)%rest_speed
+                  rate(place) = sign(1.0_wp, speed(number))*acceleration(number)
                else
-                  g(self%first_turn + number) = -set%contact(i)%course*speed(number)
-                  rate(self%first_turn + number) = -set%contact(i)%course*acceleration(number)
+                  g(place) = -set%contact(i)%course*speed(number)
+                  rate(place) = -set%contact(i)%course*acceleration(number)
                end if
             end do
          end associate
@@ -102,7 +105,7 @@ contains
    !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
    module procedure mechanism_event_noise
       real(wp) :: rate_noise(self%n_contact), shared
-      integer :: k
+      integer :: k, turns
 
       noise = 0.0_wp
       shared = 0.0_wp
@@ -116,7 +119,10 @@ contains
             end associate
          end associate
       end do
-      if (self%first_turn > 0) noise(self%first_turn + 1:) = rate_noise
+      if (self%functions%has_turn) then
+         turns = self%functions%place(turn_function, 0)
+         noise(turns + 1:turns + self%n_contact) = rate_noise
+      end if
    end procedure mechanism_event_noise
 
    !> Whether event k, as things stand, is the onset of a contact.
@@ -124,7 +130,7 @@ contains
       integer :: item, slot
 
       is_onset = .false.
-      if (k > self%n_contact) return
+      if (self%functions%kind_of(k) /= touch_function) return
       call self%find_contact(k, slot, item)
       is_onset = .not. self%clearances(slot)%set%contact(item)%is_touching
    end procedure mechanism_is_onset
@@ -132,7 +138,7 @@ contains
    !> Set of a contact and its place there by its number.
    module procedure mechanism_find_contact
       do slot = 1, size(self%clearances)
-         contact = mod(number - 1, self%n_contact) + 1 - self%clearances(slot)%set%first_contact
+         contact = self%functions%contact_of(number) - self%clearances(slot)%set%first_contact
          if (contact <= self%clearances(slot)%set%n_contact) return
       end do
    end procedure mechanism_find_contact

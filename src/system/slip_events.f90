@@ -11,6 +11,7 @@
 !> Source: see `mechanism_friction`. Limits: contacts change one after another, each for the others as they are.
 submodule(mechanism:mechanism_friction) slip_events
    use contact_grip, only: is_undecided, tangent_t
+   use contact_places, only: slip_function
    use floors, only: at_rest, chatter_time, least_band, look_ahead, standstill, torn, widest_band
    implicit none (type, external)
 
@@ -21,8 +22,9 @@ contains
       real(wp) :: moment
       integer :: k, number, slot, status
 
-      g(self%n_contact + 1:) = -1.0_wp
-      rate(self%n_contact + 1:) = 0.0_wp
+      number = self%functions%place(slip_function, 0)
+      g(number + 1:number + self%n_contact) = -1.0_wp
+      rate(number + 1:number + self%n_contact) = 0.0_wp
       moment = self%time_of_difference(t)
       if (any_sticks(self)) then
          call self%evaluate(t, y, self%grips%ydot, status)
@@ -35,7 +37,7 @@ contains
          associate (set => self%clearances(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               number = self%n_contact + set%first_contact + k
+               number = self%functions%place(slip_function, set%first_contact + k)
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
                associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
                   if (slip == sticks) then
@@ -63,8 +65,8 @@ contains
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               g(self%n_contact + set%first_contact + k) = short_of(self, set%grip%tangent(k), &
-                                                                    set%friction%stick_limit(set%grip%tangent(k)%f_n))
+               g(self%functions%place(slip_function, set%first_contact + k)) = &
+                  short_of(self, set%grip%tangent(k), set%friction%stick_limit(set%grip%tangent(k)%f_n))
             end do
          end associate
       end do
@@ -108,40 +110,39 @@ contains
    !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
    !> that sticks until now. One that drivers move goes with them.
    module procedure mechanism_decide_slip
-      real(wp) :: delta(self%n_contact), rate(self%n_contact), speed
+      real(wp) :: band, delta(self%n_contact), rate(self%n_contact), speed
       integer :: before, status
 
       speed = own_speed(self)
       associate (set => self%clearances(slot)%set)
          before = set%grip%slip(k)
          call set%gaps(self%linkage%motion, delta, rate)
+         band = 0.0_wp
          if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%first_contact + k))) then
-            set%grip%band(k) = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
-         else
-            set%grip%band(k) = 0.0_wp
+            band = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
          end if
-         set%grip%since(k) = t
+         call set%note_decision(k, t, band)
          if (before == is_undecided) then
-            call set%lie(k, self%linkage%motion, set%grip%tangent(k))
+            call set%lay(k, self%linkage%motion)
             if (abs(set%grip%tangent(k)%v) > at_rest*speed) then
-               set%grip%slip(k) = nint(sign(1.0_wp, set%grip%tangent(k)%v))
+               call set%slip_as(k, nint(sign(1.0_wp, set%grip%tangent(k)%v)))
                return
             end if
          end if
-         set%grip%slip(k) = sticks
+         call set%slip_as(k, sticks)
          call self%evaluate(t, y, self%grips%ydot, status)
          associate (tangent => set%grip%tangent(k))
             if (tangent%is_driven) then
-               set%grip%band(k) = 0.0_wp
-               set%grip%slip(k) = way_of_drivers(self, t, y, slot, k, at_rest*speed)
+               call set%note_decision(k, t, 0.0_wp)
+               call set%slip_as(k, way_of_drivers(self, t, y, slot, k, at_rest*speed))
                return
             end if
             if (abs(tangent%v) > 0.5_wp*torn*speed) then
-               set%grip%slip(k) = nint(sign(1.0_wp, tangent%v))
+               call set%slip_as(k, nint(sign(1.0_wp, tangent%v)))
                return
             end if
             if (before /= sticks .and. abs(tangent%f_t) <= set%friction%stick_limit(tangent%f_n)) return
-            set%grip%slip(k) = nint(-sign(1.0_wp, tangent%f_t))
+            call set%slip_as(k, nint(-sign(1.0_wp, tangent%f_t)))
          end associate
       end associate
    end procedure mechanism_decide_slip
@@ -165,7 +166,7 @@ contains
          if (abs(now) < 0.5_wp*still) then
             self%grips%y = y + later*self%grips%ydot
             call self%linkage%set_motion(t + later, self%grips%y)
-            call set%lie(k, self%linkage%motion, set%grip%tangent(k))
+            call set%lay(k, self%linkage%motion)
             v = set%grip%tangent(k)%v
             call self%evaluate(t, y, self%grips%ydot, status)
          end if

@@ -7,10 +7,11 @@ module test_clearances
    use contact_memory, only: approaches, contact_memory_t, parts
    use differences, only: five_point, places, six_places, six_point
    use errors, only: error_t
-   use flat_contacts, only: flat_contacts_t, flat_t
+   use faced_contacts, only: faced_contacts_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: loads_t
+   use point_contact, only: point_contact_t
    use recorder, only: event_t
    implicit none (type, external)
    private
@@ -165,7 +166,7 @@ contains
       type(bench_t), intent(inout) :: bench   !! the set
 
       real(wp), parameter :: h = 4.0e-9_wp
-      type(flat_t), allocatable :: contacts(:), later(:)
+      type(point_contact_t), allocatable :: contacts(:), later(:)
       real(wp) :: energy(4)
       integer :: c, item, k
 
@@ -174,11 +175,11 @@ contains
       call move_to(bench, 0.0_wp)
       energy = 0.0_wp
       select type (set => bench%set)
-      class is (flat_contacts_t)
+      class is (faced_contacts_t)
          allocate (contacts(set%n_contact_item))
          do item = 1, set%n
             do c = 1, set%n_contact_item
-               call set%measure((item - 1)*set%n_contact_item + c, bench%motion, contacts(c))
+               call set%measure((item - 1)*set%n_contact_item + c, .false., bench%motion, contacts(c))
             end do
             do k = 1, 4
                later = contacts

@@ -1,12 +1,13 @@
 !> The energy ledger: its powers are those of the equations at any state, its energies those of the bodies.
 module test_ledger
    use check, only: check_close, check_equal, check_true, suite_t
+   use contact_places, only: work_drive, work_load, work_stabilisation
    use differences, only: five_point, places
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, wp
    use mechanism_energy, only: energy_of, energy_t
-   use mechanism, only: mechanism_t, work_drive, work_load, work_stabilisation
+   use mechanism, only: mechanism_t
    use scene_fixture, only: channel_of, nl, slider_crank, start_text, system_of_text
    implicit none (type, external)
    private

@@ -1,0 +1,278 @@
+!> The contacts of all items of a set: which there are, which touch, and what they remember.
+!>
+!> An item has one contact or several, as many as it has labels: contact m is number (m - 1) mod n_contact_item + 1 of its item.
+!> A contact is free or touching; it changes only at located events, and only by the procedures below: the impact speed is stored
+!> at the onset, the greatest force and penetration as steps find them, and the end makes a row of the list of events.
+module contact_states
+   use catalogue, only: state_contact, state_free, state_name
+   use contact_grip, only: grip_t, n_grip_memory
+   use contact_memory, only: contact_memory_t, n_contact_memory
+   use friction_law, only: memory_none
+   use kinds, only: not_a_number, wp
+   use recorder, only: event_t
+   use text, only: text_t
+   implicit none (type, external)
+   private
+   public :: contact_states_t
+
+   !> The contacts of a set.
+   type :: contact_states_t
+      integer :: n = 0                                      !! number of items
+      integer :: n_contact_item = 1                         !! contacts of an item
+      integer :: n_contact = 0                              !! contacts of all items
+      integer :: n_touching = 0                             !! number of contacts that touch
+      integer :: first = 0                                  !! items of earlier sets
+      integer :: first_contact = 0                          !! contacts of earlier sets
+      type(text_t), allocatable :: names(:)                 !! (n) names
+      type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item
+      type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
+      type(grip_t) :: grip                                  !! what the contacts remember of their friction
+   contains
+      procedure :: item_of
+      procedure :: label_of
+      procedure :: begin_contact
+      procedure :: end_contact
+      procedure :: take_off
+      procedure :: adopt => states_adopt
+      procedure :: touch_where
+      procedure :: begin_at_rest
+      procedure :: note_depth
+      procedure :: note_force
+      procedure :: set_course
+      procedure :: slip_as
+      procedure :: note_decision
+      procedure :: stick_with
+      procedure :: place_bristles
+      procedure :: bend_bristles
+      procedure :: memory_size => states_memory_size
+      procedure :: save => states_save
+      procedure :: load => states_load
+   end type contact_states_t
+
+contains
+
+   !> The item that a contact belongs to.
+   pure integer function item_of(self, contact) result(item)
+      class(contact_states_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact               !! contact of the set
+
+      item = (contact - 1)/self%n_contact_item + 1
+   end function item_of
+
+   !> The name of a contact among those of its item, blank if it is the only one.
+   pure function label_of(self, contact) result(label)
+      class(contact_states_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact               !! contact of the set
+      character(:), allocatable :: label           !! the name
+
+      integer :: place
+
+      place = modulo(contact - 1, self%n_contact_item) + 1
+      label = self%labels(place)%s
+   end function label_of
+
+   !> A contact begins: store its impact speed.
+   subroutine begin_contact(self, k, t, impact_speed, loss)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: t                       !! time of the onset [s]
+      real(wp), intent(in) :: impact_speed            !! penetration rate at the onset [m/s]
+      real(wp), intent(in) :: loss                    !! what the ledger has lost in the contact by now [J]
+
+      self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
+      self%n_touching = self%n_touching + 1
+      call self%grip%forget(k)
+   end subroutine begin_contact
+
+   !> A contact ends, or the run ends within it: tell its story in one row.
+   subroutine end_contact(self, k, t, release_speed, loss, is_over, event)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: t                       !! time of the end [s]
+      real(wp), intent(in) :: release_speed           !! separation speed [m/s]
+      real(wp), intent(in) :: loss                    !! what the ledger has lost in the contact by now; NaN: no ledger [J]
+      logical, intent(in) :: is_over                  !! .false.: the run ended within the contact
+      type(event_t), intent(out) :: event             !! the row
+
+      associate (contact => self%contact(k))
+         event%time = contact%onset
+         event%kind = "contact"
+         event%item = self%names(self%item_of(k))%s
+         event%contact = self%label_of(k)
+         event%impact_speed = contact%impact_speed
+         event%peak_force = contact%peak_force
+         event%peak_penetration = contact%peak_penetration
+         event%energy_lost = loss - contact%loss_at_onset
+         event%state_before = state_name(state_free)
+         if (is_over) then
+            event%duration = t - contact%onset
+            event%release_speed = release_speed
+            event%state_after = state_name(state_free)
+            contact%is_touching = .false.
+            self%n_touching = self%n_touching - 1
+            call self%grip%forget(k)
+         else
+            event%duration = not_a_number()
+            event%release_speed = not_a_number()
+            event%state_after = state_name(state_contact)
+         end if
+      end associate
+   end subroutine end_contact
+
+   !> A contact that the end of the run cut short is told of: it is off the list of those that touch.
+   pure subroutine take_off(self, k)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+
+      self%contact(k)%is_touching = .false.
+      self%n_touching = self%n_touching - 1
+   end subroutine take_off
+
+   !> Take over what a contact of another set of the same laws remembers; deflections of bristles are in the state.
+   subroutine states_adopt(self, k, other, k_other)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      class(contact_states_t), intent(in) :: other    !! the other set
+      integer, intent(in) :: k_other                  !! contact of it
+
+      self%n_touching = self%n_touching + merge(1, 0, other%contact(k_other)%is_touching) &
+                        - merge(1, 0, self%contact(k)%is_touching)
+      self%contact(k) = other%contact(k_other)
+      call self%grip%adopt(k, other%grip, k_other)
+   end subroutine states_adopt
+
+   !> Contacts touch where their surfaces overlap, whatever they did before: so a search of an equilibrium takes them.
+   pure subroutine touch_where(self, delta)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      real(wp), intent(in) :: delta(:)                !! (all contacts) penetrations [m]
+
+      self%contact%is_touching = delta(self%first_contact + 1:self%first_contact + self%n_contact) > 0.0_wp
+      self%n_touching = count(self%contact%is_touching)
+   end subroutine touch_where
+
+   !> The contacts that touch in an equilibrium begin there, at t = 0 and without a speed.
+   subroutine begin_at_rest(self)
+      class(contact_states_t), intent(inout) :: self  !! the set
+
+      integer :: k
+
+      self%n_touching = 0
+      do k = 1, self%n_contact
+         if (self%contact(k)%is_touching) call self%begin_contact(k, 0.0_wp, 0.0_wp, 0.0_wp)
+      end do
+   end subroutine begin_at_rest
+
+   !> Raise the greatest penetration that a contact remembers.
+   pure subroutine note_depth(self, k, delta)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: delta                   !! penetration that it had [m]
+
+      self%contact(k)%peak_penetration = max(self%contact(k)%peak_penetration, delta)
+   end subroutine note_depth
+
+   !> Raise the greatest force that a contact remembers.
+   pure subroutine note_force(self, k, force)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: force                   !! normal force that it had [N]
+
+      self%contact(k)%peak_force = max(self%contact(k)%peak_force, force)
+   end subroutine note_force
+
+   !> A contact goes on in another course: it approaches, parts, or rests.
+   pure subroutine set_course(self, k, course, rest_speed)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      integer, intent(in) :: course                   !! approaches, parts or rests
+      real(wp), intent(in), optional :: rest_speed    !! greatest rate of one that rests [m/s]
+
+      self%contact(k)%course = course
+      if (present(rest_speed)) self%contact(k)%rest_speed = rest_speed
+   end subroutine set_course
+
+   !> It is decided that a contact slides this way or sticks.
+   pure subroutine slip_as(self, k, slip)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      integer, intent(in) :: slip                     !! sign of its sliding velocity, 0: it sticks
+
+      self%grip%slip(k) = slip
+   end subroutine slip_as
+
+   !> When it was decided, and the speed the wrong way at which its slip is to end next.
+   pure subroutine note_decision(self, k, t, band)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: t                       !! time [s]
+      real(wp), intent(in) :: band                    !! speed against the slip at which it ends [m/s]
+
+      self%grip%since(k) = t
+      self%grip%band(k) = band
+   end subroutine note_decision
+
+   !> Friction of a contact that sticks, as found with the accelerations.
+   pure subroutine stick_with(self, k, force, is_driven)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: force                   !! on body j along t [N]
+      logical, intent(in) :: is_driven                !! drivers alone prescribe how it slides
+
+      self%grip%tangent(k)%f_t = force
+      self%grip%tangent(k)%is_driven = is_driven
+   end subroutine stick_with
+
+   !> Where the deflections of the bristles are among those of all sets.
+   pure subroutine place_bristles(self, first)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: first                    !! deflections of earlier sets
+
+      self%grip%first_bristle = first
+   end subroutine place_bristles
+
+   !> Take the deflections of bristles from a state.
+   pure subroutine bend_bristles(self, state)
+      class(contact_states_t), intent(inout) :: self  !! the set, with friction that has bristles
+      real(wp), intent(in) :: state(:)                !! (n_contact) the entries of the state [m]
+
+      self%grip%z = state - self%grip%origin
+   end subroutine bend_bristles
+
+   !> Numbers that the set must keep in a checkpoint.
+   integer function states_memory_size(self) result(n)
+      class(contact_states_t), intent(in) :: self  !! the set
+
+      n = n_contact_memory*self%n_contact
+      if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
+   end function states_memory_size
+
+   !> Write what the set remembers.
+   subroutine states_save(self, row, place)
+      class(contact_states_t), intent(in) :: self  !! the set
+      real(wp), intent(inout) :: row(:)            !! (any) checkpoint [any]
+      integer, intent(inout) :: place              !! last place used
+
+      integer :: k
+
+      do k = 1, self%n_contact
+         call self%contact(k)%save(row, place)
+      end do
+      call self%grip%save(row, place)
+   end subroutine states_save
+
+   !> Read what the set remembers.
+   subroutine states_load(self, row, place)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      real(wp), intent(in) :: row(:)                  !! (any) checkpoint [any]
+      integer, intent(inout) :: place                 !! last place used
+
+      integer :: k
+
+      do k = 1, self%n_contact
+         call self%contact(k)%load(row, place)
+      end do
+      self%n_touching = count(self%contact%is_touching)
+      call self%grip%load(row, place)
+   end subroutine states_load
+
+end module contact_states

@@ -1,0 +1,231 @@
+!> The one way of contacts at points: measure -> press -> rub -> loads and losses, and what is asked of them beside that.
+!>
+!> A geometry measures: where its surfaces meet and how deep (`measure`), the second derivative of the penetration
+!> (`penetration_acceleration`), how the normal turns and the point of contact moves (`turning`). The rest is here:
+!>
+!> press   F_N of all contacts at once from the normal law
+!> rub     F_T from F_N and the sliding velocity, by the friction law or by what the contact remembers (`contact_grip`)
+!> loads   f_j = -F_N n + F_T t on body j, -f_j on body i, both at C (`point_contact`); what damping and friction take:
+!>         (F_N - F_elastic) delta', -F_T v_T
+!> watch   F_N and its rate, F' = dF/ddelta delta' + dF/drate delta''
+!>
+!> An evaluation is one virtual call, of text that each geometry includes (`point_way.inc`): what it measures is inlined there.
+!> Source: Flores et al. (2008), sections 3.6 and 4.2 to 4.4. Limits: a contact is a point; contacts that share a face
+!> (`has_faces`): see `faced_contacts`.
+module point_contacts
+   use clearance_set, only: clearance_set_t
+   use contact_grip, only: slip_force, tangent_t
+   use contact_laws, only: rub_by_law
+   use friction_law, only: memory_none
+   use kind_info, only: add_channel, kind_info_t
+   use kinds, only: wp
+   use motion, only: motion_t
+   use point_contact, only: contact_work_t, most_of_item, new_work, point_contact_t
+   implicit none (type, external)
+   private
+   public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_watch
+
+   !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
+   type, abstract, extends(clearance_set_t) :: point_contacts_t
+      type(contact_work_t) :: work   !! of one evaluation
+   contains
+      procedure, non_overridable :: make_room
+      procedure(measure_interface), deferred :: measure
+      procedure(acceleration_interface), deferred :: penetration_acceleration
+      procedure(turning_interface), deferred :: turning
+      procedure, non_overridable :: share_faces => point_share_faces
+      procedure :: share_item => point_share_item
+      procedure :: report_item => point_report_item
+      procedure, non_overridable :: press => point_press
+      procedure, non_overridable :: rub => point_rub
+      procedure :: gaps => point_gaps
+      procedure :: watch => point_watch
+      procedure :: lie => point_lie
+      procedure :: report => point_report
+      procedure :: elastic_energy => point_elastic_energy
+   end type point_contacts_t
+
+   abstract interface
+      !> Normal, penetration, its rate and arms of a contact; its sliding velocity where it is asked for. No allocation.
+      pure subroutine measure_interface(self, k, with_sliding, motion, contact)
+         import :: motion_t, point_contact_t, point_contacts_t
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self      !! the set
+         integer, intent(in) :: k                         !! contact
+         logical, intent(in) :: with_sliding              !! its sliding velocity too
+         type(motion_t), intent(in) :: motion             !! positions and velocities
+         type(point_contact_t), intent(inout) :: contact  !! its kinematics
+      end subroutine measure_interface
+
+      !> Second derivative of a penetration by time.
+      pure real(wp) function acceleration_interface(self, k, motion, contact) result(acceleration)
+         import :: motion_t, point_contact_t, point_contacts_t, wp
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self    !! the set
+         integer, intent(in) :: k                       !! contact
+         type(motion_t), intent(in) :: motion           !! positions, velocities and accelerations
+         type(point_contact_t), intent(in) :: contact   !! its kinematics
+      end function acceleration_interface
+
+      !> How the normal of a contact turns, and how fast its point goes along the normal, as each body sees it.
+      pure subroutine turning_interface(self, k, motion, contact, turn, speed_i, speed_j)
+         import :: motion_t, point_contact_t, point_contacts_t, wp
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self    !! the set
+         integer, intent(in) :: k                       !! contact
+         type(motion_t), intent(in) :: motion           !! positions and velocities
+         type(point_contact_t), intent(in) :: contact   !! its kinematics
+         real(wp), intent(out) :: turn                  !! rate at which the normal turns towards t [rad/s]
+         real(wp), intent(out) :: speed_i               !! n . s_i', from the centre of mass of i [m/s]
+         real(wp), intent(out) :: speed_j               !! n . s_j', from the centre of mass of j [m/s]
+      end subroutine turning_interface
+   end interface
+
+   interface
+      !> Penetration and its rate for all contacts.
+      module subroutine point_gaps(self, motion, delta, rate)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self  !! the set
+         type(motion_t), intent(in) :: motion         !! positions and velocities
+         real(wp), intent(inout) :: delta(:)          !! (all contacts) penetration [m]
+         real(wp), intent(inout) :: rate(:)           !! (all contacts) its rate [m/s]
+      end subroutine point_gaps
+
+      !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.
+      module subroutine point_watch(self, k, motion, delta, rate, force, force_rate)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self  !! the set
+         integer, intent(in) :: k                     !! contact
+         type(motion_t), intent(in) :: motion         !! positions, velocities and accelerations
+         real(wp), intent(out) :: delta               !! penetration [m]
+         real(wp), intent(out) :: rate                !! its rate [m/s]
+         real(wp), intent(out) :: force               !! normal force [N]
+         real(wp), intent(out) :: force_rate          !! its rate [N/s]
+      end subroutine point_watch
+
+      !> How a contact lies, whether it touches or not.
+      module subroutine point_lie(self, k, motion, tangent)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self  !! the set
+         integer, intent(in) :: k                     !! contact
+         type(motion_t), intent(in) :: motion         !! positions and velocities
+         type(tangent_t), intent(inout) :: tangent    !! how it lies
+      end subroutine point_lie
+
+      !> Values of a channel: those of the contacts and the force on j here, others as the geometry has them.
+      module subroutine point_report(self, channel, motion, values)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self  !! the set
+         character(*), intent(in) :: channel          !! name of the channel
+         type(motion_t), intent(in) :: motion         !! positions and velocities
+         real(wp), intent(inout) :: values(:, :)      !! (components, all items or contacts) values [any]
+      end subroutine point_report
+
+      !> Elastic energy that the touching contacts store.
+      module function point_elastic_energy(self, motion) result(energy)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self  !! the set
+         type(motion_t), intent(in) :: motion         !! positions
+         real(wp) :: energy                           !! energy stored [J]
+      end function point_elastic_energy
+
+      !> Normal forces of the contacts of an item, zero of those that are free.
+      module subroutine point_press(self, item, contacts, f_n, f_elastic)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self        !! the set
+         integer, intent(in) :: item                        !! the item
+         type(point_contact_t), intent(in) :: contacts(:)   !! (n_contact_item) penetrations and rates of its contacts
+         real(wp), intent(out) :: f_n(:)                    !! (n_contact_item) normal forces, as the normal law gives them [N]
+         real(wp), intent(out) :: f_elastic(:)              !! (n_contact_item) their elastic parts [N]
+      end subroutine point_press
+   end interface
+
+contains
+
+   !> The channels that every contact has.
+   subroutine add_contact_channels(info, who)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+      character(*), intent(in) :: who           !! what has the friction force, as "slider"
+
+      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
+      call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching")
+      call add_channel(info, "normal_force", "N", "none", 1, "normal contact force")
+      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along t = R90 n")
+      call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
+   end subroutine add_contact_channels
+
+   !> Room for what an evaluation finds.
+   subroutine make_room(self)
+      class(point_contacts_t), intent(inout) :: self  !! the set
+
+      call new_work(self%n_contact, self%work)
+   end subroutine make_room
+
+   !> Friction of all contacts in an evaluation, by the law or by what it remembers; that of a contact that sticks is found with the
+   !> accelerations.
+   subroutine point_rub(self, motion)
+      class(point_contacts_t), intent(inout) :: self  !! the set, its contacts measured and pressed
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+
+      integer :: k
+
+      if (.not. self%has_faces) self%work%f_rub = self%work%f_n
+      if (self%grip%memory == memory_none) then
+         call rub_by_law(self%n_contact, self%friction, self%contact, self%work%contacts, self%work%f_rub, self%work%speed, &
+                         self%work%f_t)
+         return
+      end if
+      do k = 1, self%n_contact
+         self%work%f_t(k) = 0.0_wp
+         if (.not. self%contact(k)%is_touching) cycle
+         call self%lay(k, motion)
+         self%grip%tangent(k)%f_n = self%work%f_rub(k)
+         call slip_force(self%grip, self%friction, k)
+         self%work%f_t(k) = self%grip%tangent(k)%f_t
+      end do
+   end subroutine point_rub
+
+   !> A channel of a geometry's own; there is none here, and the value is left alone.
+   subroutine point_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+      class(point_contacts_t), intent(in) :: self         !! the set
+      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: item                         !! the item
+      type(motion_t), intent(in) :: motion                !! positions and velocities
+      type(point_contact_t), intent(in) :: contacts(:)    !! (n_contact_item) kinematics of its contacts
+      real(wp), intent(in) :: f_n(:)                      !! (n_contact_item) normal forces [N]
+      real(wp), intent(in) :: f_t(:)                      !! (n_contact_item) friction forces on j along t [N]
+      real(wp), intent(inout) :: value(:)                 !! (components) the value [any]
+   end subroutine point_report_item
+
+   !> Let faces take over from the contacts that share them, in an evaluation.
+   subroutine point_share_faces(self)
+      class(point_contacts_t), intent(inout) :: self  !! the set, its contacts measured and pressed
+
+      real(wp), dimension(most_of_item) :: f_elastic, f_n, f_rub
+      integer :: first, item, last, n
+
+      n = self%n_contact_item
+      do item = 1, self%n
+         first = (item - 1)*n + 1
+         last = item*n
+         f_n(:n) = self%work%f_n(first:last)
+         f_elastic(:n) = self%work%f_elastic(first:last)
+         f_rub(:n) = f_n(:n)
+         call self%share_item(item, self%work%contacts(first:last), f_n(:n), f_elastic(:n), f_rub(:n))
+         self%work%f_n(first:last) = f_n(:n)
+         self%work%f_elastic(first:last) = f_elastic(:n)
+         self%work%f_rub(first:last) = f_rub(:n)
+      end do
+   end subroutine point_share_faces
+
+   !> Let faces of an item take over from its contacts: a geometry without faces leaves the forces as they are.
+   subroutine point_share_item(self, item, contacts, f_n, f_elastic, f_rub)
+      class(point_contacts_t), intent(in) :: self        !! the set
+      integer, intent(in) :: item                        !! the item
+      type(point_contact_t), intent(in) :: contacts(:)   !! (n_contact_item) penetrations and rates of its contacts
+      real(wp), intent(inout) :: f_n(:)                  !! (n_contact_item) normal forces, as the normal law gives them [N]
+      real(wp), intent(inout) :: f_elastic(:)            !! (n_contact_item) derivatives of the stored energy by penetrations [N]
+      real(wp), intent(inout) :: f_rub(:)                !! (n_contact_item) normal forces that friction feels [N]
+   end subroutine point_share_item
+
+end module point_contacts

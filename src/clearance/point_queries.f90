@@ -1,0 +1,145 @@
+!> What is asked of contacts at points beside their evaluation: gaps, forces and their rates, how they lie, channels, energy.
+submodule(point_contacts) point_queries
+   use catalogue, only: state_contact, state_free
+   use contact_laws, only: press_in_course
+   use contact_memory, only: contact_memory_t
+   use normal_law, only: n_law_parameter, normal_law_t
+   use planar_contacts, only: lie_in_plane, planar_force
+   implicit none (type, external)
+
+contains
+
+   include "press.inc"
+
+   !> Normal forces of the contacts of an item, zero of those that are free.
+   module procedure point_press
+      real(wp), dimension(most_of_item) :: delta, impact_speed, rate, slope_delta, slope_rate
+      integer :: first, last
+
+      first = (item - 1)*self%n_contact_item + 1
+      last = item*self%n_contact_item
+      call press(self%n_contact_item, self%law, self%contact(first:last), self%parameters(:, first:last), contacts, delta, rate, &
+                 impact_speed, f_n, slope_delta, slope_rate, f_elastic)
+   end procedure point_press
+
+   !> Penetration and its rate for all contacts.
+   module procedure point_gaps
+      type(point_contact_t) :: contact
+      integer :: k
+
+      do k = 1, self%n_contact
+         call self%measure(k, .false., motion, contact)
+         delta(self%first_contact + k) = contact%delta
+         rate(self%first_contact + k) = contact%rate
+      end do
+   end procedure point_gaps
+
+   !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.
+   module procedure point_watch
+      type(point_contact_t) :: contact
+      real(wp), dimension(1) :: d, d_rate, elastic, f, impact_speed, slope_delta, slope_rate
+
+      call self%measure(k, .false., motion, contact)
+      delta = contact%delta
+      rate = contact%rate
+      force = 0.0_wp
+      force_rate = 0.0_wp
+      if (.not. (self%contact(k)%is_touching .or. self%law%acts_apart)) return
+      call press(1, self%law, self%contact(k:k), self%parameters(:, k:k), [contact], d, d_rate, impact_speed, f, slope_delta, &
+                 slope_rate, elastic)
+      force = f(1)
+      force_rate = slope_delta(1)*rate + slope_rate(1)*self%penetration_acceleration(k, motion, contact)
+   end procedure point_watch
+
+   !> How a contact lies, whether it touches or not.
+   module procedure point_lie
+      type(point_contact_t) :: contact
+      real(wp) :: speed_i, speed_j, turn
+      integer :: item
+
+      item = self%item_of(k)
+      call self%measure(k, .true., motion, contact)
+      call self%turning(k, motion, contact, turn, speed_i, speed_j)
+      call lie_in_plane(contact, motion%omega(3, self%body(1, item)), motion%omega(3, self%body(2, item)), turn, speed_i, speed_j, &
+                        tangent)
+   end procedure point_lie
+
+   !> Values of a channel: those of the contacts and the force on j here, others as the geometry has them.
+   module procedure point_report
+      type(point_contact_t) :: contacts(self%n_contact_item)
+      real(wp) :: f(3), f_n(self%n_contact_item), f_t(self%n_contact_item)
+      integer :: c, first, item, m
+
+      do item = 1, self%n
+         first = (item - 1)*self%n_contact_item
+         call find_forces(self, item, motion, contacts, f_n, f_t)
+         if (channel == "force") values(:, self%first + item) = 0.0_wp
+         do c = 1, self%n_contact_item
+            m = self%first_contact + first + c
+            select case (channel)
+            case ("force")
+               f = planar_force(contacts(c), f_n(c), f_t(c))
+               values(:, self%first + item) = values(:, self%first + item) + f(:size(values, 1))
+            case ("penetration")
+               values(1, m) = max(contacts(c)%delta, 0.0_wp)
+            case ("penetration_rate")
+               values(1, m) = merge(contacts(c)%rate, 0.0_wp, self%contact(first + c)%is_touching)
+            case ("normal_force")
+               values(1, m) = f_n(c)
+            case ("friction_force")
+               values(1, m) = f_t(c)
+            case ("state")
+               values(1, m) = real(merge(state_contact, state_free, self%contact(first + c)%is_touching), wp)
+            case default
+               call self%report_item(channel, item, motion, contacts, f_n, f_t, values(:, self%first + item))
+               exit
+            end select
+         end do
+      end do
+   end procedure point_report
+
+   !> Kinematics and forces of the contacts of an item at a motion: forces are zero of those that are free.
+   subroutine find_forces(self, item, motion, contacts, f_n, f_t)
+      class(point_contacts_t), intent(in) :: self           !! the set
+      integer, intent(in) :: item                           !! the item
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      type(point_contact_t), intent(inout) :: contacts(:)   !! (n_contact_item) kinematics
+      real(wp), intent(out) :: f_n(:)                       !! (n_contact_item) normal forces [N]
+      real(wp), intent(out) :: f_t(:)                       !! (n_contact_item) friction forces on j along t [N]
+
+      real(wp), dimension(size(f_n)) :: f_elastic, f_rub, speed
+      integer :: c, first, n
+
+      n = self%n_contact_item
+      first = (item - 1)*n
+      f_n = 0.0_wp
+      f_t = 0.0_wp
+      do c = 1, n
+         call self%measure(first + c, allocated(self%friction), motion, contacts(c))
+      end do
+      if (self%n_touching == 0 .and. .not. self%law%acts_apart) return
+      call self%press(item, contacts, f_n, f_elastic)
+      f_rub = f_n
+      if (self%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub)
+      if (.not. allocated(self%friction)) return
+      if (self%grip%memory == memory_none) then
+         call rub_by_law(n, self%friction, self%contact(first + 1:first + n), contacts, f_rub, speed, f_t)
+      else  ! of the last evaluation: it is no function of the motion alone
+         f_t = merge(self%grip%tangent(first + 1:first + n)%f_t, 0.0_wp, self%contact(first + 1:first + n)%is_touching)
+      end if
+   end subroutine find_forces
+
+   !> Elastic energy that the touching contacts store.
+   module procedure point_elastic_energy
+      type(point_contact_t) :: contact
+      integer :: k
+
+      energy = 0.0_wp
+      do k = 1, self%n_contact
+         if (.not. (self%contact(k)%is_touching .or. self%law%acts_apart)) cycle
+         call self%measure(k, .false., motion, contact)
+         energy = energy + self%law%potential(contact%delta, self%parameters(:, k))
+      end do
+   end procedure point_elastic_energy
+
+end submodule point_queries

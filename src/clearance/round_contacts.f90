@@ -1,0 +1,270 @@
+!> Planar: a journal (pin) of body j, round, in a round bearing (hole) of body i, or beside a disc of it.
+!>
+!> e = r_j^P - r_i^P,  n = e / |e|,  t = R90 n,  delta = |e| - c,  rate = e' . n    eqs. (4.1)-(4.5)
+!> delta'' = n . e'' + (|e'|^2 - rate^2) / |e|
+!> v_T = t . (v_j - v_i), velocities of the material points at C = (Q_i + Q_j) / 2, Q_k = P_k + R_k n
+!>
+!> With e = 0 the normal is taken along e' and delta = -c. Beside a disc |e|, n, c and the disc's radius have the other sign, and
+!> all of this holds as it stands. Forces: see `point_contacts`.
+!>
+!> Source: Flores et al. (2008), section 4.2, corrected: the book differentiates the geometric contact point, (4.7) and (4.9), so
+!> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
+!> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
+module round_contacts
+   use clearance_set, only: loss_contact, loss_friction
+   use contact_laws, only: press_in_course
+   use contact_memory, only: contact_memory_t
+   use kinds, only: wp
+   use motion, only: loads_t, motion_t
+   use normal_law, only: n_law_parameter, normal_law_t
+   use planar_contacts, only: planar_sliding
+   use point_contact, only: point_contact_t
+   use point_contacts, only: point_contacts_t
+   implicit none (type, external)
+   private
+   public :: journal_t, round_contacts_t
+
+   !> The surfaces of one joint.
+   type :: journal_t
+      real(wp) :: radius_i = 0.0_wp         !! radius of the bearing; negative: a disc that the journal touches from outside [m]
+      real(wp) :: radius_j = 0.0_wp         !! radius of the journal [m]
+      real(wp) :: clearance = 0.0_wp        !! radius_i less radius_j [m]
+      real(wp) :: side = 1.0_wp             !! 1: the journal is in a hole; -1: beside a disc, distance and normal reversed [1]
+      real(wp) :: share = 0.5_wp            !! part of the penetration from a surface to where the forces act [1]
+      logical :: is_book = .false.          !! formulas as the book prints them
+   end type journal_t
+
+   !> Journals in bearings or beside discs. `prepare` of a geometry sets their surfaces.
+   type, abstract, extends(point_contacts_t) :: round_contacts_t
+      type(journal_t), allocatable :: journal(:)       !! (n) the surfaces
+   contains
+      procedure :: evaluate => round_evaluate
+      procedure :: measure => measure_one
+      procedure :: penetration_acceleration => round_penetration_acceleration
+      procedure :: turning => round_turning
+      procedure :: report_item => round_report_item
+   end type round_contacts_t
+
+contains
+
+   !> Add the contact forces of the touching contacts.
+   subroutine round_evaluate(self, motion, loads, losses)
+      class(round_contacts_t), intent(inout) :: self        !! the set
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      type(loads_t), intent(inout) :: loads                 !! loads on the bodies
+      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
+
+      include "point_way.inc"
+   end subroutine round_evaluate
+
+   include "press.inc"
+   include "planar_loads.inc"
+
+   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
+   subroutine measure_touching(self, motion)
+      class(round_contacts_t), intent(inout) :: self  !! the set; kinematics are set
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+
+      call measure_journals(self%n, self%law%acts_apart, self%contact, self%body, self%s_i, self%s_j, self%journal, &
+                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, allocated(self%friction), &
+                            self%work%contacts)
+   end subroutine measure_touching
+
+   !> The same on plain arrays.
+   pure subroutine measure_journals(n, all_act, memory, body, s_i, s_j, journal, n_body, r, rot, v, omega, with_sliding, contacts)
+      integer, intent(in) :: n                            !! number of contacts
+      logical, intent(in) :: all_act                      !! those that are free too
+      type(contact_memory_t), intent(in) :: memory(n)     !! (n) states
+      integer, intent(in) :: body(2, n)                   !! (2, n) bodies of bearing and journal
+      real(wp), intent(in) :: s_i(3, n)                   !! (3, n) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_j(3, n)                   !! (3, n) centre of the journal, frame of its body [m]
+      type(journal_t), intent(in) :: journal(n)           !! (n) the surfaces
+      integer, intent(in) :: n_body                       !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)              !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)         !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)              !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)          !! (3, 0:bodies) angular velocities [rad/s]
+      logical, intent(in) :: with_sliding                 !! their sliding velocities too
+      type(point_contact_t), intent(inout) :: contacts(n) !! (n) kinematics of those that act
+
+      real(wp) :: distance
+      integer :: k
+
+      do k = 1, n
+         if (.not. (memory(k)%is_touching .or. all_act)) cycle
+         call measure_journal(body(:, k), s_i(:, k), s_j(:, k), journal(k), n_body, r, rot, v, omega, contacts(k), distance)
+         if (with_sliding) call measure_sliding(journal(k), distance, body(:, k), n_body, v, omega, contacts(k))
+      end do
+   end subroutine measure_journals
+
+   !> Normal, penetration, its rate and arms of a contact; its sliding velocity where it is asked for.
+   pure subroutine measure_one(self, k, with_sliding, motion, contact)
+      class(round_contacts_t), intent(in) :: self      !! the set
+      integer, intent(in) :: k                         !! contact
+      logical, intent(in) :: with_sliding              !! its sliding velocity too
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      type(point_contact_t), intent(inout) :: contact  !! its kinematics
+
+      real(wp) :: distance
+
+      call measure_journal(self%body(:, k), self%s_i(:, k), self%s_j(:, k), self%journal(k), ubound(motion%angle, 1), motion%r, &
+                           motion%rot, motion%v, motion%omega, contact, distance)
+      if (with_sliding) then
+         call measure_sliding(self%journal(k), distance, self%body(:, k), ubound(motion%angle, 1), motion%v, motion%omega, contact)
+      end if
+   end subroutine measure_one
+
+   !> All but the sliding velocity.
+   pure subroutine measure_journal(body, s_bearing, s_journal, journal, n_body, r, rot, v, omega, contact, distance)
+      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      type(journal_t), intent(in) :: journal             !! the surfaces
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      type(point_contact_t), intent(inout) :: contact    !! its kinematics
+      real(wp), intent(out) :: distance                  !! of the centres, negative beside a disc [m]
+
+      real(wp) :: e(2), e_dot(2), normal(2), s_i(2), s_j(2), speed
+      integer :: i, j
+
+      i = body(1)
+      j = body(2)
+      s_i(1) = rot(1, 1, i)*s_bearing(1) + rot(1, 2, i)*s_bearing(2)
+      s_i(2) = rot(2, 1, i)*s_bearing(1) + rot(2, 2, i)*s_bearing(2)
+      s_j(1) = rot(1, 1, j)*s_journal(1) + rot(1, 2, j)*s_journal(2)
+      s_j(2) = rot(2, 1, j)*s_journal(1) + rot(2, 2, j)*s_journal(2)
+      e(1) = r(1, j) + s_j(1) - r(1, i) - s_i(1)
+      e(2) = r(2, j) + s_j(2) - r(2, i) - s_i(2)
+      e_dot(1) = v(1, j) - omega(3, j)*s_j(2) - v(1, i) + omega(3, i)*s_i(2)
+      e_dot(2) = v(2, j) + omega(3, j)*s_j(1) - v(2, i) - omega(3, i)*s_i(1)
+      distance = journal%side*sqrt(e(1)**2 + e(2)**2)
+      if (abs(distance) > tiny(1.0_wp)) then
+         normal(1) = e(1)/distance
+         normal(2) = e(2)/distance
+      else
+         speed = sqrt(e_dot(1)**2 + e_dot(2)**2)
+         normal = [1.0_wp, 0.0_wp]
+         if (speed > tiny(1.0_wp)) normal = e_dot/speed
+      end if
+      contact%normal(1) = normal(1)
+      contact%normal(2) = normal(2)
+      contact%delta = distance - journal%clearance
+      contact%rate = e_dot(1)*normal(1) + e_dot(2)*normal(2)
+      contact%arm_i(1) = s_i(1) + (journal%radius_i + journal%share*contact%delta)*normal(1)
+      contact%arm_i(2) = s_i(2) + (journal%radius_i + journal%share*contact%delta)*normal(2)
+      contact%arm_j(1) = s_j(1) + (journal%radius_j - journal%share*contact%delta)*normal(1)
+      contact%arm_j(2) = s_j(2) + (journal%radius_j - journal%share*contact%delta)*normal(2)
+   end subroutine measure_journal
+
+   !> Sliding velocities, once normal and arms are known.
+   pure subroutine measure_sliding(journal, distance, body, n_body, v, omega, contact)
+      type(journal_t), intent(in) :: journal             !! the surfaces
+      real(wp), intent(in) :: distance                   !! of the centres, negative beside a disc [m]
+      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      type(point_contact_t), intent(inout) :: contact    !! sliding velocities are set
+
+      associate (i => body(1), j => body(2))
+         contact%v_t_work = planar_sliding(contact, v(:, i), omega(3, i), v(:, j), omega(3, j))
+         contact%v_t = contact%v_t_work
+         if (.not. journal%is_book) return
+         ! of the geometric contact points: delta times the rate of the normal's direction
+         contact%v_t = contact%v_t_work - journal%radius_j*omega(3, j) + journal%radius_i*omega(3, i)
+         contact%v_t = contact%v_t*contact%delta/max(distance, tiny(1.0_wp))
+      end associate
+   end subroutine measure_sliding
+
+   !> Second derivative of a penetration by time.
+   pure real(wp) function round_penetration_acceleration(self, k, motion, contact) result(acceleration)
+      class(round_contacts_t), intent(in) :: self    !! the set
+      integer, intent(in) :: k                       !! contact
+      type(motion_t), intent(in) :: motion           !! positions, velocities and accelerations
+      type(point_contact_t), intent(in) :: contact   !! its kinematics
+
+      real(wp) :: a(2), distance, e_dot(2), s_i(2), s_j(2)
+      integer :: i, j
+
+      i = self%body(1, k)
+      j = self%body(2, k)
+      call find_centres(self, k, motion, s_i, s_j, distance)
+      e_dot = motion%v(1:2, j) - motion%v(1:2, i) + motion%omega(3, j)*[-s_j(2), s_j(1)] - motion%omega(3, i)*[-s_i(2), s_i(1)]
+      a = motion%a(1:2, j) - motion%a(1:2, i) &
+          + motion%alpha(3, j)*[-s_j(2), s_j(1)] - motion%omega(3, j)**2*s_j &
+          - motion%alpha(3, i)*[-s_i(2), s_i(1)] + motion%omega(3, i)**2*s_i
+      acceleration = contact%normal(1)*a(1) + contact%normal(2)*a(2) &
+                     + (e_dot(1)**2 + e_dot(2)**2 - contact%rate**2)/(self%journal(k)%side*max(distance, tiny(1.0_wp)))
+   end function round_penetration_acceleration
+
+   !> The normal turns with e' . t / |e|, and the point of contact goes along with it: of its velocity only the part along the
+   !> normal counts, that of the centre P_k and the rate at which it comes nearer to it.
+   pure subroutine round_turning(self, k, motion, contact, turn, speed_i, speed_j)
+      class(round_contacts_t), intent(in) :: self    !! the set
+      integer, intent(in) :: k                       !! contact
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+      type(point_contact_t), intent(in) :: contact   !! its kinematics
+      real(wp), intent(out) :: turn                  !! rate at which the normal turns towards t [rad/s]
+      real(wp), intent(out) :: speed_i               !! n . s_i', from the centre of mass of i [m/s]
+      real(wp), intent(out) :: speed_j               !! n . s_j', from the centre of mass of j [m/s]
+
+      real(wp) :: distance, longer, p_i(2), p_j(2), s_i(2), s_j(2)
+      integer :: i, j
+
+      i = self%body(1, k)
+      j = self%body(2, k)
+      call find_centres(self, k, motion, s_i, s_j, distance)
+      longer = merge(0.0_wp, 0.5_wp*contact%rate, self%journal(k)%is_book)  ! rate of the distance from the bearing's centre
+      p_i = motion%omega(3, i)*[-s_i(2), s_i(1)]  ! of the centres, from those of mass
+      p_j = motion%omega(3, j)*[-s_j(2), s_j(1)]
+      turn = dot_product(motion%v(1:2, j) + p_j - motion%v(1:2, i) - p_i, [-contact%normal(2), contact%normal(1)]) &
+             /(self%journal(k)%side*max(distance, tiny(1.0_wp)))
+      speed_i = dot_product(contact%normal(1:2), p_i) + longer
+      speed_j = dot_product(contact%normal(1:2), p_j) - longer
+   end subroutine round_turning
+
+   !> Centres of bearing and journal, from the centres of mass of their bodies, and how far they are apart.
+   pure subroutine find_centres(self, k, motion, s_i, s_j, distance)
+      class(round_contacts_t), intent(in) :: self      !! the set
+      integer, intent(in) :: k                         !! item
+      type(motion_t), intent(in) :: motion             !! positions
+      real(wp), intent(out) :: s_i(2)                  !! (2) centre of the bearing, world frame [m]
+      real(wp), intent(out) :: s_j(2)                  !! (2) centre of the journal, world frame [m]
+      real(wp), intent(out) :: distance                !! of the centres [m]
+
+      real(wp) :: e(2)
+      integer :: i, j
+
+      i = self%body(1, k)
+      j = self%body(2, k)
+      s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
+      s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      e = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
+      distance = sqrt(e(1)**2 + e(2)**2)
+   end subroutine find_centres
+
+   !> The eccentricity: the journal's centre from the bearing's, world frame.
+   subroutine round_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+      class(round_contacts_t), intent(in) :: self         !! the set
+      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: item                         !! the item
+      type(motion_t), intent(in) :: motion                !! positions and velocities
+      type(point_contact_t), intent(in) :: contacts(:)    !! (1) kinematics of its contact
+      real(wp), intent(in) :: f_n(:)                      !! (1) normal force [N]
+      real(wp), intent(in) :: f_t(:)                      !! (1) friction force on j along t [N]
+      real(wp), intent(inout) :: value(:)                 !! (2) the value [m]
+
+      real(wp) :: distance, s_i(2), s_j(2)
+
+      if (channel /= "eccentricity") return
+      call find_centres(self, item, motion, s_i, s_j, distance)
+      associate (i => self%body(1, item), j => self%body(2, item))
+         value = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
+      end associate
+   end subroutine round_report_item
+
+end module round_contacts
