@@ -7,10 +7,10 @@
 !> body j, the lever l from the pin, against a flat face of body i through the pin: the hinge feels its force. Each is a
 !> point against a plane, see `flat_contacts`, which has forces, rates, memory and energies.
 !>
-!> Signs: the reported force is that on body j. Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), for
-!> joints with limited ranges; Flores et al. (2008), section 3.1 for the contact. Limits: the angles between the limits are less than
-!> half a turn, and none is farther than that beyond one of them; turns are not counted; the law has a stiffness of its own, because
-!> a stop has no shape; masses of both bodies, not their moments of inertia, say how hard an impact is for laws that ask.
+!> Signs: the reported force is that on body j. Source: Flores et al. (2008), section 3.1, a point against a plane. Limits: the
+!> angles between the limits are less than half a turn, and none is farther than that beyond one of them; turns are not counted; the law
+!> has a stiffness of its own, because a stop has no shape; masses of both bodies, not their moments of inertia, say how hard an
+!> impact is for laws that ask.
 module clearance_stop
    use bodies, only: material_t
    use clearance_set, only: no_ideal_kind
@@ -28,7 +28,7 @@ module clearance_stop
    integer, parameter :: lower = 1               !! contact at the lower limit
    integer, parameter :: upper = 2               !! contact at the upper limit
    real(wp), parameter :: never = 1.0_wp         !! distance from a limit that a row leaves out, whatever the motion [m]
-   real(wp), parameter :: no_material = 1.0_wp   !! compliance of surfaces that have none of their own: K from it counts as none [1/Pa]
+   real(wp), parameter :: no_material = 1.0_wp   !! compliance of surfaces without a material: no stiffness comes of it [1/Pa]
 
    !> Stops of joints.
    type, extends(flat_contacts_t) :: clearance_stop_t
@@ -49,7 +49,7 @@ contains
 
       info%name = "clearance.stop"
       info%help = "stops of a pin's angle or of a guide's way; without an ideal twin, so that --ideal keeps their contact"
-      info%source = "Nikravesh (1988), joints with limits; Flores et al. (2008), section 3.1"
+      info%source = "Flores et al. (2008), section 3.1"
       call add_reference(info, "joint", "joint.revolute joint.translational", "the joint that is stopped")
       call add_any_number(info, "lower", "least angle of j relative to i, or least way along the axis; left out: none", default="")
       call add_any_number(info, "upper", "greatest angle or way; left out: none", default="")
