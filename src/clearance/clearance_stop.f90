@@ -8,9 +8,9 @@
 !> point against a plane, see `flat_contacts`, which has forces, rates, memory and energies.
 !>
 !> Signs: the reported force is that on body j. Source: Flores et al. (2008), section 3.1, a point against a plane. Limits: the
-!> angles between the limits are less than half a turn, and none is farther than that beyond one of them; turns are not counted; the law
-!> has a stiffness of its own, because a stop has no shape; masses of both bodies, not their moments of inertia, say how hard an
-!> impact is for laws that ask.
+!> angles between the limits are less than half a turn, and none is farther than that beyond one of them; turns are not counted;
+!> the law has a stiffness of its own, because a stop has no shape; masses of both bodies, not their moments of inertia, say how
+!> hard an impact is for laws that ask.
 module clearance_stop
    use bodies, only: material_t
    use clearance_set, only: no_ideal_kind
