@@ -67,7 +67,7 @@ contains
          message = message//new_line("a")//"  = worst constraint there: '"//system%linkage%row_name(row)//"', violated by "// &
                    real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%linkage%rows%is_angle(row)))
       end if
-      message = message//deepest_contact(system, method)//new_line("a")// &
+      message = message//wedged_joint(system)//deepest_contact(system, method)//new_line("a")// &
                 "  = everything up to the last output instant was saved; "//advice(status)
       call set_error(error, merge(exit_file, exit_integration, status == advance_no_memory), message)
    end subroutine describe_failure
@@ -96,6 +96,20 @@ contains
          return
       end do
    end function not_finite
+
+   !> The ideal joint for which no friction force was found.
+   function wedged_joint(system) result(words)
+      type(mechanism_t), intent(in) :: system   !! the system, evaluated
+      character(:), allocatable :: words        !! a line of the message, blank if there is none
+
+      words = ""
+      if (system%rubbing%wedged == 0) return
+      associate (set => system%linkage%joints(system%rubbing%slot(system%rubbing%wedged))%set, &
+                 m => system%rubbing%place(system%rubbing%wedged))
+         words = new_line("a")//"  = friction in '"//set%names(set%friction%item(m))%s// &
+                 "' presses it harder than it is pressed: the joint wedges"
+      end associate
+   end function wedged_joint
 
    !> The touching contact with the greatest penetration.
    function deepest_contact(system, method) result(words)

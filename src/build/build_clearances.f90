@@ -9,12 +9,12 @@ module build_clearances
    use friction_law, only: friction_law_t
    use item, only: item_t
    use joint_registry, only: new_joint_set
-   use joint_set, only: joint_slot_t
+   use joint_set, only: joint_set_t, joint_slot_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use scene, only: scene_t
-   use ties, only: kind_number, tie_of, tie_set, tie_t
+   use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
    implicit none (type, external)
    private
    public :: add_clearances, has_ideal, is_ideal, levels_as_written, levels_ideal, levels_loose
@@ -168,6 +168,11 @@ contains
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, scene%laws(normal_law)%law, friction)
       if (face_law > 0) allocate (slot%set%face_law, source=scene%laws(face_law)%law)
+      slot%set%leaves = [(0, i=1, size(items))]
+      allocate (slot%set%way(2, size(items)), source=0.0_wp)
+      do i = 1, size(items)
+         if (ties(i)%by_joint) call look_at_joint(scene, ties(i)%joint(1), slot%set%leaves(i), slot%set%way(:, i))
+      end do
       slot%set%first = system%n_loose
       slot%set%first_contact = system%n_contact
       system%n_loose = system%n_loose + slot%set%n
@@ -175,5 +180,28 @@ contains
       call slot%set%prepare(items)
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set
+
+   !> What a joint leaves of the freedom of its bodies.
+   subroutine look_at_joint(scene, number, leaves, way)
+      type(scene_t), intent(in) :: scene   !! the scene
+      integer, intent(in) :: number        !! the joint, among all joints
+      integer, intent(out) :: leaves       !! what its kind says
+      real(wp), intent(out) :: way(2)      !! (2) axis of one that leaves a way, frame of body i [1]
+
+      class(joint_set_t), allocatable :: set
+      real(wp) :: angle(0:scene%bodies%n)
+      integer :: kind, row
+
+      call find_joint(scene, number, kind, row)
+      call new_joint_set(kind, set)
+      associate (table => scene%joints(kind))
+         leaves = table%info%leaves
+         call tie_set(scene, table%info, table%items(row:row), set)
+         angle(0) = 0.0_wp
+         angle(1:) = scene%bodies%angle
+         call set%prepare(table%items(row:row), angle)
+      end associate
+      way = set%way_of(1)
+   end subroutine look_at_joint
 
 end module build_clearances

@@ -64,7 +64,7 @@ contains
       do k = 1, n_clearance_kinds
          do i = 1, size(scene%clearances(k)%items)
             tie = tie_of(scene, scene%clearances(k)%info, scene%clearances(k)%items(i))
-            if (all(is_known(tie%body))) n = n + 1
+            if (.not. tie%by_joint .and. all(is_known(tie%body))) n = n + 1
          end do
       end do
       are_tied = n > size(links) + count(links%driver > 0)

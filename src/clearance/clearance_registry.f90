@@ -4,12 +4,13 @@ module clearance_registry
    use clearance_plane, only: clearance_plane_t
    use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: clearance_set_t
+   use clearance_stop, only: clearance_stop_t
    use clearance_translational, only: clearance_translational_t
    implicit none (type, external)
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 4  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 5  !! number of geometries
 
 contains
 
@@ -23,6 +24,7 @@ contains
       case (2); allocate (clearance_plane_t :: set)
       case (3); allocate (clearance_translational_t :: set)
       case (4); allocate (clearance_discs_t :: set)
+      case (5); allocate (clearance_stop_t :: set)
       end select
    end subroutine new_clearance_set
 

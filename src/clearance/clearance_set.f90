@@ -35,6 +35,8 @@ module clearance_set
       real(wp), allocatable :: s_i(:, :)                    !! (3, n) centre of the bearing, frame of its body [m]
       real(wp), allocatable :: s_j(:, :)                    !! (3, n) centre of the journal, frame of its body [m]
       real(wp), allocatable :: clearance(:)                 !! (n) clearance [m]
+      integer, allocatable :: leaves(:)                     !! (n) of items tied by a joint: what that leaves, see `kind_info`
+      real(wp), allocatable :: way(:, :)                    !! (2, n) and the axis of one that leaves a way, frame of i [1]
       type(surfaces_t), allocatable :: pairs(:)             !! (n) the surfaces
       real(wp), allocatable :: parameters(:, :)             !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
       class(normal_law_t), allocatable :: law               !! normal law of all items

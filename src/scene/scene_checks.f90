@@ -9,7 +9,7 @@ module scene_checks
    use force_registry, only: n_force_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
-   use kind_info, only: kind_info_t
+   use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, leaves_turn, same_dimension
    use kinds, only: wp
    use name_table, only: name_table_t
    use normal_law, only: n_law_parameter
@@ -17,7 +17,7 @@ module scene_checks
    use scene, only: scene_t, table_bodies, table_points
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
-   use ties, only: tie_of, tie_t
+   use ties, only: find_joint, tie_of, tie_t
    implicit none (type, external)
    private
    public :: check_meaning, check_names, report_doubled
@@ -123,6 +123,7 @@ contains
             call check_pair(scene%clearances(k)%info, scene%clearances(k)%items(i))
             associate (item => scene%clearances(k)%items(i))
                call set%mistake(item, column, message, help)
+               if (column == 0) call check_limits(scene%clearances(k)%info, item, column, message, help)
                if (column == 0) call check_law(scene, scene%clearances(k)%info, item, set, column, message, help)
                if (column == 0) cycle
                call diagnostics%add(item%values(column)%location, message, "does not fit", help)
@@ -176,6 +177,34 @@ contains
          call diagnostics%add(item%values(tie%column(2))%location, "joint '"//item%name//"' has no length", &
                               "the two points coincide at the start", "give the column length, or move the bodies")
       end subroutine check_start_length
+
+      !> Numbers of any dimension in a row that is tied by a joint are angles if the joint turns, lengths if it slides.
+      subroutine check_limits(info, item, column, message, help)
+         type(kind_info_t), intent(in) :: info                  !! the kind
+         type(item_t), intent(in) :: item                       !! the row
+         integer, intent(inout) :: column                       !! column at fault, 0: all is well
+         character(:), allocatable, intent(inout) :: message    !! what is wrong
+         character(:), allocatable, intent(inout) :: help       !! what would be right
+
+         type(dim_t) :: wanted
+         type(tie_t) :: tie
+         integer :: c, kind, row
+
+         tie = tie_of(scene, info, item)
+         if (.not. tie%by_joint) return
+         call find_joint(scene, tie%joint(1), kind, row)
+         wanted = dim_length
+         if (scene%joints(kind)%info%leaves == leaves_turn) wanted = dim_angle
+         do c = 1, size(info%columns)
+            if (.not. (info%columns(c)%is_any .and. item%values(c)%given)) cycle
+            if (same_dimension(item%values(c)%dimensions(1), wanted)) cycle
+            column = c
+            message = "'"//item%name//"' is tied by '"//scene%joints(kind)%items(row)%name//"', a "//scene%joints(kind)%info%name
+            help = "column "//info%columns(c)%name//" is a length there"
+            if (scene%joints(kind)%info%leaves == leaves_turn) help = "column "//info%columns(c)%name//" is an angle there"
+            return
+         end do
+      end subroutine check_limits
 
       !> Friction in an ideal joint needs a law that gives a force at any motion, and a pin with a radius.
       subroutine check_friction(info, item)

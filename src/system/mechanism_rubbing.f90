@@ -113,6 +113,8 @@ contains
             call dgetrs("N", n, 1, rubbing%matrix, n, rubbing%pivot, rubbing%left, n, info)
             rubbing%change = rubbing%change - rubbing%left
          end do
+         rubbing%wedged = 0
+         if (status /= 0) rubbing%wedged = maxloc(abs(rubbing%left), dim=1)
          if (status /= 0) return
          do k = 1, n
             associate (friction => self%linkage%joints(rubbing%slot(k))%set%friction, m => rubbing%place(k))

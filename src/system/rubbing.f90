@@ -24,6 +24,7 @@ module rubbing
       integer, allocatable :: pivot(:)                !! (n) scratch of the factorisation
       real(wp), allocatable :: unit(:, :)             !! (n_v, 0:bodies) loads of a unit force [1 or m]
       real(wp), allocatable :: b(:)                   !! (rows) right-hand side of the rows, kept [any]
+      integer :: wedged = 0                           !! joint for which the last evaluation found no friction force, 0: none
       real(wp) :: power = 0.0_wp                      !! power that friction in joints takes [W]
    end type rubbing_t
 

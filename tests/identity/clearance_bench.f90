@@ -15,7 +15,7 @@ module clearance_bench
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
-   use kind_info, only: kind_info_t
+   use kind_info, only: kind_info_t, leaves_turn, leaves_way
    use kinds, only: wp
    use law_fixture, only: tame
    use motion, only: loads_t, motion_t, new_loads, new_motion
@@ -167,6 +167,7 @@ contains
          call set_number(info, "corner_radius", 1.0e-3_wp, items(k))
          call set_number(info, "gap_upper", gap, items(k))
          call set_number(info, "gap_lower", gap, items(k))
+         call set_number(info, "lever", 0.2_wp, items(k))
          call set_number(info, "guide_start", 0.0_wp, items(k))
          call set_number(info, "guide_end", 0.0_wp, items(k))
          if (c > 0) items(k)%values(c)%text = words(form)%s
@@ -179,6 +180,8 @@ contains
       bench%set%first_contact = n_before
       materials%young = 207.0e9_wp
       materials%poisson = 0.3_wp
+      bench%set%leaves = [leaves_turn, leaves_way, leaves_turn]
+      bench%set%way = reshape([1.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, 0.0_wp, 1.0_wp], [2, n_item])
       call bench%set%prepare(items)
       call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)], [(.false., k=1, n_body)])
       call bench%set%law%fit(bench%set%pairs(1), parameters, message, help)
@@ -196,13 +199,13 @@ contains
       do k = 1, n_item
          call align(bench, k)
          m = (k - 1)*bench%set%n_contact_item + 1
-         if (bench%set%n_contact_item > 1) m = m + 2
+         if (bench%set%n_contact_item > 2) m = m + 2
          call bring_into_contact(bench, k, m, random%vector(2, -0.5_wp*gap, 0.5_wp*gap))
          call bench%set%begin_contact(m, 0.0_wp, 5.0_wp, 0.0_wp)
          call let_slip(bench, m)
       end do
       bench%touching = pack([(m, m=1, bench%set%n_contact)], bench%set%contact%is_touching)
-      if (bench%set%n_contact_item == 1) return
+      if (bench%set%n_contact_item <= 2) return
       call get_gaps(bench, 0.0_wp, delta, rate)
       do k = 1, n_item
          m = (k - 1)*bench%set%n_contact_item + 4
