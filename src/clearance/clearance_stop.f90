@@ -1,4 +1,4 @@
-!> Stops of a joint: limits of its angle or its way, with a normal law where it goes beyond them.
+!> Planar: stops of a joint: limits of its angle or its way, with a normal law where it goes beyond them.
 !>
 !> turning:   delta_upper = l sin(angle - upper),   delta_lower = l sin(lower - angle)
 !> sliding:   delta_upper = s . d - upper,          delta_lower = lower - s . d
@@ -14,11 +14,12 @@
 module clearance_stop
    use bodies, only: material_t
    use clearance_set, only: no_ideal_kind
-   use flat_contacts, only: add_contact_channels, flat_contacts_t
+   use flat_contacts, only: flat_contacts_t
    use item, only: item_t, place_of
    use kind_info, only: add_any_number, add_channel, add_number, add_reference, dim_angle, dim_length, kind_info_t, leaves_turn, &
       same_dimension
    use kinds, only: pi, wp
+   use point_contacts, only: add_contact_channels
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t
    implicit none (type, external)
@@ -77,7 +78,7 @@ contains
       real(wp) :: limit, side
       integer :: c, k, m
 
-      call self%make_room()
+      call self%make_planes()
       do k = 1, self%n
          self%clearance(k) = items(k)%number("lever")
          do c = lower, upper

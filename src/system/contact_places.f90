@@ -7,10 +7,9 @@
 !> Contacts are counted through all sets. Limits: a block has a function for every contact, whether it needs one or not.
 module contact_places
    use clearance_set, only: loss_contact, loss_friction
-   use kinds, only: wp
    implicit none (type, external)
    private
-   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_loss, put_losses
+   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_loss
    public :: slip_function, touch_function, turn_function, work_drive, work_load, work_stabilisation
 
    integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
@@ -51,24 +50,10 @@ contains
    !> Number of the quadrature of a loss.
    pure integer function place_of_loss(contact, loss) result(place)
       integer, intent(in) :: contact  !! number of the contact
-      integer, intent(in) :: loss     !! loss_contact or loss_friction
+      integer, intent(in) :: loss     !! loss_contact or loss_friction; 0: the quadrature before both
 
       place = n_work + n_loss*(contact - 1) + loss
    end function place_of_loss
-
-   !> Put what contacts lose into its places.
-   pure subroutine put_losses(n_contact, losses, power)
-      integer, intent(in) :: n_contact                  !! contacts of all sets
-      real(wp), intent(in) :: losses(n_loss, n_contact) !! (n_loss, n_contact) power lost, in the order of the quadratures [W]
-      real(wp), intent(inout) :: power(-n_work + 1:n_loss*n_contact)  !! (quadratures) powers, those of contacts are set [W]
-
-      integer :: k
-
-      do k = 1, n_contact
-         power(n_loss*(k - 1) + loss_contact) = losses(loss_contact, k)
-         power(n_loss*(k - 1) + loss_friction) = losses(loss_friction, k)
-      end do
-   end subroutine put_losses
 
    !> Add a block after those that are there.
    pure subroutine functions_add(self, kind)

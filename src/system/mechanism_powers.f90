@@ -1,6 +1,7 @@
 !> The powers of the ledger, as of the last evaluation.
 submodule(mechanism) mechanism_powers
-   use contact_places, only: lost_damper, n_quadratures, put_losses, work_drive, work_load, work_stabilisation
+   use clearance_set, only: loss_contact, loss_friction
+   use contact_places, only: lost_damper, n_loss, n_quadratures, place_of_loss, work_drive, work_load, work_stabilisation
    use known_motion, only: power_of_known
    implicit none (type, external)
 
@@ -8,7 +9,7 @@ contains
 
    !> Powers of the ledger.
    module procedure ledger_rates
-      integer :: k
+      integer :: k, place
 
       power(work_drive) = 0.0_wp
       power(work_stabilisation) = 0.0_wp
@@ -29,7 +30,12 @@ contains
       do k = 1, size(self%loading%forces)
          power(lost_damper) = power(lost_damper) + self%loading%forces(k)%set%lost_power(self%linkage%motion)
       end do
-      call put_losses(self%n_contact, self%losses, power)
+      place = place_of_loss(1, 0)
+      do k = 1, self%n_contact
+         power(place + loss_contact) = self%losses(loss_contact, k)
+         power(place + loss_friction) = self%losses(loss_friction, k)
+         place = place + n_loss
+      end do
       if (self%rubbing%n > 0) power(n_quadratures(self%n_contact) + 1) = self%rubbing%power
    end procedure ledger_rates
 
