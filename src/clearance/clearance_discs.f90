@@ -19,10 +19,6 @@ module clearance_discs
    private
    public :: clearance_discs_t
 
-   integer, parameter :: column_radius_i = 3      !! column of radius_i
-   integer, parameter :: column_radius_j = 4      !! column of radius_j
-   integer, parameter :: column_material = 5      !! column of material
-   integer, parameter :: column_material_j = 6    !! column of material_j
 
    !> Pairs of discs.
    type, extends(round_contacts_t) :: clearance_discs_t
@@ -66,10 +62,10 @@ contains
       call self%make_room()
       allocate (self%journal(self%n))
       do k = 1, self%n
-         associate (values => items(k)%values, journal => self%journal(k))
+         associate (item => items(k), journal => self%journal(k))
             journal%side = -1.0_wp
-            journal%radius_i = -values(column_radius_i)%number
-            journal%radius_j = values(column_radius_j)%number
+            journal%radius_i = -item%number("radius_i")
+            journal%radius_j = item%number("radius_j")
             journal%clearance = journal%radius_i - journal%radius_j
             self%clearance(k) = -journal%clearance
          end associate
@@ -82,14 +78,15 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: material_j
+      integer :: material, material_j
 
       pair%shape = shape_external
-      pair%radius_i = item%values(column_radius_i)%number
-      pair%radius_j = item%values(column_radius_j)%number
-      material_j = item%values(column_material_j)%index
-      if (material_j == 0) material_j = item%values(column_material)%index
-      call set_materials(pair, materials(item%values(column_material)%index), materials(material_j))
+      pair%radius_i = item%number("radius_i")
+      pair%radius_j = item%number("radius_j")
+      material = item%reference("material")
+      material_j = item%reference("material_j")
+      if (material_j == 0) material_j = material
+      call set_materials(pair, materials(material), materials(material_j))
    end subroutine discs_describe
 
 end module clearance_discs

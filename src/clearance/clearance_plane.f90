@@ -21,11 +21,6 @@ module clearance_plane
    private
    public :: clearance_plane_t
 
-   integer, parameter :: column_axis = 3            !! column of axis
-   integer, parameter :: column_angle = 4           !! column of axis_angle
-   integer, parameter :: column_radius = 5          !! column of radius
-   integer, parameter :: column_material = 6        !! column of material
-   integer, parameter :: column_ball_material = 7   !! column of ball_material
 
    !> Balls on planes.
    type, extends(flat_contacts_t) :: clearance_plane_t
@@ -68,11 +63,11 @@ contains
 
       call self%make_planes()
       do k = 1, self%n
-         associate (values => items(k)%values)
-            c = cos(values(column_angle)%number)
-            s = sin(values(column_angle)%number)
-            self%normal_i(:, k) = -merge([c, s], [-s, c], values(column_axis)%text == "x")
-            self%radius(k) = values(column_radius)%number
+         associate (item => items(k))
+            c = cos(item%number("axis_angle"))
+            s = sin(item%number("axis_angle"))
+            self%normal_i(:, k) = -merge([c, s], [-s, c], item%word("axis") == "x")
+            self%radius(k) = item%number("radius")
             self%height(k) = -self%radius(k)
             self%point_j(:, k) = self%s_j(1:2, k)
             self%clearance(k) = self%radius(k)
@@ -86,13 +81,14 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: ball_material
+      integer :: ball_material, material
 
       pair%shape = shape_plane
-      pair%radius_j = item%values(column_radius)%number
-      ball_material = item%values(column_ball_material)%index
-      if (ball_material == 0) ball_material = item%values(column_material)%index
-      call set_materials(pair, materials(item%values(column_material)%index), materials(ball_material))
+      pair%radius_j = item%number("radius")
+      material = item%reference("material")
+      ball_material = item%reference("ball_material")
+      if (ball_material == 0) ball_material = material
+      call set_materials(pair, materials(material), materials(ball_material))
    end subroutine plane_describe
 
 end module clearance_plane

@@ -8,7 +8,7 @@
 !> Limits: both surfaces round; one contact per joint.
 module clearance_revolute
    use bodies, only: material_t
-   use item, only: item_t
+   use item, only: item_t, place_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels
@@ -19,12 +19,6 @@ module clearance_revolute
    private
    public :: clearance_revolute_t
 
-   integer, parameter :: column_radius = 3            !! column of bearing_radius
-   integer, parameter :: column_clearance = 4         !! column of clearance
-   integer, parameter :: column_material = 5          !! column of material
-   integer, parameter :: column_journal_material = 6  !! column of journal_material
-   integer, parameter :: column_form = 10             !! column of form
-   integer, parameter :: column_length = 11           !! column of length
 
    !> Journals in bearings, in the plane.
    type, extends(round_contacts_t) :: clearance_revolute_t
@@ -83,12 +77,12 @@ contains
       call self%make_room()
       allocate (self%journal(self%n))
       do k = 1, self%n
-         associate (values => items(k)%values, journal => self%journal(k))
-            self%clearance(k) = values(column_clearance)%number
-            journal%radius_i = values(column_radius)%number
+         associate (item => items(k), journal => self%journal(k))
+            self%clearance(k) = item%number("clearance")
+            journal%radius_i = item%number("bearing_radius")
             journal%radius_j = journal%radius_i - self%clearance(k)
             journal%clearance = self%clearance(k)
-            journal%is_book = values(column_form)%text == "book"
+            journal%is_book = item%word("form") == "book"
             if (journal%is_book) journal%share = 0.0_wp
          end associate
       end do
@@ -100,16 +94,17 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: journal_material
+      integer :: journal_material, material
 
       pair%shape = shape_internal
-      pair%radius_i = item%values(column_radius)%number
-      pair%clearance = item%values(column_clearance)%number
+      pair%radius_i = item%number("bearing_radius")
+      pair%clearance = item%number("clearance")
       pair%radius_j = pair%radius_i - pair%clearance
-      pair%length = item%values(column_length)%number
-      journal_material = item%values(column_journal_material)%index
-      if (journal_material == 0) journal_material = item%values(column_material)%index
-      call set_materials(pair, materials(item%values(column_material)%index), materials(journal_material))
+      pair%length = item%number("length")
+      material = item%reference("material")
+      journal_material = item%reference("journal_material")
+      if (journal_material == 0) journal_material = material
+      call set_materials(pair, materials(material), materials(journal_material))
    end subroutine revolute_describe
 
    !> The journal must have a radius.
@@ -122,9 +117,9 @@ contains
       column = 0
       message = ""
       help = ""
-      associate (radius => item%values(column_radius)%number, clearance => item%values(column_clearance)%number)
+      associate (radius => item%number("bearing_radius"), clearance => item%number("clearance"))
          if (clearance < radius) return
-         column = column_clearance
+         column = place_of(item, "clearance")
          message = "clearance must be less than bearing_radius"
          help = "the journal's radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
       end associate

@@ -21,7 +21,7 @@ module clearance_translational
    use bodies, only: material_t
    use clearance_set, only: clearance_fit_law
    use floors, only: gentle
-   use item, only: item_t
+   use item, only: item_t, place_of
    use joint_translational, only: add_axis_columns
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, kind_info_t
    use kinds, only: wp
@@ -33,23 +33,6 @@ module clearance_translational
    private
    public :: clearance_translational_t
 
-   integer, parameter :: column_axis = 3             !! column of axis
-   integer, parameter :: column_angle = 4            !! column of axis_angle
-   integer, parameter :: column_length = 5           !! column of length
-   integer, parameter :: column_height = 6           !! column of height
-   integer, parameter :: column_width = 7            !! column of width
-   integer, parameter :: column_gap = 8              !! column of gap
-   integer, parameter :: column_upper = 9            !! column of gap_upper
-   integer, parameter :: column_lower = 10           !! column of gap_lower
-   integer, parameter :: column_radius = 11          !! column of corner_radius
-   integer, parameter :: column_slider_axis = 12     !! column of slider_axis
-   integer, parameter :: column_slider_angle = 13    !! column of slider_angle
-   integer, parameter :: column_start = 14           !! column of guide_start
-   integer, parameter :: column_end = 15             !! column of guide_end
-   integer, parameter :: column_material = 16        !! column of material
-   integer, parameter :: column_guide_material = 17  !! column of guide_material
-   integer, parameter :: column_face_law = 20        !! column of face_law
-   integer, parameter :: column_faces = 21           !! column of faces
 
    real(wp), parameter :: corner_x(n_corner) = [-0.5_wp, 0.5_wp, 0.5_wp, -0.5_wp]   !! of the length [1]
    real(wp), parameter :: corner_y(n_corner) = [-0.5_wp, -0.5_wp, 0.5_wp, 0.5_wp]   !! of the height [1]
@@ -130,25 +113,25 @@ contains
       allocate (self%axis(2, self%n), self%ends(2, self%n), self%face_parameters(n_law_parameter, self%n), source=0.0_wp)
       allocate (self%faces(self%n), source=faces_corners)
       do k = 1, self%n
-         associate (values => items(k)%values)
-            self%axis(:, k) = direction(values(column_axis)%text, values(column_angle)%number)
-            along = direction(values(column_slider_axis)%text, values(column_slider_angle)%number)
-            gap = values(column_gap)%number
-            if (values(column_upper)%given) gap(upper) = values(column_upper)%number
-            if (values(column_lower)%given) gap(lower) = values(column_lower)%number
+         associate (item => items(k))
+            self%axis(:, k) = direction(item%word("axis"), item%number("axis_angle"))
+            along = direction(item%word("slider_axis"), item%number("slider_angle"))
+            gap = item%number("gap")
+            if (item%is_given("gap_upper")) gap(upper) = item%number("gap_upper")
+            if (item%is_given("gap_lower")) gap(lower) = item%number("gap_lower")
             self%clearance(k) = minval(gap)
-            self%ends(:, k) = [values(column_start)%number, values(column_end)%number]
+            self%ends(:, k) = [item%number("guide_start"), item%number("guide_end")]
             if (maxval(abs(self%ends(:, k))) <= 0.0_wp) self%ends(:, k) = [-huge(1.0_wp), huge(1.0_wp)]
             do side = upper, lower
                do c = 1, n_corner
                   m = (k - 1)*self%n_contact_item + (side - 1)*n_corner + c
                   self%normal_i(:, m) = merge(1.0_wp, -1.0_wp, side == upper)*[-self%axis(2, k), self%axis(1, k)]
-                  self%point_j(:, m) = self%s_j(1:2, k) + corner_x(c)*values(column_length)%number*along &
-                                       + corner_y(c)*values(column_height)%number*[-along(2), along(1)]
-                  self%height(m) = 0.5_wp*values(column_height)%number + gap(side)
+                  self%point_j(:, m) = self%s_j(1:2, k) + corner_x(c)*item%number("length")*along &
+                                       + corner_y(c)*item%number("height")*[-along(2), along(1)]
+                  self%height(m) = 0.5_wp*item%number("height") + gap(side)
                end do
             end do
-            select case (values(column_faces)%text)
+            select case (item%word("faces"))
             case ("book"); self%faces(k) = faces_book
             case ("blend"); self%faces(k) = faces_blend
             case ("foundation"); self%faces(k) = faces_foundation
@@ -178,22 +161,20 @@ contains
       column = 0
       message = ""
       help = ""
-      associate (values => item%values)
-         if (.not. values(column_gap)%given .and. .not. (values(column_upper)%given .and. values(column_lower)%given)) then
-            column = column_gap
-            message = "no clearance is given"
-            help = "give the column gap, or gap_upper and gap_lower"
-         else if (values(column_end)%number <= values(column_start)%number .and. &
-                  max(abs(values(column_start)%number), abs(values(column_end)%number)) > 0.0_wp) then
-            column = column_end
-            message = "guide_end must be beyond guide_start"
-            help = "leave both out, or give 0, for surfaces without ends"
-         else if (values(column_faces)%text /= "corners" .and. values(column_face_law)%index == 0) then
-            column = column_faces
-            message = "faces = "//values(column_faces)%text//" needs the column face_law"
-            help = "name a row of contact.plane_face there, or take faces = corners"
-         end if
-      end associate
+      if (.not. item%is_given("gap") .and. .not. (item%is_given("gap_upper") .and. item%is_given("gap_lower"))) then
+         column = place_of(item, "gap")
+         message = "no clearance is given"
+         help = "give the column gap, or gap_upper and gap_lower"
+      else if (item%number("guide_end") <= item%number("guide_start") .and. &
+               max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp) then
+         column = place_of(item, "guide_end")
+         message = "guide_end must be beyond guide_start"
+         help = "leave both out, or give 0, for surfaces without ends"
+      else if (item%word("faces") /= "corners" .and. item%reference("face_law") == 0) then
+         column = place_of(item, "faces")
+         message = "faces = "//item%word("faces")//" needs the column face_law"
+         help = "name a row of contact.plane_face there, or take faces = corners"
+      end if
    end subroutine translational_mistake
 
    !> A rounded corner on a plane, with the sides of the face it belongs to.
@@ -202,15 +183,16 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: guide_material
+      integer :: guide_material, material
 
       pair%shape = shape_plane
-      pair%radius_j = item%values(column_radius)%number
-      pair%length = item%values(column_length)%number
-      pair%width = item%values(column_width)%number
-      guide_material = item%values(column_guide_material)%index
-      if (guide_material == 0) guide_material = item%values(column_material)%index
-      call set_materials(pair, materials(guide_material), materials(item%values(column_material)%index))
+      pair%radius_j = item%number("corner_radius")
+      pair%length = item%number("length")
+      pair%width = item%number("width")
+      material = item%reference("material")
+      guide_material = item%reference("guide_material")
+      if (guide_material == 0) guide_material = material
+      call set_materials(pair, materials(guide_material), materials(material))
    end subroutine translational_describe
 
    !> Fit the corner law, and the face law if there is one.
