@@ -12,6 +12,7 @@ program gudgeon
    use verb_explain, only: check_deck, explain_deck
    use verb_help, only: list_kinds, show_help, show_version
    use verb_new, only: new_deck
+   use verb_precision, only: compare_precision
    use verb_run, only: run_deck
    use verb_sweep, only: sweep_deck
    implicit none (type, external)
@@ -35,6 +36,8 @@ program gudgeon
          call explain_deck(options, error)
       case ("sweep")
          call sweep_deck(options, error)
+      case ("precision")
+         call compare_precision(options, error)
       case ("new")
          call new_deck(options, error)
       case ("list")

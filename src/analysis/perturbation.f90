@@ -6,12 +6,13 @@
 !> free stays moved. The numbers follow from the seed and the number of the run alone: a run is the same whatever runs
 !> beside it and whatever parameters are swept.
 module perturbation
+   use bodies, only: bodies_t
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: new_shift, shift_t
+   public :: arm_of, new_shift, random_shift, shift_t
 
    integer, parameter :: discarded = 64  !! numbers after which generators with neighbouring seeds have parted
 
@@ -30,30 +31,50 @@ contains
       integer, intent(in) :: member         !! number of the run, from 1
       type(shift_t) :: shift                !! its perturbation
 
-      integer, allocatable :: state(:)
-      integer :: first, k, last, n
-      real(wp) :: arm, unused(discarded), x(coordinates%n_v, 2)
-
-      call random_seed(size=n)
-      allocate (state(n))
       associate (settings => scene%ensemble)
-         state = [(ieor(nint(settings%number("seed")), 40503*k), k=1, n)]
-         state(1) = ieor(state(1), member)
-         call random_seed(put=state)
-         call random_number(unused)
-         allocate (shift%q(coordinates%n_v*scene%bodies%n), shift%v(coordinates%n_v*scene%bodies%n))
-         do k = 1, scene%bodies%n
-            arm = 1.0_wp
-            if (scene%bodies%inertia(k) > 0.0_wp) arm = sqrt(scene%bodies%inertia(k)/scene%bodies%mass(k))
-            call random_number(x)
-            x = 2.0_wp*x - 1.0_wp
-            where (spread(coordinates%is_turn, 2, 2)) x = x/arm
-            first = coordinates%n_v*(k - 1) + 1
-            last = coordinates%n_v*k
-            shift%q(first:last) = settings%number("position")*x(:, 1)
-            shift%v(first:last) = settings%number("velocity")*x(:, 2)
-         end do
+         shift = random_shift(scene%bodies, coordinates, nint(settings%number("seed")), member, settings%number("position"), &
+                              settings%number("velocity"))
       end associate
    end function new_shift
+
+   !> A perturbation of random numbers.
+   function random_shift(bodies, coordinates, seed, member, length, speed) result(shift)
+      type(bodies_t), intent(in) :: bodies  !! the bodies
+      class(coordinates_t), intent(in) :: coordinates  !! of these
+      integer, intent(in) :: seed           !! of the random numbers
+      integer, intent(in) :: member         !! number of the run, from 1
+      real(wp), intent(in) :: length        !! greatest displacement [m]
+      real(wp), intent(in) :: speed         !! greatest change of a velocity [m/s]
+      type(shift_t) :: shift                !! the perturbation
+
+      integer, allocatable :: state(:)
+      integer :: first, k, last, n
+      real(wp) :: unused(discarded), x(coordinates%n_v, 2)
+
+      call random_seed(size=n)
+      state = [(ieor(seed, 40503*k), k=1, n)]
+      state(1) = ieor(state(1), member)
+      call random_seed(put=state)
+      call random_number(unused)
+      allocate (shift%q(coordinates%n_v*bodies%n), shift%v(coordinates%n_v*bodies%n))
+      do k = 1, bodies%n
+         call random_number(x)
+         x = 2.0_wp*x - 1.0_wp
+         where (spread(coordinates%is_turn, 2, 2)) x = x/arm_of(bodies, k)
+         first = coordinates%n_v*(k - 1) + 1
+         last = coordinates%n_v*k
+         shift%q(first:last) = length*x(:, 1)
+         shift%v(first:last) = speed*x(:, 2)
+      end do
+   end function random_shift
+
+   !> The radius of gyration of a body, 1 m if it has none: the way of a point there is that of the body's angle.
+   pure real(wp) function arm_of(bodies, k) result(arm)
+      type(bodies_t), intent(in) :: bodies  !! the bodies
+      integer, intent(in) :: k              !! number of the body
+
+      arm = 1.0_wp
+      if (bodies%inertia(k) > 0.0_wp) arm = sqrt(bodies%inertia(k)/bodies%mass(k))
+   end function arm_of
 
 end module perturbation

@@ -14,7 +14,7 @@ module command_words
 
    !> What follows a verb.
    type :: command_t
-      character(7) :: name = ""      !! the verb
+      character(9) :: name = ""      !! the verb
       character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
       character(76) :: help = ""     !! one line
       character(92) :: options = ""  !! the options that it takes, blank-separated
@@ -33,6 +33,8 @@ module command_words
                 "--out --set --ideal --analysis --tolerance --method --quiet --json --member --write"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
+      command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
+                "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
       command_t("check", "DECK", "find every mistake without integrating", "--set --ideal --analysis --tolerance --method"), &
       command_t("explain", "DECK", "what is modelled, what was dropped, every default taken", &
                 "--set --ideal --analysis --tolerance --method"), &
@@ -54,6 +56,9 @@ module command_words
       option_t("--member", "K", "run number K of the deck's ensemble"), &
       option_t("--write", "W", "leave out what takes long to write"), &
       option_t("--jobs", "N", "runs at once; default one for each processor"), &
+      option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
+      option_t("--accuracy", "X", "error wanted, instead of the deck's"), &
+      option_t("--budget", "TIME", "time that all runs may take, as 60s, instead of the deck's"), &
       option_t("--manual", "", "the whole manual, as Markdown"), &
       option_t("--man", "", "the man page"), &
       option_t("--completion", "SHELL", "what completes the words of this program in a shell")]

@@ -2,10 +2,12 @@
 module options
    use command_words, only: find_option, options_of, option_info => option_t, verb_names, words_of_value
    use errors, only: error_t, exit_usage, set_error
-   use kinds, only: wp
+   use kind_info, only: dim_time, same_dimension
+   use kinds, only: least_tolerance, wp
    use numbers, only: number_length, read_number
    use spelling, only: nearest_word
-   use text, only: append_text, join, split_blank, starts_with, text_t
+   use text, only: append_text, join, split_blank, starts_with, text_t, to_text
+   use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
    public :: options_t, read_options, usage_error
@@ -21,6 +23,9 @@ module options
       character(:), allocatable :: write             !! `--write W`: numbers, channels or all
       integer :: member = 0                          !! `--member K`: run K of the ensemble; 0: the start as it is
       integer :: jobs = 0                            !! `--jobs N`: runs at once; 0: as many as there are processors
+      character(:), allocatable :: methods           !! `--methods LIST`; unallocated: as the deck says
+      real(wp) :: accuracy = 0.0_wp                  !! `--accuracy X`; 0: as the deck says [1]
+      real(wp) :: budget = 0.0_wp                    !! `--budget TIME`; 0: as the deck says [s]
       character(:), allocatable :: command           !! the whole command line
       real(wp) :: tolerance = 0.0_wp                 !! `--tolerance X`; 0: as the deck says [1]
       logical :: is_ideal = .false.                  !! `--ideal`
@@ -132,6 +137,9 @@ contains
          case ("--method"); options%method = value
          case ("--analysis"); options%analysis = value
          case ("--set"); call append_text(options%overrides, value)
+         case ("--methods"); options%methods = value
+         case ("--accuracy"); call take_accuracy(word, value, options%accuracy, error)
+         case ("--budget"); call take_time(word, value, options%budget, error)
          case ("--tolerance")
             is_finite = number_length(value) == len(value) .and. len(value) > 0
             if (is_finite) call read_number(value, 0, options%tolerance, is_finite)
@@ -167,6 +175,48 @@ contains
       if (status == 0 .and. n >= 1) return
       call set_error(error, exit_usage, "option "//word//" needs a number from 1 on, not '"//value//"'")
    end subroutine take_count
+
+   !> A part of one.
+   subroutine take_accuracy(word, value, x, error)
+      character(*), intent(in) :: word                     !! the option
+      character(*), intent(in) :: value                    !! its value
+      real(wp), intent(out) :: x                           !! the number [1]
+      type(error_t), allocatable, intent(out) :: error     !! not a number that can be reached
+
+      logical :: is_good
+
+      x = 0.0_wp
+      is_good = number_length(value) == len(value) .and. len(value) > 0
+      if (is_good) call read_number(value, 0, x, is_good)
+      if (is_good .and. x >= least_tolerance .and. x <= 1.0_wp) return
+      call set_error(error, exit_usage, "option "//word//" needs a number from "//to_text(least_tolerance)//" to 1, not '"// &
+                     value//"'")
+   end subroutine take_accuracy
+
+   !> A time with its unit.
+   subroutine take_time(word, value, t, error)
+      character(*), intent(in) :: word                     !! the option
+      character(*), intent(in) :: value                    !! its value
+      real(wp), intent(out) :: t                           !! the time [s]
+      type(error_t), allocatable, intent(out) :: error     !! not a positive time
+
+      type(unit_t) :: unit
+      character(:), allocatable :: message
+      integer :: first, last, n
+      logical :: is_good
+
+      t = 0.0_wp
+      n = number_length(value)
+      is_good = n > 0 .and. n < len(value)
+      if (is_good) then
+         call parse_unit(adjustl(value(n + 1:)), unit, message, first, last)
+         is_good = message == ""
+         if (is_good) is_good = same_dimension(unit%dimension, dim_time)
+         if (is_good) call read_quantity(value(:n), unit, t, is_good)
+      end if
+      if (is_good .and. t > 0.0_wp) return
+      call set_error(error, exit_usage, "option "//word//" needs a time with its unit, as 60s, not '"//value//"'")
+   end subroutine take_time
 
    !> A mistake on the command line, with the nearest word that would do.
    subroutine usage_error(message, word, known, error)

@@ -13,12 +13,14 @@ module verb_explain
    use explain_method, only: explain_method_and_times
    use explain_model, only: explain_size, explain_start
    use imsl_names, only: is_imsl_name
+   use item, only: place_of
    use kinds, only: wp
    use kinematic_start, only: find_kinematic_start
    use load, only: check_swept_words, load_deck, loaded_t
    use mechanism, only: mechanism_t
    use mobility, only: mobility_t
    use options, only: options_t
+   use precision_info, only: setting_t, settings_of
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis, scene_t
    use start_state, only: find_start
    use static, only: equilibrium_t, find_equilibrium
@@ -45,7 +47,7 @@ contains
       call say(loaded%path//": no mistakes; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
                counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
                counted(loaded%system%n_loose, "loose joint", "loose joints")//"; assembled to "// &
-               real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded))
+               real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded)//comparison_text(loaded))
    end subroutine check_deck
 
    !> How many cases and runs a sweep of the deck has; blank if it has none.
@@ -61,6 +63,21 @@ contains
          words = words//", "//counted(n, "run", "runs")//" each"
       end associate
    end function sweep_text
+
+   !> How many settings a comparison of the deck has; blank if it has none.
+   function comparison_text(loaded) result(words)
+      type(loaded_t), intent(in) :: loaded     !! the deck
+      character(:), allocatable :: words       !! as `; a comparison of 3 settings`
+
+      type(setting_t), allocatable :: settings(:)
+
+      words = ""
+      if (.not. loaded%scene%has_precision) return
+      associate (asked => loaded%scene%precision)
+         call settings_of(asked%values(place_of(asked, "methods"))%words, settings)
+      end associate
+      words = "; a comparison of "//counted(size(settings), "setting", "settings")
+   end function comparison_text
 
    !> Where the analysis of the deck begins; the equilibrium of a static one.
    subroutine find_begin(loaded, y, assembly, error)
@@ -114,6 +131,7 @@ contains
       call say_guards(loaded)
       if (allocated(y) .and. loaded%scene%analysis == analysis_dynamic) call floors_of_scene(loaded%system, y, loaded%plan%end)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
+      if (loaded%scene%has_precision) call say("'gudgeon precision' makes"//replace(comparison_text(loaded), ";", ""))
       defaults = all_defaults(loaded%deck)
       call say("")
       call say("defaults taken")
@@ -123,14 +141,16 @@ contains
       if (allocated(start_error)) call move_alloc(start_error, error)
    end subroutine explain_deck
 
-   !> Whether a default says something: not if it is an IMSL name, or a control that was given under that.
+   !> Whether a default says something: not if it is an IMSL name, or a control that was given under that, or of a comparison
+   !> that the deck does not ask for.
    logical function is_worth(scene, line)
       type(scene_t), intent(in) :: scene   !! the scene
       character(*), intent(in) :: line     !! `kind item key = default`
 
       integer :: k
 
-      is_worth = .true.
+      is_worth = scene%has_precision .or. index(line, scene%precision_kind%name//" ") /= 1
+      if (.not. is_worth) return
       do k = 1, n_analysis
          if (index(line, "analysis."//trim(analysis_names(k))//" ") == 0) cycle
          is_worth = k == scene%analysis .or. (k == analysis_static .and. scene%analysis == analysis_dynamic .and. &

@@ -14,6 +14,7 @@ module kind_list
    use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
    use normal_law, only: normal_law_t
+   use precision_info, only: precision_section
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
@@ -94,7 +95,7 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(12 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(13 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
@@ -134,6 +135,7 @@ contains
       kinds(n + 6) = statistics_info()
       kinds(n + 7) = sweep_info()
       kinds(n + 8) = ensemble_info()
+      kinds(n + 9) = precision_section()
    end subroutine all_kinds
 
 end module kind_list

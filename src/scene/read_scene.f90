@@ -15,6 +15,7 @@ module read_scene
    use kind_info, only: kind_info_t
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use option_check, only: check_options
+   use precision_info, only: check_precision, precision_section
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
@@ -123,6 +124,9 @@ contains
       scene%ensemble_kind = ensemble_info()
       scene%has_ensemble = has_section(deck, scene%ensemble_kind%name)
       if (scene%has_ensemble) call read_settings(deck, scene%ensemble_kind, scene%ensemble, is_present, diagnostics)
+      scene%precision_kind = precision_section()
+      call read_settings(deck, scene%precision_kind, scene%precision, scene%has_precision, diagnostics)
+      if (scene%has_precision) call check_precision(scene%precision, diagnostics)
    end subroutine read_studies
 
    !> The tables of joints, forces and clearances.

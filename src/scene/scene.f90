@@ -76,6 +76,9 @@ module scene
       type(kind_info_t) :: ensemble_kind                     !! keys of the ensemble
       type(item_t) :: ensemble                               !! its settings
       real(wp) :: size_of_whole = 0.0_wp                     !! size of the bodies of what this is a group of; 0: all is here [m]
+      logical :: has_precision = .false.                     !! whether the deck says what settings are compared
+      type(kind_info_t) :: precision_kind                    !! keys of that comparison
+      type(item_t) :: precision                              !! its settings, defaults if the deck has none
    end type scene_t
 
 end module scene

@@ -31,6 +31,7 @@ contains
       text = text//echo_settings(scene%output_kind, scene%output)
       if (scene%has_statistics) text = text//echo_settings(scene%statistics_kind, scene%statistics)
       if (scene%has_ensemble) text = text//echo_settings(scene%ensemble_kind, scene%ensemble)
+      if (scene%has_precision) text = text//echo_settings(scene%precision_kind, scene%precision)
 
    contains
 

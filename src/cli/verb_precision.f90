@@ -1,0 +1,228 @@
+!> `gudgeon precision DECK`: how long for how many digits, by which method, and up to what time digits mean anything.
+module verb_precision
+   use build_info, only: compile_flags, compiler, git_sha1
+   use catalogue, only: catalogue_t
+   use console, only: say
+   use deck_texts, only: deck_text, get_includes
+   use errors, only: error_t, exit_integration, exit_usage, set_error
+   use figures, only: draw_figures
+   use item, only: place_of
+   use json_text, only: json_object_t
+   use kinds, only: wp
+   use libraries, only: library_versions
+   use load, only: load_deck, loaded_t
+   use mechanism_report, only: build_catalogue
+   use options, only: options_t
+   use output_directory, only: output_directory_t
+   use output_marker, only: enter_file
+   use output_plan, only: output_plan_t
+   use posix, only: make_directory
+   use precision_file, only: write_precision
+   use precision_info, only: check_setting_word
+   use precision_objects, only: precision_json
+   use precision_plots, only: write_precision_plots
+   use precision_results, only: error_names, precision_t
+   use precision_study, only: study_precision
+   use precision_tables, only: precision_csv, precision_report
+   use precision_text, only: precision_summary
+   use processor, only: processor_name
+   use progress, only: progress_t
+   use run_audit, only: limits_t
+   use run_limits, only: limits_of
+   use scene, only: analysis_dynamic
+   use scene_echo, only: echo_scene
+   use text, only: append_text, replace, split_blank, text_t
+   use text_file, only: fail_file, replace_file, write_file
+   use text_table, only: file_heading
+   use verb_run, only: directory_of
+   use version, only: program_version
+   implicit none (type, external)
+   private
+   public :: compare_precision
+
+contains
+
+   !> Compare the settings that the deck, or the command line, names.
+   subroutine compare_precision(options, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(error_t), allocatable, intent(out) :: error     !! mistakes, no directory, or no run came to its end
+
+      type(loaded_t) :: loaded
+      type(output_directory_t) :: directory
+      type(output_plan_t) :: plan
+      type(precision_t) :: study
+      type(progress_t) :: display
+      type(text_t), allocatable :: pictures(:), warnings(:), words(:)
+      type(limits_t) :: limits
+      character(:), allocatable :: path
+
+      call load_deck(options, loaded, error)
+      if (.not. allocated(error)) call check_request(options, loaded, words, error)
+      if (allocated(error)) return
+      path = directory_of(options, loaded)
+      if (.not. allocated(options%directory)) path = path//"_precision"
+      call directory%open(path, error)
+      if (allocated(error)) return
+      warnings = directory%warnings
+      call find_limits(loaded, limits, warnings)
+      call make_plan(options, loaded, directory%path, plan)
+      call begin_study(options, loaded, study)
+      call display%start(.not. options%is_quiet)
+      call study_precision(loaded%scene, loaded%plan, limits%stop, words, display, study)
+      call display%finish()
+      call write_results(loaded, plan, study, pictures, warnings, error)
+      if (.not. allocated(error)) call report(options, loaded, plan, study, pictures, warnings, error)
+      if (.not. allocated(error) .and. study%reference == "") then
+         call set_error(error, exit_integration, "no run came to its end; "//directory%path//"/precision.txt tells why")
+      end if
+      call directory%close()
+   end subroutine compare_precision
+
+   !> What is compared must be a motion, and the words must name settings.
+   subroutine check_request(options, loaded, words, error)
+      type(options_t), intent(in) :: options                  !! the command line
+      type(loaded_t), intent(in) :: loaded                    !! the deck
+      type(text_t), allocatable, intent(out) :: words(:)      !! (n) settings compared
+      type(error_t), allocatable, intent(out) :: error        !! what is wrong
+
+      character(:), allocatable :: hint, message
+      integer :: k
+
+      if (loaded%scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "a comparison runs the section [analysis.dynamic], which the deck does not begin with")
+         return
+      end if
+      words = loaded%scene%precision%values(place_of(loaded%scene%precision, "methods"))%words
+      if (allocated(options%methods)) words = split_blank(replace(options%methods, ",", " "))
+      if (size(words) == 0) call set_error(error, exit_usage, "option --methods needs settings, as ""verner rk4""")
+      do k = 1, size(words)
+         call check_setting_word(words(k)%s, message, hint)
+         if (message == "") cycle
+         call set_error(error, exit_usage, message//" in --methods"//new_line("a")//"  = "//hint)
+         return
+      end do
+   end subroutine check_request
+
+   !> Conditions that end the motion.
+   subroutine find_limits(loaded, limits, warnings)
+      type(loaded_t), intent(in) :: loaded                       !! the deck
+      type(limits_t), intent(out) :: limits                      !! limits
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (n) grown
+
+      type(catalogue_t) :: catalogue
+
+      call build_catalogue(loaded%system, catalogue)
+      call limits_of(loaded%scene, loaded%system, catalogue, limits, warnings)
+   end subroutine find_limits
+
+   !> What the study is asked, and where it runs.
+   subroutine begin_study(options, loaded, study)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(precision_t), intent(out) :: study              !! asked, not begun
+
+      associate (asked => loaded%scene%precision)
+         study%budget = asked%number("budget")
+         if (options%budget > 0.0_wp) study%budget = options%budget
+         study%accuracy = asked%number("accuracy")
+         if (options%accuracy > 0.0_wp) study%accuracy = options%accuracy
+         study%wanted = findloc(error_names == asked%word("error"), .true., dim=1)
+      end associate
+      study%machine = processor_name()
+      study%compiler = compiler
+      study%flags = compile_flags
+   end subroutine begin_study
+
+   !> What the files say of the comparison.
+   subroutine make_plan(options, loaded, path, plan)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      character(*), intent(in) :: path                     !! directory
+      type(output_plan_t), intent(out) :: plan             !! the plan
+
+      plan%directory = path
+      plan%deck_name = loaded%path
+      plan%deck_text = deck_text(loaded%deck)
+      plan%title = loaded%scene%title
+      plan%program_version = program_version
+      plan%git_sha1 = git_sha1
+      plan%compiler = compiler
+      plan%libraries = library_versions()
+      plan%command = options%command
+      call get_includes(loaded%deck, plan%include_names, plan%include_texts)
+      call plan%complete()
+   end subroutine make_plan
+
+   !> The files and figures.
+   subroutine write_results(loaded, plan, study, pictures, warnings, error)
+      type(loaded_t), intent(in) :: loaded                       !! the deck
+      type(output_plan_t), intent(in) :: plan                    !! what files say
+      type(precision_t), intent(in) :: study                     !! results
+      type(text_t), allocatable, intent(out) :: pictures(:)      !! (n) pictures made
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) grown
+      type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
+
+      type(text_t), allocatable :: names(:)
+      character(:), allocatable :: folder
+      integer :: code
+
+      allocate (pictures(0))
+      call write_file(plan%directory//"/deck.echo", echo_scene(loaded%deck, loaded%scene), error)
+      if (.not. allocated(error)) call write_precision(plan, study, error)
+      if (.not. allocated(error)) call replace_file(plan%directory//"/precision.csv", precision_csv(study), error)
+      if (.not. allocated(error)) then
+         call replace_file(plan%directory//"/precision.txt", precision_report(study, plan%title), error)
+      end if
+      if (allocated(error)) return
+      folder = plan%directory//"/figures"
+      code = enter_file(folder//"/")
+      if (code == 0) code = make_directory(folder)
+      if (code /= 0) then
+         call fail_file(error, "cannot make the directory", folder, code, "")
+         return
+      end if
+      call write_precision_plots(folder, plan%title, file_heading(plan), study, names, error)
+      if (.not. allocated(error)) call draw_figures(folder, names, pictures, warnings)
+   end subroutine write_results
+
+   !> The summaries.
+   subroutine report(options, loaded, plan, study, pictures, warnings, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(output_plan_t), intent(in) :: plan              !! what files say
+      type(precision_t), intent(in) :: study               !! results
+      type(text_t), intent(in) :: pictures(:)              !! (n) pictures made
+      type(text_t), intent(in) :: warnings(:)              !! (m) what was noticed
+      type(error_t), allocatable, intent(out) :: error     !! a file cannot be written
+
+      type(json_object_t) :: json
+      character(:), allocatable :: object, text
+      integer :: k
+
+      text = precision_summary(study, plan%title)//"output     "//plan%directory//"/"//new_line("a")// &
+             "           precision.txt and .csv (every run), precision.h5"//new_line("a")
+      do k = 1, size(pictures)
+         text = text//"           "//pictures(k)%s//new_line("a")
+      end do
+      do k = 1, size(warnings)
+         text = text//"warning: "//warnings(k)%s//new_line("a")
+      end do
+      call json%start(0)
+      call json%put_text("program", "gudgeon "//program_version)
+      call json%put_text("deck", loaded%path)
+      call json%put_text("title", loaded%scene%title)
+      call json%put_text("directory", plan%directory)
+      call precision_json(study, json)
+      call json%put_list("figures", pictures)
+      call json%put_list("warnings", warnings)
+      object = json%get()
+      call replace_file(plan%directory//"/summary.txt", text, error)
+      if (.not. allocated(error)) call replace_file(plan%directory//"/summary.json", object//new_line("a"), error)
+      if (options%is_json) then
+         call say(object)
+      else if (.not. options%is_quiet) then
+         call say(text(:len(text) - 1))
+      end if
+   end subroutine report
+
+end module verb_precision

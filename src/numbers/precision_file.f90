@@ -1,0 +1,242 @@
+!> Writes precision.h5: every run of a comparison of settings, its costs and errors, the reference, twins and choice.
+!>
+!> The file is written whole, under another name first, so that there is never half of it.
+module precision_file
+   use errors, only: error_t, exit_file, set_error
+   use growth, only: n_digit
+   use hdf5, only: h5fclose_f, h5fcreate_f, h5gclose_f, h5pclose_f
+   use hdf5, only: h5f_acc_trunc_f, h5p_default_f, h5p_file_create_f, hid_t
+   use hdf5_attributes, only: real_attribute, text_attribute
+   use hdf5_calls, only: creation_list, new_group, open_library
+   use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
+   use hdf5_layout, only: make_provenance, make_root, write_status
+   use kinds, only: not_a_number, wp
+   use output_marker, only: enter_file
+   use output_plan, only: output_plan_t
+   use posix, only: remove_file
+   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, precision_t, rung_t
+   use recorder, only: status_complete
+   use text, only: append_text, text_t
+   use text_file, only: fail_file, put_in_place
+   implicit none (type, external)
+   private
+   public :: write_precision
+
+contains
+
+   !> Write the file.
+   subroutine write_precision(plan, study, error)
+      type(output_plan_t), intent(in) :: plan               !! what the file says of the comparison
+      type(precision_t), intent(in) :: study                !! its results
+      type(error_t), allocatable, intent(out) :: error      !! it cannot be written
+
+      character(:), allocatable :: path
+      integer(hid_t) :: creation, file
+      integer :: closed, status
+
+      path = plan%directory//"/precision.h5"
+      status = enter_file(path//".part")
+      if (status /= 0) then
+         call fail_file(error, "cannot make", path//".part", status, "")
+         return
+      end if
+      call open_library(status)
+      call creation_list(h5p_file_create_f, creation, status)
+      if (status >= 0) call h5fcreate_f(path//".part", h5f_acc_trunc_f, file, status, creation, h5p_default_f)
+      if (status >= 0) then
+         call h5pclose_f(creation, closed)
+         call make_root(file, plan, status)
+         call text_attribute(file, "filetype", "gudgeon precision", status)
+         call text_attribute(file, "machine", study%machine, status)
+         call text_attribute(file, "compile_flags", study%flags, status)
+         call write_ladders(file, study, status)
+         call write_rungs(file, study, status)
+         call write_reference(file, study, status)
+         call write_growth(file, study, status)
+         call write_choice(file, study, status)
+         call make_provenance(file, plan, status)
+         call write_status(file, status_complete, status)
+         call h5fclose_f(file, closed)
+         status = min(status, closed)
+      end if
+      if (status >= 0) then
+         call put_in_place(path, error)
+      else
+         call set_error(error, exit_file, "cannot write "//path//": the disk may be full")
+      end if
+      if (allocated(error)) closed = remove_file(path//".part")
+   end subroutine write_precision
+
+   !> The settings and what their runs tell together.
+   subroutine write_ladders(file, study, status)
+      integer(hid_t), intent(in) :: file          !! the file
+      type(precision_t), intent(in) :: study      !! results
+      integer, intent(inout) :: status            !! negative: failed
+
+      type(text_t), allocatable :: names(:)
+      integer :: k, n
+
+      n = size(study%ladders)
+      allocate (names(0))
+      do k = 1, n
+         call append_text(names, study%ladders(k)%name)
+      end do
+      call text_dataset(file, "ladders/names", names, .false., "settings compared", status)
+      call integer_dataset(file, "ladders/is_fixed", [n], [(merge(1, 0, study%ladders(k)%is_fixed), k=1, n)], &
+                           "1: a ladder of fixed steps, 0: of tolerances", status)
+      call real_dataset(file, "ladders/order", [n], study%ladders%order, "1", "observed order: -d ln error/d ln steps", status)
+      call real_dataset(file, "ladders/exponent", [n], study%ladders%exponent, "1", "d ln error/d ln tolerance", status)
+      call real_dataset(file, "ladders/ratio", [n], study%ladders%ratio, "1", "median of error over tolerance", status)
+   end subroutine write_ladders
+
+   !> Every run.
+   subroutine write_rungs(file, study, status)
+      integer(hid_t), intent(in) :: file          !! the file
+      type(precision_t), intent(in) :: study      !! results
+      integer, intent(inout) :: status            !! negative: failed
+
+      type(rung_t), allocatable :: rungs(:)
+      type(text_t), allocatable :: names(:), reasons(:), units(:), words(:)
+      real(wp), allocatable :: errors(:, :), rounds(:, :)
+      integer, allocatable :: owner(:)
+      integer :: k, most, n
+
+      allocate (rungs(0), owner(0), names(0), reasons(0), units(0), words(0))
+      do k = 1, size(study%ladders)
+         rungs = [rungs, study%ladders(k)%rungs]
+         owner = [owner, spread(k, 1, size(study%ladders(k)%rungs))]
+      end do
+      n = size(rungs)
+      most = max(1, maxval([0, [(size(rungs(k)%rounds), k=1, n)]]))
+      allocate (errors(n_error, n), source=not_a_number())
+      allocate (rounds(most, n), source=not_a_number())
+      do k = 1, n
+         call append_text(reasons, rungs(k)%reason)
+         errors(:, k) = rungs(k)%error
+         rounds(:size(rungs(k)%rounds), k) = rungs(k)%rounds
+      end do
+      do k = 1, n_error
+         call append_text(names, trim(error_names(k)))
+         call append_text(units, trim(error_units(k)))
+         call append_text(words, trim(error_words(k)))
+      end do
+      call text_dataset(file, "errors/names", names, .false., "kinds of error", status)
+      call text_dataset(file, "errors/units", units, .false., "their units", status)
+      call text_dataset(file, "errors/long_names", words, .false., "what they are", status)
+      call integer_dataset(file, "runs/ladder", [n], owner, "number of the setting, from 1", status)
+      call put("asked", rungs%asked, "1 or s", "tolerance, or length of fixed steps")
+      call integer_dataset(file, "runs/state", [n], rungs%state, "0 not run, 1 done, 2 failed, 3 another sequence of contacts", &
+                           status)
+      call text_dataset(file, "runs/reason", reasons, .false., "why a run failed or was not made", status)
+      call real_dataset(file, "runs/error", [n_error, n], reshape(errors, [n_error*n]), "list", "errors by kind", status)
+      call integer_dataset(file, "runs/is_below", [n], merge(1, 0, rungs%is_below), &
+                           "1: the error is within that of the reference", status)
+      call integer_dataset(file, "runs/is_front", [n], merge(1, 0, rungs%is_front), &
+                           "1: no other run is both cheaper and more exact", status)
+      call put("holds_until", rungs%holds_until, "s", "last instant with no more than the error wanted")
+      call put("cpu", rungs%cpu, "s", "processor time of the solution, median of the rounds")
+      call put("cpu_least", rungs%cpu_least, "s", "processor time of the solution, least of the rounds")
+      call real_dataset(file, "runs/rounds", [most, n], reshape(rounds, [most*n]), "s", "processor time of each round", status)
+      call put("setup", rungs%setup, "s", "processor time of the system and its start")
+      call put("wall", rungs%wall, "s", "time that the compared run took, all in all")
+      call put("steps", real(rungs%steps, wp), "1", "accepted steps")
+      call put("rejected_steps", real(rungs%rejected, wp), "1", "rejected steps")
+      call put("rhs_evaluations", real(rungs%evaluations, wp), "1", "right-hand sides, without those for output")
+
+   contains
+
+      !> One number of every run.
+      subroutine put(name, values, units, long_name)
+         character(*), intent(in) :: name       !! of the dataset
+         real(wp), intent(in) :: values(:)      !! (runs) the numbers [any]
+         character(*), intent(in) :: units      !! SI unit
+         character(*), intent(in) :: long_name  !! what they are
+
+         call real_dataset(file, "runs/"//name, [n], values, units, long_name, status)
+      end subroutine put
+
+   end subroutine write_rungs
+
+   !> The reference.
+   subroutine write_reference(file, study, status)
+      integer(hid_t), intent(in) :: file          !! the file
+      type(precision_t), intent(in) :: study      !! results
+      integer, intent(inout) :: status            !! negative: failed
+
+      integer(hid_t) :: group
+      integer :: closed
+
+      call new_group(file, "reference", group, status)
+      if (status < 0) return
+      call text_attribute(group, "setting", study%reference, status)
+      call text_attribute(group, "confirmed_by", study%confirmation, status)
+      call real_attribute(group, "window", study%window, status)
+      call real_attribute(group, "end", study%end, status)
+      call h5gclose_f(group, closed)
+      call real_dataset(file, "reference/error", [n_compared], study%bar, "list", &
+                        "difference to what confirms it: the first kinds of error", status)
+      call real_dataset(file, "reference/agrees_until", [n_digit], study%agreed, "s", &
+                        "last time at which both have 1, 2, ... digits in common", status)
+   end subroutine write_reference
+
+   !> The twins.
+   subroutine write_growth(file, study, status)
+      integer(hid_t), intent(in) :: file          !! the file
+      type(precision_t), intent(in) :: study      !! results
+      integer, intent(inout) :: status            !! negative: failed
+
+      integer(hid_t) :: group
+      integer :: closed
+
+      associate (growth => study%growth)
+         call new_group(file, "twins", group, status)
+         if (status < 0) return
+         call text_attribute(group, "reason", growth%reason, status)
+         if (growth%reason == "") then
+            call text_attribute(group, "law", trim(merge("exponential", "power      ", growth%is_exponential)), status)
+            call real_attribute(group, "rate", growth%rate, status)
+            call real_attribute(group, "rate_interval", growth%rate_interval, status)
+            call real_attribute(group, "power", growth%power, status)
+            call real_attribute(group, "power_interval", growth%power_interval, status)
+            call real_attribute(group, "fit_begin", growth%fit_begin, status)
+            call real_attribute(group, "fit_end", growth%fit_end, status)
+         end if
+         call h5gclose_f(group, closed)
+         call real_dataset(file, "twins/horizon", [n_digit], growth%horizon, "s", &
+                           "time up to which a trajectory can have 1, 2, ... digits; NaN: beyond the run", status)
+         if (size(growth%t) == 0) return
+         call real_dataset(file, "twins/time", [size(growth%t)], growth%t, "s", "instants", status)
+         call real_dataset(file, "twins/ratio", [size(growth%ratio, 2), size(growth%t)], &
+                           reshape(transpose(growth%ratio), [size(growth%ratio)]), "1", "distance over that of the starts", status)
+      end associate
+   end subroutine write_growth
+
+   !> The choice.
+   subroutine write_choice(file, study, status)
+      integer(hid_t), intent(in) :: file          !! the file
+      type(precision_t), intent(in) :: study      !! results
+      integer, intent(inout) :: status            !! negative: failed
+
+      integer(hid_t) :: group
+      integer :: closed
+
+      call new_group(file, "choice", group, status)
+      if (status < 0) return
+      call text_attribute(group, "error", trim(error_names(study%wanted)), status)
+      call real_attribute(group, "accuracy", study%accuracy, status)
+      call real_attribute(group, "budget", study%budget, status)
+      call real_attribute(group, "spent", study%spent, status)
+      if (study%best_ladder > 0) then
+         associate (ladder => study%ladders(study%best_ladder))
+            call text_attribute(group, "setting", ladder%name, status)
+            call real_attribute(group, "asked", ladder%rungs(study%best_rung)%asked, status)
+            call real_attribute(group, "confirmed_error", study%confirmed_error, status)
+            call real_attribute(group, "confirmed_cpu", study%confirmed_cpu, status)
+         end associate
+      else
+         call text_attribute(group, "setting", "", status)
+      end if
+      call h5gclose_f(group, closed)
+   end subroutine write_choice
+
+end module precision_file

@@ -1,0 +1,72 @@
+!> The results of a comparison of settings for scripts.
+module precision_objects
+   use json_text, only: json_object_t
+   use kinds, only: i8
+   use precision_results, only: error_names, precision_t, rung_done, rung_failed, rung_other, rung_unrun
+   use precision_text, only: settings_text
+   implicit none (type, external)
+   private
+   public :: precision_json
+
+contains
+
+   !> The results for scripts, added to an object.
+   subroutine precision_json(study, json)
+      type(precision_t), intent(in) :: study       !! results
+      type(json_object_t), intent(inout) :: json   !! grown
+
+      call json%put_text("error", trim(error_names(study%wanted)))
+      call json%put_real("accuracy", study%accuracy)
+      call json%put_text("reference", study%reference)
+      call json%put_text("confirmed_by", study%confirmation)
+      call json%put_real("reference_error", study%bar(study%wanted))
+      call json%put_real("end", study%end)
+      call json%put_real("window", study%window)
+      call json%put_integer("settings", int(size(study%ladders), i8))
+      call json%put_integer("runs", int(runs_in(rung_done), i8))
+      call json%put_integer("failed", int(runs_in(rung_failed), i8))
+      call json%put_integer("not_run", int(runs_in(rung_unrun), i8))
+      call json%put_integer("other_sequence", int(runs_in(rung_other), i8))
+      call json%put_integer("rounds", int(study%rounds, i8))
+      call json%put_real("budget", study%budget)
+      call json%put_real("spent", study%spent)
+      call json%put_text("growth", growth_word())
+      if (study%growth%reason == "") then
+         call json%put_real("growth_rate", study%growth%rate)
+         call json%put_real("growth_rate_interval", study%growth%rate_interval)
+         call json%put_real("growth_power", study%growth%power)
+      end if
+      if (study%best_ladder == 0) return
+      associate (ladder => study%ladders(study%best_ladder), rung => study%ladders(study%best_ladder)%rungs(study%best_rung))
+         call json%put_text("choice", settings_text(ladder, rung))
+         call json%put_real("choice_error", rung%error(study%wanted))
+         call json%put_real("choice_cpu", rung%cpu)
+         call json%put_real("confirmed_error", study%confirmed_error)
+         call json%put_real("confirmed_cpu", study%confirmed_cpu)
+      end associate
+
+   contains
+
+      !> Runs in some state.
+      pure integer function runs_in(state) result(n)
+         integer, intent(in) :: state  !! the state
+
+         integer :: k
+
+         n = 0
+         do k = 1, size(study%ladders)
+            n = n + count(study%ladders(k)%rungs%state == state)
+         end do
+      end function runs_in
+
+      !> The law of growth.
+      function growth_word() result(word)
+         character(:), allocatable :: word  !! exponential, power, or blank
+
+         word = ""
+         if (study%growth%reason == "") word = trim(merge("exponential", "power      ", study%growth%is_exponential))
+      end function growth_word
+
+   end subroutine precision_json
+
+end module precision_objects

@@ -1,0 +1,380 @@
+!> The results of a comparison of settings in words.
+module precision_text
+   use growth, only: n_digit
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use precision_results, only: error_names, error_units, error_words, ladder_t, n_compared, precision_t, rung_done, &
+      rung_failed, rung_other, rung_states, rung_t, rung_unrun
+   use text, only: real_text, replace, split_blank, starts_with, text_t, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: column, figures, precision_summary, settings_text, short
+
+   integer, parameter :: width = 11          !! characters of a column
+   real(wp), parameter :: held = 1.1_wp      !! steps up to so many times the fewest that are possible are the deck's greatest [1]
+
+contains
+
+   !> What a reader wants to know first.
+   function precision_summary(study, title) result(text)
+      type(precision_t), intent(in) :: study     !! results
+      character(*), intent(in) :: title          !! of the scene
+      character(:), allocatable :: text          !! whole lines
+
+      type(buffer_t) :: lines
+
+      call lines%line(title)
+      call lines%line("compared   "//to_text(size(study%ladders))//" settings on a motion of "//real_text(study%end, 6)// &
+                      " s, at "//to_text(study%instants)//" instants"//window_text(study))
+      call lines%line("machine    "//study%machine//"; "//study%compiler)
+      call lines%line("           "//flags_of(study%flags))
+      call add_reference(lines, study)
+      call add_growth(lines, study)
+      call add_ladders(lines, study)
+      call add_held_steps(lines, study)
+      call add_failures(lines, study)
+      call add_choice(lines, study)
+      call lines%line("time       "//real_text(study%spent, 3)//" s"//trim(merge(" of a budget of ", repeat(" ", 16), &
+                      study%budget > 0.0_wp))//budget_text(study)//"; "//rounds_text(study))
+      text = lines%get()
+   end function precision_summary
+
+   !> How often runs were timed.
+   function rounds_text(study) result(words)
+      type(precision_t), intent(in) :: study      !! results
+      character(:), allocatable :: words          !! as `timed in 5 rounds with nothing written`
+
+      integer :: k, most
+
+      most = 0
+      do k = 1, size(study%ladders)
+         most = max(most, maxval(study%ladders(k)%rungs%n_round))
+      end do
+      words = "timed in "//to_text(study%rounds)
+      if (most > study%rounds) words = words//" to "//to_text(most)
+      words = words//trim(merge(" round ", " rounds", most == 1))//" with nothing written"
+   end function rounds_text
+
+   !> The flags of the compiler that may change its code: without those that warn.
+   function flags_of(flags) result(words)
+      character(*), intent(in) :: flags      !! all of them
+      character(:), allocatable :: words     !! some of them
+
+      type(text_t), allocatable :: list(:)
+      integer :: k
+
+      words = ""
+      list = split_blank(flags)
+      do k = 1, size(list)
+         if (.not. starts_with(list(k)%s, "-W")) words = words//" "//list(k)%s
+      end do
+      words = trim(adjustl(words))
+   end function flags_of
+
+   !> The budget in words, blank if there is none.
+   function budget_text(study) result(words)
+      type(precision_t), intent(in) :: study      !! results
+      character(:), allocatable :: words          !! as ` 60 s`
+
+      words = ""
+      if (study%budget > 0.0_wp) words = " "//real_text(study%budget, 3)//" s"
+   end function budget_text
+
+   !> Up to when runs are compared, if not to the end.
+   function window_text(study) result(words)
+      type(precision_t), intent(in) :: study      !! results
+      character(:), allocatable :: words          !! blank: to the end
+
+      words = ""
+      if (study%is_cut .and. .not. study%is_unsure) words = " up to "//real_text(study%window, 4)// &
+         " s, where the reference is known to a tenth of the error wanted"
+   end function window_text
+
+   !> The reference and its own errors.
+   subroutine add_reference(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      integer :: k
+
+      if (study%reference == "") then
+         call lines%line("reference  none: no run came to its end, so there are costs but no errors")
+         return
+      end if
+      if (study%confirmation == "") then
+         call lines%line("reference  "//study%reference//", which nothing confirms: its own error is not known")
+         return
+      end if
+      call lines%line("reference  "//study%reference//", confirmed by "//study%confirmation//"; they differ by")
+      do k = 2, n_compared
+         if (ieee_is_finite(study%bar(k))) call lines%line("           "//with_unit(study%bar(k), k)//"  "//trim(error_words(k)))
+      end do
+      if (study%is_poor) call lines%line("           a tighter one failed or took too long: a greater budget may give a better one")
+      if (study%is_unsure) call lines%line("           at no time do they agree to a tenth of the error wanted")
+   end subroutine add_reference
+
+   !> An error with its unit.
+   function with_unit(x, kind) result(words)
+      real(wp), intent(in) :: x                   !! the error [1, s or m]
+      integer, intent(in) :: kind                 !! its kind
+      character(:), allocatable :: words          !! as `3.1e-9 s`
+
+      words = short(x)
+      if (error_units(kind) /= "1") words = words//" "//trim(error_units(kind))
+   end function with_unit
+
+   !> A number of two figures.
+   function short(x) result(word)
+      real(wp), intent(in) :: x                   !! the number [any]
+      character(:), allocatable :: word           !! as `3.1e-09`, or `-` if there is none
+
+      character(10) :: digits
+
+      word = "-"
+      if (.not. ieee_is_finite(x)) return
+      write (digits, "(es10.1e3)") x
+      word = replace(replace(trim(adjustl(digits)), "E-0", "e-"), "E+0", "e+")
+      word = replace(replace(word, "E-", "e-"), "E+", "e+")
+   end function short
+
+   !> How fast neighbouring starts part, and how long a trajectory has digits.
+   subroutine add_growth(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      character(:), allocatable :: words
+      integer :: k
+
+      associate (growth => study%growth)
+         if (growth%reason /= "") then
+            call lines%line("horizon    not known: "//growth%reason)
+            return
+         end if
+         if (growth%is_exponential) then
+            call lines%line("horizon    neighbouring starts part as exp("//real_text(growth%rate, 4)//" t/s), +-"// &
+                            real_text(growth%rate_interval, 2)//", seen from "//real_text(growth%fit_begin, 3)//" to "// &
+                            real_text(growth%fit_end, 3)//" s by "//to_text(growth%n_twin)//" twins")
+         else
+            words = ": more than regular motion has"
+            if (growth%is_regular) words = ": regular motion"
+            call lines%line("horizon    neighbouring starts part as a power of time, t^"//rounded(growth%power)// &
+                            " +-"//rounded(growth%power_interval)//", by "//to_text(growth%n_twin)//" twins"//words)
+         end if
+         words = ""
+         do k = n_digit, 1, -1
+            if (.not. ieee_is_finite(growth%horizon(k))) cycle
+            words = words//", "//to_text(k)//" to "//real_text(growth%horizon(k), 3)//" s"
+         end do
+         if (words == "") then
+            call lines%line("           a trajectory can have "//to_text(n_digit)//" digits up to the end of the run")
+         else
+            call lines%line("           digits that a trajectory can have in double precision: "//words(3:))
+         end if
+      end associate
+   end subroutine add_growth
+
+   !> An exponent with a digit behind the point.
+   function rounded(x) result(word)
+      real(wp), intent(in) :: x                   !! the exponent [1]
+      character(:), allocatable :: word           !! as `1.2`
+
+      word = real_text(0.1_wp*anint(10.0_wp*x), 3)
+   end function rounded
+
+   !> Every setting in a line.
+   subroutine add_ladders(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      integer :: best, k, longest
+
+      longest = 8
+      do k = 1, size(study%ladders)
+         longest = max(longest, len(study%ladders(k)%name))
+      end do
+      call lines%line("")
+      call lines%line(padded("setting", longest)//column("runs")//column("order")//column("exponent")//column("error/tol")// &
+                      column("least error")//column("CPU/ms")//column("RHS"))
+      do k = 1, size(study%ladders)
+         associate (ladder => study%ladders(k))
+            best = least_error(ladder, study%wanted)
+            if (best == 0) then
+               call lines%line(padded(ladder%name, longest)//column("0")//repeat(column("-"), 6))
+               cycle
+            end if
+            call lines%line(padded(ladder%name, longest)//column(to_text(count(ladder%rungs%state == rung_done)))// &
+                            column(figures(ladder%order))//column(figures(ladder%exponent))//column(figures(ladder%ratio))// &
+                            column(known_error(study, ladder%rungs(best)))// &
+                            column(real_text(1.0e3_wp*ladder%rungs(best)%cpu, 3))//column(to_text(ladder%rungs(best)%evaluations)))
+         end associate
+      end do
+      call lines%line("")
+   end subroutine add_ladders
+
+   !> An error, or that of the reference if it is within it.
+   function known_error(study, rung) result(word)
+      type(precision_t), intent(in) :: study      !! results
+      type(rung_t), intent(in) :: rung            !! the run
+      character(:), allocatable :: word           !! as `1.0e-9` or `< 1.0e-9`
+
+      word = short(rung%error(study%wanted))
+      if (rung%is_below) word = "< "//short(study%bar(study%wanted))
+   end function known_error
+
+   !> A number of three figures.
+   function figures(x) result(word)
+      real(wp), intent(in) :: x                   !! the number [any]
+      character(:), allocatable :: word           !! its figures, or `-`
+
+      word = "-"
+      if (ieee_is_finite(x)) word = real_text(x, 3)
+   end function figures
+
+   !> The rung of the least error, 0 if there is none.
+   pure integer function least_error(ladder, kind) result(best)
+      type(ladder_t), intent(in) :: ladder        !! the ladder
+      integer, intent(in) :: kind                 !! of error
+
+      integer :: k
+
+      best = 0
+      do k = 1, size(ladder%rungs)
+         if (ladder%rungs(k)%state /= rung_done) cycle
+         if (.not. ieee_is_finite(ladder%rungs(k)%error(kind))) cycle
+         if (best == 0) best = k
+         if (ladder%rungs(k)%error(kind) < ladder%rungs(best)%error(kind)) best = k
+      end do
+   end function least_error
+
+   !> Runs whose steps the deck's greatest one holds, so that their tolerance changes nothing.
+   subroutine add_held_steps(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      integer :: k, n
+
+      if (study%longest_step <= 0.0_wp) return
+      do k = 1, size(study%ladders)
+         associate (ladder => study%ladders(k))
+            if (ladder%is_fixed) cycle
+            n = count(ladder%rungs%state == rung_done .and. ladder%rungs%steps*study%longest_step < held*study%end)
+            if (n == 0) cycle
+            call lines%line("held: "//ladder%name//", "//to_text(n)//" runs: 'maximum_step' of the deck, "// &
+                            real_text(study%longest_step, 3)//" s, sets their steps, not the tolerance")
+         end associate
+      end do
+   end subroutine add_held_steps
+
+   !> Runs that failed, were not made, or had other contacts, with their reasons, each reason of a setting once.
+   subroutine add_failures(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      integer :: i, k, n
+
+      do k = 1, size(study%ladders)
+         associate (rungs => study%ladders(k)%rungs)
+            i = 0
+            do while (i < size(rungs))
+               i = i + 1
+               if (rungs(i)%state == rung_done) cycle
+               n = i
+               do while (n < size(rungs))
+                  if (rungs(n + 1)%state /= rungs(i)%state .or. rungs(n + 1)%reason /= rungs(i)%reason) exit
+                  n = n + 1
+               end do
+               call lines%line(trim(rung_states(rungs(i)%state))//": "//study%ladders(k)%name//" "//short(rungs(i)%asked)// &
+                               range_end(rungs, i, n)//why(rungs(i)))
+               i = n
+            end do
+         end associate
+      end do
+   end subroutine add_failures
+
+   !> The end of a range of runs.
+   function range_end(rungs, i, n) result(words)
+      type(rung_t), intent(in) :: rungs(:)        !! (runs) of a ladder
+      integer, intent(in) :: i                    !! first run
+      integer, intent(in) :: n                    !! last run
+      character(:), allocatable :: words          !! blank if it is one run
+
+      words = ""
+      if (n > i) words = " to "//short(rungs(n)%asked)//" ("//to_text(n - i + 1)//" runs)"
+   end function range_end
+
+   !> Why a run has no error.
+   function why(rung) result(words)
+      type(rung_t), intent(in) :: rung            !! the run
+      character(:), allocatable :: words          !! as `: reason`
+
+      words = ": "//rung%reason
+      if (rung%state == rung_other) words = ": contacts in another order or number than in the reference"
+   end function why
+
+   !> The choice.
+   subroutine add_choice(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      character(:), allocatable :: kind
+
+      kind = trim(error_names(study%wanted))
+      if (study%reference == "" .or. study%confirmation == "") then
+         call lines%line("choice     none: there is no reference that is confirmed")
+         return
+      end if
+      if (study%best_ladder == 0) then
+         call lines%line("choice     no setting reaches an error of "//short(study%accuracy)//" ("//kind//")")
+         return
+      end if
+      associate (ladder => study%ladders(study%best_ladder), rung => study%ladders(study%best_ladder)%rungs(study%best_rung))
+         call lines%line("choice     "//settings_text(ladder, rung))
+         call lines%line("           the cheapest for an error of "//short(study%accuracy)//" ("//kind//"): error "// &
+                         short(rung%error(study%wanted))//", "//real_text(1.0e3_wp*rung%cpu, 3)//" ms, "// &
+                         to_text(rung%evaluations)//" right-hand sides")
+         if (study%is_cut) call lines%line("           as far as the reference is known, up to "// &
+                                           real_text(study%window, 4)//" s of "//real_text(study%end, 4)//" s")
+         if (ieee_is_finite(study%confirmed_error)) then
+            call lines%line("           run once more: error "//short(study%confirmed_error)//", "// &
+                            real_text(1.0e3_wp*study%confirmed_cpu, 3)//" ms")
+         else
+            call lines%line("           not run once more: no time was left in the budget")
+         end if
+      end associate
+   end subroutine add_choice
+
+   !> A setting as a deck has it.
+   function settings_text(ladder, rung) result(words)
+      type(ladder_t), intent(in) :: ladder        !! the ladder
+      type(rung_t), intent(in) :: rung            !! its run
+      character(:), allocatable :: words          !! as `method = verner, tolerance = 1e-6`
+
+      words = "method = "//ladder%setting%method
+      if (ladder%setting%way /= "") words = words//", stabilise = "//ladder%setting%way
+      if (ladder%setting%solver /= "") words = words//", solver = "//ladder%setting%solver
+      if (ladder%is_fixed) then
+         words = words//", step = "//real_text(rung%asked, 4)//" s"
+      else
+         words = words//", tolerance = "//real_text(rung%asked, 4)
+      end if
+   end function settings_text
+
+   !> A word at the right of its column.
+   pure function column(word) result(cell)
+      character(*), intent(in) :: word            !! the word
+      character(:), allocatable :: cell           !! at least one blank before it
+
+      cell = repeat(" ", max(1, width - len_trim(word)))//trim(word)
+   end function column
+
+   !> A word at the left of its column.
+   pure function padded(word, length) result(cell)
+      character(*), intent(in) :: word            !! the word
+      integer, intent(in) :: length               !! of the column
+      character(:), allocatable :: cell           !! with blanks behind it
+
+      cell = word//repeat(" ", max(0, length - len(word)))
+   end function padded
+
+end module precision_text

@@ -1,0 +1,179 @@
+!> A recorder that keeps a run in memory: positions, velocities and reactions at the output instants, and all contacts.
+!>
+!> All lengths of a sort have one unit, so that they can be compared with one scale: an angle of a body counts as the way of a
+!> point at its radius of gyration, a moment as a force at the greatest of these radii.
+module kept_run
+   use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_joints
+   use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: not_a_number, wp
+   use recorder, only: event_t, recorder_t, summary_t
+   implicit none (type, external)
+   private
+   public :: contact_t, kept_run_t, n_sort, sort_positions, sort_reactions, sort_velocities
+
+   integer, parameter :: sort_positions = 1   !! positions and angles of bodies [m]
+   integer, parameter :: sort_velocities = 2  !! velocities and angular velocities of bodies [m/s]
+   integer, parameter :: sort_reactions = 3   !! forces and moments of joints, drivers and joints with clearance [N]
+   integer, parameter :: n_sort = 3           !! number of sorts
+
+   !> A contact that began.
+   type :: contact_t
+      integer :: number = 0                   !! in the catalogue's room of contacts
+      real(wp) :: onset = 0.0_wp              !! time at which it began [s]
+      real(wp) :: impact_speed = 0.0_wp       !! normal approach speed there [m/s]
+      real(wp) :: peak_force = 0.0_wp         !! greatest normal force [N]
+      real(wp) :: release_speed = 0.0_wp      !! normal separation speed at the end; NaN: not ended [m/s]
+   end type contact_t
+
+   !> What is kept of a run. Components with a default are set before it.
+   type, extends(recorder_t) :: kept_run_t
+      logical :: is_kept = .true.                   !! .false.: nothing is kept, as in a run that is timed
+      real(wp), allocatable :: arm(:)               !! (bodies) radii of gyration, 1 where there is none [m]
+      integer :: n = 0                              !! instants kept
+      integer, allocatable :: sort(:)               !! (values) sort of each value
+      real(wp), allocatable :: t(:)                 !! (capacity) instants [s]
+      real(wp), allocatable :: values(:, :)         !! (values, capacity) in the unit of their sorts [any]
+      type(contact_t), allocatable :: contacts(:)   !! (n) contacts, in the order in which they ended
+      integer, allocatable, private :: group(:)     !! (values) group of each value
+      integer, allocatable, private :: at(:, :)     !! (2, values) its component and item
+      real(wp), allocatable, private :: factor(:)   !! (values) to the unit of its sort [any]
+      type(catalogue_t), allocatable, private :: names  !! what was recorded, for the names of contacts
+   contains
+      procedure :: start => start_keeping
+      procedure :: sample => keep_sample
+      procedure :: event => keep_contact
+      procedure :: progress => no_progress
+      procedure :: finish => finish_keeping
+   end type kept_run_t
+
+contains
+
+   !> Find what will be kept.
+   subroutine start_keeping(self, catalogue, error)
+      class(kept_run_t), intent(inout) :: self           !! the recorder
+      type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      integer :: g, pass
+
+      allocate (self%contacts(0))
+      if (.not. self%is_kept) return
+      self%names = catalogue
+      do pass = 1, 2
+         self%n = 0
+         do g = 1, size(catalogue%groups)
+            call choose(g)
+         end do
+         if (pass == 1) allocate (self%sort(self%n), self%group(self%n), self%at(2, self%n), source=0)
+         if (pass == 1) allocate (self%factor(self%n), source=1.0_wp)
+      end do
+      allocate (self%t(64), self%values(self%n, 64), source=0.0_wp)
+      self%n = 0
+
+   contains
+
+      !> Take the numbers of a group that are wanted; in the first pass only count them.
+      subroutine choose(g)
+         integer, intent(in) :: g  !! number of the group
+
+         integer :: component, item, sort
+
+         associate (group => catalogue%groups(g))
+            sort = sort_of(group%room, group%channel%name)
+            if (sort == 0) return
+            do item = 1, catalogue%rooms(group%room)%n
+               if (.not. catalogue%item_has(g, item)) cycle
+               do component = 1, group%channel%components
+                  self%n = self%n + 1
+                  if (pass == 1) cycle
+                  self%sort(self%n) = sort
+                  self%group(self%n) = g
+                  self%at(:, self%n) = [component, item]
+                  if (index(group%channel%name, "ang") == 1) self%factor(self%n) = self%arm(item)
+                  if (group%channel%name == "moment") self%factor(self%n) = 1.0_wp/maxval(self%arm)
+               end do
+            end do
+         end associate
+      end subroutine choose
+
+   end subroutine start_keeping
+
+   !> Sort of a channel of a room, 0 if it is not kept.
+   pure integer function sort_of(room, name) result(sort)
+      integer, intent(in) :: room         !! of the catalogue
+      character(*), intent(in) :: name    !! of the channel
+
+      sort = 0
+      select case (room)
+      case (room_bodies)
+         if (name == "position" .or. name == "angle") sort = sort_positions
+         if (name == "velocity" .or. name == "angular_velocity") sort = sort_velocities
+      case (room_joints, room_drivers, room_clearances)
+         if (name == "force" .or. name == "moment" .or. name == "tension") sort = sort_reactions
+      end select
+   end function sort_of
+
+   !> Keep an output instant.
+   subroutine keep_sample(self, t, catalogue, error)
+      class(kept_run_t), intent(inout) :: self           !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      real(wp), allocatable :: more(:, :)
+      integer :: k
+
+      if (.not. self%is_kept) return
+      if (self%n == size(self%t)) then
+         self%t = [self%t, self%t]
+         allocate (more(size(self%values, 1), 2*self%n), source=0.0_wp)
+         more(:, :self%n) = self%values
+         call move_alloc(more, self%values)
+      end if
+      self%n = self%n + 1
+      self%t(self%n) = t
+      do k = 1, size(self%sort)
+         self%values(k, self%n) = self%factor(k)*catalogue%groups(self%group(k))%data(self%at(1, k), self%at(2, k))
+      end do
+   end subroutine keep_sample
+
+   !> Keep a contact.
+   subroutine keep_contact(self, event, error)
+      class(kept_run_t), intent(inout) :: self           !! the recorder
+      type(event_t), intent(in) :: event                 !! what happened
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      type(contact_t) :: contact
+      integer :: k
+
+      if (.not. self%is_kept .or. event%kind /= "contact") return
+      associate (room => self%names%rooms(room_contacts))
+         do k = 1, room%n
+            if (room%names(k)%s == event%item .and. room%labels(k)%s == event%contact) exit
+         end do
+      end associate
+      contact = contact_t(k, event%time, event%impact_speed, event%peak_force, event%release_speed)
+      if (.not. ieee_is_finite(event%duration)) contact%release_speed = not_a_number()
+      self%contacts = [self%contacts, contact]
+   end subroutine keep_contact
+
+   !> Told how far the run is: nothing to do.
+   subroutine no_progress(self, fraction)
+      class(kept_run_t), intent(inout) :: self  !! the recorder
+      real(wp), intent(in) :: fraction          !! of the work done, 0 to 1 [1]
+   end subroutine no_progress
+
+   !> The run has ended: nothing more is needed than what is kept.
+   subroutine finish_keeping(self, summary, error)
+      class(kept_run_t), intent(inout) :: self           !! the recorder
+      type(summary_t), intent(in) :: summary             !! cost and errors of the run
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      if (allocated(self%names)) deallocate (self%names)
+      if (.not. self%is_kept) return
+      self%t = self%t(:self%n)
+      self%values = self%values(:, :self%n)
+   end subroutine finish_keeping
+
+end module kept_run

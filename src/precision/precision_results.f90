@@ -1,0 +1,126 @@
+!> What a comparison of settings gives: ladders of runs with their costs and errors, the reference, the choice.
+module precision_results
+   use growth, only: growth_t, n_digit
+   use kinds, only: i8, not_a_number, wp
+   use precision_info, only: setting_t
+   implicit none (type, external)
+   private
+   public :: ladder_t, precision_t, rung_t
+   public :: error_ledger, error_motion, error_names, error_onsets, error_peaks, error_positions, error_reactions, &
+      error_restitution, error_units, error_velocities, error_violation, error_words, n_compared, n_error
+   public :: rung_done, rung_failed, rung_other, rung_states, rung_unrun
+   public :: median
+
+   ! kinds of error, those against the reference first
+   integer, parameter :: error_motion = 1       !! the greater of positions and velocities
+   integer, parameter :: error_positions = 2    !! of bodies, angles at their radii of gyration
+   integer, parameter :: error_velocities = 3   !! of bodies
+   integer, parameter :: error_reactions = 4    !! of joints
+   integer, parameter :: error_onsets = 5       !! of contacts
+   integer, parameter :: error_peaks = 6        !! greatest normal forces of contacts
+   integer, parameter :: error_restitution = 7  !! release over impact speed
+   integer, parameter :: n_compared = 7         !! kinds that need a reference
+   integer, parameter :: error_ledger = 8       !! greatest residual over the largest energy
+   integer, parameter :: error_violation = 9    !! of constraints
+   integer, parameter :: n_error = 9            !! kinds of error
+
+   character(*), parameter :: error_names(n_error) = [character(11) :: "motion", "positions", "velocities", "reactions", &
+      "onsets", "peaks", "restitution", "ledger", "violation"]              !! in files
+   character(*), parameter :: error_units(n_error) = [character(1) :: "1", "1", "1", "1", "s", "1", "1", "1", "m"]  !! SI
+   character(*), parameter :: error_words(n_error) = [character(64) :: &
+      "greater one of positions and velocities", "of positions, of the greatest range of one of them", &
+      "of velocities, of the greatest of them", "of reactions, of the greatest of them", &
+      "greatest of the onset times", "of peak forces, of the greatest of them", "greatest of release over impact speeds", &
+      "greatest residual of the ledger, of the largest energy", "greatest violation of a constraint"]  !! what they are
+
+   integer, parameter :: rung_unrun = 0    !! no time was left for it
+   integer, parameter :: rung_done = 1     !! ran to the end
+   integer, parameter :: rung_failed = 2   !! failed
+   integer, parameter :: rung_other = 3    !! ran to the end, with another sequence of contacts than the reference
+   character(*), parameter :: rung_states(0:3) = [character(14) :: "not run", "done", "failed", "other sequence"]  !! in words
+
+   !> A run of a ladder.
+   type :: rung_t
+      real(wp) :: asked = 0.0_wp                     !! tolerance, or length of fixed steps [1 or s]
+      integer :: state = rung_unrun                  !! one of the above
+      character(:), allocatable :: reason            !! why it failed or was not run; blank: neither
+      real(wp) :: error(n_error) = 0.0_wp            !! (n_error) errors by kind; NaN: not defined [1, s or m]
+      logical :: is_below = .false.                  !! the error is within the reference's own
+      real(wp) :: holds_until = 0.0_wp               !! last instant up to which the error is not above the one wanted [s]
+      integer :: n_round = 0                         !! times that it was timed
+      real(wp), allocatable :: rounds(:)             !! (n_round or more) processor times of the solution [s]
+      real(wp) :: cpu = 0.0_wp                       !! their median; of the run that was compared if there are none [s]
+      real(wp) :: cpu_least = 0.0_wp                 !! the least of them [s]
+      real(wp) :: setup = 0.0_wp                     !! processor time of the system and its start [s]
+      real(wp) :: wall = 0.0_wp                      !! that the compared run took, all in all [s]
+      integer(i8) :: steps = 0                       !! accepted steps
+      integer(i8) :: rejected = 0                    !! rejected steps
+      integer(i8) :: evaluations = 0                 !! of right-hand sides, without those for output
+      logical :: is_front = .false.                  !! no other one is both cheaper and more exact
+   end type rung_t
+
+   !> The runs of a setting, from the coarsest on.
+   type :: ladder_t
+      type(setting_t) :: setting                 !! the setting
+      character(:), allocatable :: name          !! its word
+      logical :: is_fixed = .false.              !! a ladder of steps, not of tolerances
+      type(rung_t), allocatable :: rungs(:)      !! (n) runs
+      real(wp) :: order = 0.0_wp                 !! observed: -d ln error/d ln steps; NaN: not known [1]
+      real(wp) :: exponent = 0.0_wp              !! of proportionality: d ln error/d ln tolerance; NaN: not known [1]
+      real(wp) :: ratio = 0.0_wp                 !! median of error over tolerance; NaN: not known [1]
+   end type ladder_t
+
+   !> All of it.
+   type :: precision_t
+      type(ladder_t), allocatable :: ladders(:)       !! (n) the ladders
+      integer :: wanted = error_motion                !! kind of error that is wanted and drawn
+      real(wp) :: accuracy = 0.0_wp                   !! error wanted [1]
+      real(wp) :: end = 0.0_wp                        !! of the motion [s]
+      integer :: instants = 0                         !! compared, with the start
+      character(:), allocatable :: reference          !! what the reference is; blank: there is none
+      character(:), allocatable :: confirmation       !! what confirms it; blank: nothing does
+      logical :: is_poor = .false.                    !! the reference is not as tight as it should be
+      real(wp) :: bar(n_compared) = 0.0_wp            !! (n_compared) errors of the reference; NaN: unknown [1 or s]
+      real(wp) :: agreed(n_digit) = 0.0_wp            !! (k) last time at which it and its confirmation have k digits in common [s]
+      real(wp) :: window = 0.0_wp                     !! last time compared: the reference is known well enough [s]
+      logical :: is_cut = .false.                     !! whether that is before the end
+      logical :: is_unsure = .false.                  !! the reference is not known so well at any time: all of it is compared
+      type(growth_t) :: growth                        !! of the distance of neighbouring starts
+      integer :: best_ladder = 0                      !! of the cheapest setting that reaches the error wanted, 0: none does
+      integer :: best_rung = 0                        !! its rung
+      real(wp) :: confirmed_error = 0.0_wp            !! of the choice, run once more; NaN: it was not [1]
+      real(wp) :: confirmed_cpu = 0.0_wp              !! its processor time [s]
+      real(wp) :: budget = 0.0_wp                     !! time allowed, 0: no limit [s]
+      real(wp) :: spent = 0.0_wp                      !! time taken up to the figures [s]
+      integer :: rounds = 0                           !! rounds of timing that were done by all
+      real(wp) :: longest_step = 0.0_wp               !! `maximum_step` of the deck, 0: none [s]
+      character(:), allocatable :: machine            !! processor
+      character(:), allocatable :: compiler           !! that built the program
+      character(:), allocatable :: flags              !! with which flags
+   end type precision_t
+
+contains
+
+   !> The median of some numbers.
+   pure real(wp) function median(x)
+      real(wp), intent(in) :: x(:)  !! (n) the numbers [any]
+
+      real(wp) :: sorted(size(x)), one
+      integer :: i, k, n
+
+      n = size(x)
+      median = not_a_number()
+      if (n == 0) return
+      sorted = x
+      do k = 2, n
+         one = sorted(k)
+         do i = k - 1, 1, -1
+            if (sorted(i) <= one) exit
+            sorted(i + 1) = sorted(i)
+         end do
+         sorted(i + 1) = one
+      end do
+      median = 0.5_wp*(sorted((n + 1)/2) + sorted(n/2 + 1))
+   end function median
+
+end module precision_results

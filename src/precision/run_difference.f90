@@ -1,0 +1,182 @@
+!> How far a run is from another one of the same motion: errors by kind, up to a time.
+!>
+!> Positions, velocities and reactions are compared at common instants: the greatest difference of any number of the sort, over
+!> the scale of the sort in the reference: for positions the greatest range of one of them over the run (which does not hang on
+!> where the origin is), for velocities and reactions the greatest magnitude. Contacts are compared one by one in the order
+!> in which each begins anew; where a run has another sequence of them there is nothing to compare, and it is told.
+module run_difference
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kept_run, only: contact_t, kept_run_t, n_sort, sort_positions, sort_reactions, sort_velocities
+   use kinds, only: not_a_number, wp
+   implicit none (type, external)
+   private
+   public :: compare_contacts, compare_sorts, distances, scales_of
+
+   real(wp), parameter :: at_rest = 1.0e-8_wp   !! range of motion below which a mechanism rests, of its size [1]
+   real(wp), parameter :: together = 1.0e-9_wp  !! onsets so near that their order does not count, of the time compared [1]
+
+contains
+
+   !> Scales of the sorts in a run. What moves less than a small part of the mechanism's size is at rest: then the size itself, and
+   !> for velocities that over the time of the motion, are the scales. Without any reaction theirs is 1.
+   pure function scales_of(run, size_of_scene, end) result(scale)
+      class(kept_run_t), intent(in) :: run           !! the run
+      real(wp), intent(in) :: size_of_scene          !! size of the mechanism [m]
+      real(wp), intent(in) :: end                    !! time of the motion [s]
+      real(wp) :: scale(n_sort)                      !! (n_sort) in the units of the sorts [any]
+
+      integer :: k
+
+      scale = 0.0_wp
+      do k = 1, size(run%sort)
+         associate (x => run%values(k, :run%n), s => scale(run%sort(k)))
+            if (run%sort(k) == sort_positions) then
+               s = max(s, maxval(x) - minval(x))
+            else
+               s = max(s, maxval(abs(x)))
+            end if
+         end associate
+      end do
+      if (scale(sort_positions) < at_rest*size_of_scene) then
+         scale(sort_positions) = size_of_scene
+         scale(sort_velocities) = size_of_scene/end
+      end if
+      if (scale(sort_reactions) <= 0.0_wp) scale(sort_reactions) = 1.0_wp
+   end function scales_of
+
+   !> Differences of two runs at each common instant, over the scales.
+   pure subroutine distances(run, reference, scale, d)
+      class(kept_run_t), intent(in) :: run        !! the run
+      class(kept_run_t), intent(in) :: reference  !! what it is compared with
+      real(wp), intent(in) :: scale(:)            !! (n_sort) scales [any]
+      real(wp), allocatable, intent(out) :: d(:, :)  !! (n_sort, instants) greatest difference of each sort [1]
+
+      integer :: i, k
+
+      allocate (d(n_sort, min(run%n, reference%n)), source=0.0_wp)
+      do i = 1, size(d, 2)
+         do k = 1, size(run%sort)
+            associate (sort => run%sort(k), difference => abs(run%values(k, i) - reference%values(k, i)))
+               d(sort, i) = max(d(sort, i), difference/scale(sort))
+            end associate
+         end do
+      end do
+   end subroutine distances
+
+   !> Greatest differences up to a time; of the motion the greater one of positions and velocities.
+   pure subroutine compare_sorts(d, t, until, error, motion)
+      real(wp), intent(in) :: d(:, :)       !! (n_sort, instants) differences [1]
+      real(wp), intent(in) :: t(:)          !! (instants or more) their times [s]
+      real(wp), intent(in) :: until         !! last time that counts [s]
+      real(wp), intent(out) :: error(:)     !! (n_sort) greatest difference of each sort [1]
+      real(wp), intent(out) :: motion       !! that of positions and velocities [1]
+
+      integer :: i
+
+      error = 0.0_wp
+      do i = 1, size(d, 2)
+         if (t(i) > until) exit
+         error = max(error, d(:, i))
+      end do
+      motion = max(error(sort_positions), error(sort_velocities))
+   end subroutine compare_sorts
+
+   !> Differences of the contacts up to a time: none of them are numbers without contacts, or if their sequence is another.
+   subroutine compare_contacts(run, reference, until, onset, peak, restitution, is_other)
+      class(kept_run_t), intent(in) :: run        !! the run
+      class(kept_run_t), intent(in) :: reference  !! what it is compared with
+      real(wp), intent(in) :: until               !! last time that counts [s]
+      real(wp), intent(out) :: onset              !! greatest difference of onset times [s]
+      real(wp), intent(out) :: peak               !! of peak forces, over the greatest peak [1]
+      real(wp), intent(out) :: restitution        !! of release over impact speeds [1]
+      logical, intent(out) :: is_other            !! whether the sequence of contacts is another one
+
+      type(contact_t), allocatable :: a(:), b(:)
+      integer, allocatable :: partner(:)
+      real(wp) :: last, greatest
+      integer :: k, n
+
+      onset = not_a_number()
+      peak = not_a_number()
+      restitution = not_a_number()
+      a = by_onset(reference%contacts)
+      b = by_onset(run%contacts)
+      n = count(a%onset <= until)
+      last = until
+      if (n > 0 .and. n < size(a)) last = min(last, 0.5_wp*(a(n)%onset + a(n + 1)%onset))
+      call find_partners(a(:n), b, last, together*until, partner, is_other)
+      if (is_other .or. n == 0) return
+      onset = maxval(abs(b(partner)%onset - a(:n)%onset))
+      greatest = 0.0_wp
+      do k = 1, n
+         associate (one => a(k), other => b(partner(k)))
+            if (.not. (ieee_is_finite(one%release_speed) .and. ieee_is_finite(other%release_speed))) cycle
+            greatest = max(greatest, one%peak_force)
+            call raise(peak, abs(other%peak_force - one%peak_force))
+            if (one%impact_speed > 0.0_wp .and. other%impact_speed > 0.0_wp) then
+               call raise(restitution, abs(other%release_speed/other%impact_speed - one%release_speed/one%impact_speed))
+            end if
+         end associate
+      end do
+      if (greatest > 0.0_wp) peak = peak/greatest
+   end subroutine compare_contacts
+
+   !> Raise a maximum that may not be a number yet.
+   pure subroutine raise(greatest, x)
+      real(wp), intent(inout) :: greatest  !! the maximum so far, not a number before the first [any]
+      real(wp), intent(in) :: x            !! what may be more [any]
+
+      if (.not. ieee_is_finite(greatest)) greatest = 0.0_wp
+      greatest = max(greatest, x)
+   end subroutine raise
+
+   !> For every contact of a reference the same one of a run: that of the same place which began as many times before.
+   subroutine find_partners(a, b, last, tie, partner, is_other)
+      type(contact_t), intent(in) :: a(:)                  !! (n) contacts of the reference, by their onsets
+      type(contact_t), intent(in) :: b(:)                  !! (m) contacts of the run, by their onsets
+      real(wp), intent(in) :: last                         !! up to which both must have as many [s]
+      real(wp), intent(in) :: tie                          !! onsets so near have no order [s]
+      integer, allocatable, intent(out) :: partner(:)      !! (n) numbers of the run's contacts
+      logical, intent(out) :: is_other                     !! there are none: the sequence is another one
+
+      logical :: is_taken(size(b))
+      integer :: j, k
+
+      allocate (partner(size(a)), source=0)
+      is_taken = .false.
+      is_other = count(b%onset <= last) /= size(a)
+      do k = 1, size(a)
+         do j = 1, size(b)
+            if (.not. is_taken(j) .and. b(j)%number == a(k)%number) exit
+         end do
+         is_other = is_other .or. j > size(b)
+         if (is_other) return
+         partner(k) = j
+         is_taken(j) = .true.
+      end do
+      do k = 1, size(a) - 1
+         if (a(k + 1)%onset - a(k)%onset <= tie) cycle
+         is_other = is_other .or. b(partner(k + 1))%onset < b(partner(k))%onset
+      end do
+   end subroutine find_partners
+
+   !> Contacts in the order of their onsets.
+   pure function by_onset(contacts) result(sorted)
+      type(contact_t), intent(in) :: contacts(:)    !! (n) in any order
+      type(contact_t), allocatable :: sorted(:)     !! (n) in order; those together in their own
+
+      type(contact_t) :: one
+      integer :: i, k
+
+      sorted = contacts
+      do k = 2, size(sorted)
+         one = sorted(k)
+         do i = k - 1, 1, -1
+            if (sorted(i)%onset <= one%onset) exit
+            sorted(i + 1) = sorted(i)
+         end do
+         sorted(i + 1) = one
+      end do
+   end function by_onset
+
+end module run_difference

@@ -1,0 +1,219 @@
+!> The section [precision], and the words by which it names settings of an integration.
+!>
+!> A word is `METHOD`, `METHOD.WAY` or `METHOD.WAY.SOLVER`: an integrator, a way of holding the constraints, a solver of the
+!> augmented equations, as in [analysis.dynamic]; `*` stands for all of them. What a word leaves out is as the deck has it.
+module precision_info
+   use columns, only: column_of
+   use diagnostics, only: diagnostics_t
+   use item, only: item_t, place_of
+   use kind_info, only: add_number, add_word, add_words, dim_none, dim_time, kind_info_t
+   use kinds, only: least_tolerance, wp
+   use section_info, only: dynamic_info
+   use spelling, only: nearest_word
+   use text, only: append_text, split_blank, text_t
+   implicit none (type, external)
+   private
+   public :: check_precision, check_setting_word, precision_section, setting_t, settings_of
+
+   character(*), parameter :: keys(3) = [character(9) :: "method", "stabilise", "solver"]      !! of [analysis.dynamic]
+   character(*), parameter :: sorts(3) = [character(30) :: "method", "way of holding constraints", "solver"]  !! in words
+
+   !> How an integration is set. What is blank is as the deck has it.
+   type :: setting_t
+      character(:), allocatable :: method  !! integrator
+      character(:), allocatable :: way     !! of holding the constraints, or blank
+      character(:), allocatable :: solver  !! of the augmented equations, or blank
+   contains
+      procedure :: word
+   end type setting_t
+
+contains
+
+   !> The section [precision].
+   function precision_section() result(info)
+      type(kind_info_t) :: info  !! keys
+
+      info%name = "precision"
+      info%help = "what `gudgeon precision` compares: error against cost over ladders of tolerances or steps"
+      info%source = "E. Hairer, S. P. Noersett, G. Wanner (1993), Solving Ordinary Differential Equations I, section II.10"
+      info%is_table = .false.
+      call add_words(info, "methods", "settings compared: METHOD, METHOD.WAY or METHOD.WAY.SOLVER with the words of `method`, " &
+                     //"`stabilise` and `solver` of [analysis.dynamic]; * for all of them; what is left out is the deck's own", &
+                     default=choices_of("method"))
+      call add_number(info, "coarsest", dim_none, "tolerance that a ladder begins with", default="1e-3", lower=least_tolerance, &
+                      upper=0.01_wp)
+      call add_number(info, "finest", dim_none, "tolerance that a ladder ends with", default="1e-12", lower=least_tolerance, &
+                      upper=0.01_wp)
+      call add_number(info, "per_decade", dim_none, "rungs of a ladder in a decade", default="4", lower=1.0_wp, upper=20.0_wp)
+      call add_number(info, "longest_step", dim_time, "step that the ladders of fixed steps begin with; 0: the mean step that a " &
+                      //"variable one takes at the coarsest tolerance", default="0 s", lower=0.0_wp)
+      call add_number(info, "step_decades", dim_none, "decades that these ladders go down", default="3", lower=0.0_wp, &
+                      upper=8.0_wp)
+      call add_number(info, "accuracy", dim_none, "error wanted: part of the range of motion, or of the greatest value", &
+                      default="1e-6", lower=least_tolerance, upper=1.0_wp)
+      call add_word(info, "error", "which error is wanted and drawn: motion (the greater of positions and velocities), " &
+                    //"positions, velocities, or reactions", default="motion", choices="motion positions velocities reactions")
+      call add_number(info, "rounds", dim_none, "times that every run is timed", default="5", lower=1.0_wp, upper=1000.0_wp)
+      call add_number(info, "instants", dim_none, "instants at which runs are compared, besides the start", default="200", &
+                      lower=2.0_wp, upper=1.0e6_wp)
+      call add_number(info, "perturbation", dim_none, "greatest displacement of the start of a twin run, of the size of the " &
+                      //"mechanism; 0: no twins", default="1e-9", lower=0.0_wp, upper=1.0e-3_wp)
+      call add_number(info, "budget", dim_time, "time that all of it may take; 0: no limit", default="60 s", lower=0.0_wp)
+   end function precision_section
+
+   !> Words of a key of [analysis.dynamic], without `auto`, which is the deck's own or chosen for it.
+   function choices_of(key) result(words)
+      character(*), intent(in) :: key         !! method, stabilise or solver
+      character(:), allocatable :: words      !! blank-separated
+
+      type(kind_info_t) :: info
+
+      info = dynamic_info()
+      words = info%columns(column_of(info, trim(key)))%choices
+      if (index(words, "auto ") == 1) words = words(6:)
+   end function choices_of
+
+   !> The word that names a setting.
+   pure function word(self) result(name)
+      class(setting_t), intent(in) :: self    !! the setting
+      character(:), allocatable :: name       !! as `verner.projection`
+
+      name = self%method
+      if (self%way /= "") name = name//"."//self%way
+      if (self%solver /= "") name = name//"."//self%solver
+   end function word
+
+   !> What is wrong with the section.
+   subroutine check_precision(item, diagnostics)
+      type(item_t), intent(in) :: item                    !! the section
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      character(:), allocatable :: hint, message
+      integer :: k
+
+      associate (value => item%values(place_of(item, "methods")))
+         do k = 1, size(value%words)
+            call check_setting_word(value%words(k)%s, message, hint)
+            if (message == "") cycle
+            if (size(value%places) < k) then
+               call diagnostics%add(value%location, message, "no setting of an integration", hint)
+            else
+               call diagnostics%add(value%places(k), message, "no setting of an integration", hint)
+            end if
+         end do
+      end associate
+      associate (finest => item%values(place_of(item, "finest")))
+         if (finest%number <= item%number("coarsest")) return
+         call diagnostics%add(finest%location, "'finest' is greater than 'coarsest'", "a ladder goes down", &
+                              "the finest tolerance is the smallest one")
+      end associate
+   end subroutine check_precision
+
+   !> What is wrong with a word.
+   subroutine check_setting_word(word, message, hint)
+      character(*), intent(in) :: word                     !! as `verner.projection`
+      character(:), allocatable, intent(out) :: message    !! blank if nothing is wrong
+      character(:), allocatable, intent(out) :: hint       !! what may have been meant
+
+      character(:), allocatable :: known, part
+      integer :: k
+      type(text_t), allocatable :: parts(:)
+
+      message = ""
+      hint = ""
+      parts = parts_of(word)
+      if (size(parts) > size(keys)) then
+         message = "'"//word//"' has more than a method, a way of holding the constraints and a solver"
+         hint = "write METHOD.WAY.SOLVER, as verner.projection.schur"
+         return
+      end if
+      do k = 1, size(parts)
+         part = parts(k)%s
+         known = choices_of(keys(k))
+         if (part == "*" .or. (part /= "" .and. index(" "//known//" ", " "//part//" ") > 0)) cycle
+         message = "unknown "//trim(sorts(k))//" '"//part//"'"
+         hint = nearest_word(part, split_blank(known))
+         if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
+         hint = hint//"known: "//known
+         return
+      end do
+   end subroutine check_setting_word
+
+   !> The settings that words name, each once, in their order. The words are right.
+   subroutine settings_of(words, settings)
+      type(text_t), intent(in) :: words(:)                         !! (n) words
+      type(setting_t), allocatable, intent(out) :: settings(:)     !! (m) settings
+
+      type(text_t), allocatable :: methods(:), parts(:), solvers(:), ways(:)
+      type(setting_t) :: one
+      integer :: i, j, k, m
+
+      allocate (settings(0))
+      do k = 1, size(words)
+         parts = parts_of(words(k)%s)
+         methods = words_at(1)
+         ways = words_at(2)
+         solvers = words_at(3)
+         do i = 1, size(methods)
+            do j = 1, size(ways)
+               do m = 1, size(solvers)
+                  one%method = methods(i)%s
+                  one%way = ways(j)%s
+                  one%solver = solvers(m)%s
+                  if (.not. is_there(one)) settings = [settings, one]
+               end do
+            end do
+         end do
+      end do
+
+   contains
+
+      !> What part of a word stands for.
+      function words_at(place) result(list)
+         integer, intent(in) :: place             !! of the part
+         type(text_t), allocatable :: list(:)     !! (n) words; one blank: as the deck has it
+
+         allocate (list(0))
+         if (place > size(parts)) then
+            call append_text(list, "")
+         else if (parts(place)%s == "*") then
+            list = split_blank(choices_of(keys(place)))
+         else
+            call append_text(list, parts(place)%s)
+         end if
+      end function words_at
+
+      !> Whether a setting is in the list already.
+      pure logical function is_there(other)
+         type(setting_t), intent(in) :: other  !! the setting
+
+         integer :: n
+
+         is_there = .false.
+         do n = 1, size(settings)
+            is_there = is_there .or. (settings(n)%method == other%method .and. settings(n)%way == other%way .and. &
+                                      settings(n)%solver == other%solver)
+         end do
+      end function is_there
+
+   end subroutine settings_of
+
+   !> The parts of a word between its dots.
+   pure function parts_of(word) result(parts)
+      character(*), intent(in) :: word           !! the word
+      type(text_t), allocatable :: parts(:)      !! (n) parts, at least one
+
+      integer :: first, last
+
+      allocate (parts(0))
+      first = 1
+      do
+         last = index(word(first:), ".") + first - 2
+         if (last < first - 1) last = len(word)
+         call append_text(parts, word(first:last))
+         first = last + 2
+         if (last >= len(word)) exit
+      end do
+   end function parts_of
+
+end module precision_info
