@@ -4,7 +4,7 @@
 !> the whole is put together, for reports. A mechanism whose bodies are all joined is one part, and its state is that of the
 !> integrator.
 module whole_motion
-   use contact_places, only: n_loss, n_quadratures, place_of_loss
+   use contact_places, only: n_loss, n_quadratures, place_of_joint_loss, place_of_loss
    use friction_law, only: memory_bristle
    use guards, only: guards_t
    use instants, only: instants_t
@@ -288,8 +288,8 @@ contains
                      y(whole%bristle_place(place%slot(m), c)) = own(system%bristle_place(k, i))
                   end if
                   if (.not. system%with_ledger) cycle
-                  from = system%n - system%n_quadrature + place_of_loss(m, 1)
-                  to = whole%n - whole%n_quadrature + place_of_loss(target%first_contact + c, 1)
+                  from = system%in_state(place_of_loss(m, 1))
+                  to = whole%in_state(place_of_loss(target%first_contact + c, 1))
                   y(to:to + n_loss - 1) = own(from:from + n_loss - 1)
                end associate
             end do
@@ -300,9 +300,13 @@ contains
          y(whole%rubbing_place(place%rubbing(k))) = own(system%rubbing_place(k))
       end do
       if (.not. system%with_ledger) return
-      if (system%rubbing%n > 0) y(whole%n) = y(whole%n) + own(system%n)
-      from = system%n - system%n_quadrature
-      to = whole%n - whole%n_quadrature
+      if (system%rubbing%n > 0) then
+         from = system%in_state(place_of_joint_loss(system%n_contact))
+         to = whole%in_state(place_of_joint_loss(whole%n_contact))
+         y(to) = y(to) + own(from)
+      end if
+      from = system%in_state(0)
+      to = whole%in_state(0)
       y(to + 1:to + n_quadratures(0)) = y(to + 1:to + n_quadratures(0)) + own(from + 1:from + n_quadratures(0))
    end subroutine add_contacts
 

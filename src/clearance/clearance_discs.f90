@@ -19,7 +19,6 @@ module clearance_discs
    private
    public :: clearance_discs_t
 
-
    !> Pairs of discs.
    type, extends(round_contacts_t) :: clearance_discs_t
    contains

@@ -21,7 +21,6 @@ module clearance_plane
    private
    public :: clearance_plane_t
 
-
    !> Balls on planes.
    type, extends(flat_contacts_t) :: clearance_plane_t
    contains

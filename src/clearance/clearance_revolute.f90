@@ -19,7 +19,6 @@ module clearance_revolute
    private
    public :: clearance_revolute_t
 
-
    !> Journals in bearings, in the plane.
    type, extends(round_contacts_t) :: clearance_revolute_t
    contains

@@ -3,8 +3,8 @@
 !> Body i carries the bearing, guide or plane, body j the journal, slider or ball. Contacts and what they remember: see
 !> `contact_states`. The force of a contact acts between its onset and its end, on both bodies with action equal to reaction; the
 !> power that damping and friction take is given to the energy ledger, contact by contact. Where the normal law has a force between
-!> surfaces that are apart (`acts_apart`, as a film has), a contact that is free acts too, wherever that force is positive; onset and
-!> end are still where the surfaces meet, and friction is that of surfaces which touch.
+!> surfaces that are apart (`acts_apart`, as a film has), a contact that is free acts too, wherever that force is positive; onset
+!> and end are still where the surfaces meet, and friction is that of surfaces which touch.
 module clearance_set
    use bodies, only: material_t, points_t
    use contact_grip, only: new_grip, tangent_t

@@ -33,7 +33,6 @@ module clearance_translational
    private
    public :: clearance_translational_t
 
-
    real(wp), parameter :: corner_x(n_corner) = [-0.5_wp, 0.5_wp, 0.5_wp, -0.5_wp]   !! of the length [1]
    real(wp), parameter :: corner_y(n_corner) = [-0.5_wp, -0.5_wp, 0.5_wp, 0.5_wp]   !! of the height [1]
 

@@ -78,7 +78,7 @@ module normal_law
          implicit none (type, external)
          class(normal_law_t), intent(in) :: self                !! the law
          integer, intent(in) :: n                               !! number of contacts
-         real(wp), intent(in) :: delta(n)                       !! (n) penetration; no force where it is not positive, but for acts_apart [m]
+         real(wp), intent(in) :: delta(n)                       !! (n) penetration; no force unless > 0 or acts_apart [m]
          real(wp), intent(in) :: rate(n)                        !! (n) penetration rate [m/s]
          real(wp), intent(in) :: impact_speed(n)                !! (n) rate at the onset, positive [m/s]
          real(wp), intent(in) :: parameters(n_law_parameter, n) !! (n_law_parameter, n) from `fit` [any]

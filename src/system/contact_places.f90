@@ -1,6 +1,7 @@
 !> Where what belongs to a contact lies: its losses among the quadratures of the ledger, its functions among the event functions.
 !>
-!> Quadratures: the works and what dampers lose, then n_loss of each contact: lost by damping, lost by friction (`clearance_set`).
+!> Quadratures: the works and what dampers lose, then n_loss of each contact: lost by damping, lost by friction (`clearance_set`);
+!> last what friction in ideal joints takes, if any rub.
 !> Event functions come in blocks, each in the order of the contacts: one of every contact for its onset and end, one for slip and
 !> stick if any friction can stick, one for turns of the penetration if any normal law jumps there.
 !>
@@ -9,7 +10,7 @@ module contact_places
    use clearance_set, only: loss_contact, loss_friction
    implicit none (type, external)
    private
-   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_loss
+   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_joint_loss, place_of_loss
    public :: slip_function, touch_function, turn_function, work_drive, work_load, work_stabilisation
 
    integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
@@ -46,6 +47,13 @@ contains
 
       n = n_work + n_loss*n_contact
    end function n_quadratures
+
+   !> Number of the quadrature of what friction in ideal joints takes, the last one, if any of them rub.
+   pure integer function place_of_joint_loss(n_contact) result(place)
+      integer, intent(in) :: n_contact  !! contacts of all sets
+
+      place = n_quadratures(n_contact) + 1
+   end function place_of_joint_loss
 
    !> Number of the quadrature of a loss.
    pure integer function place_of_loss(contact, loss) result(place)

@@ -5,7 +5,7 @@
 !> measure that needs no reference solution.
 module mechanism_energy
    use clearance_set, only: loss_contact, loss_friction
-   use contact_places, only: lost_damper, n_quadratures, place_of_loss, work_drive, work_load, work_stabilisation
+   use contact_places, only: lost_damper, place_of_joint_loss, place_of_loss, work_drive, work_load, work_stabilisation
    use cut_off, only: lost_by_damping
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -114,7 +114,7 @@ contains
          end associate
       end do
       if (system%rubbing%n > 0) then
-         energy%dissipated_friction = energy%dissipated_friction + y(z + n_quadratures(system%n_contact) + 1)
+         energy%dissipated_friction = energy%dissipated_friction + y(first + place_of_joint_loss(system%n_contact))
       end if
    end function energy_of
 

@@ -1,7 +1,7 @@
 !> The powers of the ledger, as of the last evaluation.
 submodule(mechanism) mechanism_powers
    use clearance_set, only: loss_contact, loss_friction
-   use contact_places, only: lost_damper, n_loss, n_quadratures, place_of_loss, work_drive, work_load, work_stabilisation
+   use contact_places, only: lost_damper, n_loss, place_of_joint_loss, place_of_loss, work_drive, work_load, work_stabilisation
    use known_motion, only: power_of_known
    implicit none (type, external)
 
@@ -36,7 +36,7 @@ contains
          power(place + loss_friction) = self%losses(loss_friction, k)
          place = place + n_loss
       end do
-      if (self%rubbing%n > 0) power(n_quadratures(self%n_contact) + 1) = self%rubbing%power
+      if (self%rubbing%n > 0) power(place_of_joint_loss(self%n_contact)) = self%rubbing%power
    end procedure ledger_rates
 
 end submodule mechanism_powers

@@ -149,7 +149,7 @@ contains
    subroutine cushion_fit(self, pair, parameters, message, help)
       class(cushion_t), intent(in) :: self                   !! the law
       type(surfaces_t), intent(in) :: pair                   !! the surfaces
-      real(wp), intent(out) :: parameters(n_law_parameter)   !! none [any]
+      real(wp), intent(out) :: parameters(n_law_parameter)   !! (n_law_parameter) none [any]
       character(:), allocatable, intent(out) :: message      !! empty
       character(:), allocatable, intent(out) :: help         !! empty
 
