@@ -66,15 +66,16 @@ contains
 
    !> Values of a channel: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
-      type(point_contact_t) :: contacts(self%n_contact_item)
-      real(wp) :: f(3), f_n(self%n_contact_item), f_t(self%n_contact_item)
-      integer :: c, first, item, m
+      type(point_contact_t) :: contacts(most_of_item)
+      real(wp) :: f(3), f_n(most_of_item), f_t(most_of_item)
+      integer :: c, first, item, m, n
 
+      n = self%n_contact_item
       do item = 1, self%n
-         first = (item - 1)*self%n_contact_item
-         call find_forces(self, item, motion, contacts, f_n, f_t)
+         first = (item - 1)*n
+         call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
          if (channel == "force") values(:, self%first + item) = 0.0_wp
-         do c = 1, self%n_contact_item
+         do c = 1, n
             m = self%first_contact + first + c
             select case (channel)
             case ("force")
@@ -91,7 +92,7 @@ contains
             case ("state")
                values(1, m) = real(merge(state_contact, state_free, self%contact(first + c)%is_touching), wp)
             case default
-               call self%report_item(channel, item, motion, contacts, f_n, f_t, values(:, self%first + item))
+               call self%report_item(channel, item, motion, contacts(:n), f_n(:n), f_t(:n), values(:, self%first + item))
                exit
             end select
          end do
@@ -107,7 +108,7 @@ contains
       real(wp), intent(out) :: f_n(:)                       !! (n_contact_item) normal forces [N]
       real(wp), intent(out) :: f_t(:)                       !! (n_contact_item) friction forces on j along t [N]
 
-      real(wp), dimension(size(f_n)) :: f_elastic, f_rub, speed
+      real(wp), dimension(most_of_item) :: f_elastic, f_rub, speed
       integer :: c, first, n
 
       n = self%n_contact_item
@@ -118,12 +119,12 @@ contains
          call self%measure(first + c, allocated(self%friction), motion, contacts(c))
       end do
       if (self%n_touching == 0 .and. .not. self%law%acts_apart) return
-      call self%press(item, contacts, f_n, f_elastic)
-      f_rub = f_n
-      if (self%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub)
+      call self%press(item, contacts, f_n, f_elastic(:n))
+      f_rub(:n) = f_n
+      if (self%has_faces) call self%share_item(item, contacts, f_n, f_elastic(:n), f_rub(:n))
       if (.not. allocated(self%friction)) return
       if (self%grip%memory == memory_none) then
-         call rub_by_law(n, self%friction, self%contact(first + 1:first + n), contacts, f_rub, speed, f_t)
+         call rub_by_law(n, self%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)
       else  ! of the last evaluation: it is no function of the motion alone
          f_t = merge(self%grip%tangent(first + 1:first + n)%f_t, 0.0_wp, self%contact(first + 1:first + n)%is_touching)
       end if

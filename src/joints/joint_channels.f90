@@ -3,6 +3,7 @@
 !> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j, a driver of a length
 !> along its coordinate. Power of a driver: lambda . Phi_t.
 submodule(joint_set) joint_channels
+   use coordinates, only: most_rates
    use motion, only: cross
    implicit none (type, external)
 
@@ -58,16 +59,17 @@ contains
 
    !> Reaction of an item on body i.
    module procedure joint_reaction
-      real(wp) :: load(coordinates%n_v)
-      integer :: body, k, row
+      real(wp) :: load(most_rates)
+      integer :: body, k, n, row
 
+      n = coordinates%n_v
       load = 0.0_wp
       body = self%body(1, item)
       do k = 1, self%n_row_item
          row = self%first_row + (item - 1)*self%n_row_item + k
-         load = load - rows%jac(:size(load), row)*lambda(row)
+         load(:n) = load(:n) - rows%jac(:n, row)*lambda(row)
       end do
-      call coordinates%split_load(load, motion, body, force, moment)
+      call coordinates%split_load(load(:n), motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)
    end procedure joint_reaction
 

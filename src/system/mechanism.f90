@@ -232,7 +232,7 @@ module mechanism
       pure module subroutine ledger_rates(self, power)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(out) :: power(:)           !! (quadratures) powers [W]
+         real(wp), intent(out), contiguous :: power(:) !! (quadratures) powers [W]
       end subroutine ledger_rates
 
       !> Error scales.
