@@ -2,22 +2,19 @@
 !>
 !> The file is written whole, under another name first, so that there is never half of it.
 module precision_file
-   use errors, only: error_t, exit_file, set_error
+   use errors, only: error_t
    use growth, only: n_digit
-   use hdf5, only: h5fclose_f, h5fcreate_f, h5gclose_f, h5pclose_f
-   use hdf5, only: h5f_acc_trunc_f, h5p_default_f, h5p_file_create_f, hid_t
+   use hdf5, only: h5gclose_f, hid_t
    use hdf5_attributes, only: real_attribute, text_attribute
-   use hdf5_calls, only: creation_list, new_group, open_library
+   use hdf5_calls, only: new_group
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
-   use hdf5_layout, only: make_provenance, make_root, write_status
+   use hdf5_layout, only: make_provenance, write_status
    use kinds, only: not_a_number, wp
-   use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: remove_file
    use precision_results, only: error_names, error_units, error_words, n_compared, n_error, precision_t, rung_t
    use recorder, only: status_complete
    use text, only: append_text, text_t
-   use text_file, only: fail_file, put_in_place
+   use whole_file, only: begin_whole_file, end_whole_file
    implicit none (type, external)
    private
    public :: write_precision
@@ -31,22 +28,13 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! it cannot be written
 
       character(:), allocatable :: path
-      integer(hid_t) :: creation, file
-      integer :: closed, status
+      integer(hid_t) :: file
+      integer :: status
 
       path = plan%directory//"/precision.h5"
-      status = enter_file(path//".part")
-      if (status /= 0) then
-         call fail_file(error, "cannot make", path//".part", status, "")
-         return
-      end if
-      call open_library(status)
-      call creation_list(h5p_file_create_f, creation, status)
-      if (status >= 0) call h5fcreate_f(path//".part", h5f_acc_trunc_f, file, status, creation, h5p_default_f)
+      call begin_whole_file(path, "gudgeon precision", plan, file, status, error)
+      if (allocated(error)) return
       if (status >= 0) then
-         call h5pclose_f(creation, closed)
-         call make_root(file, plan, status)
-         call text_attribute(file, "filetype", "gudgeon precision", status)
          call text_attribute(file, "machine", study%machine, status)
          call text_attribute(file, "compile_flags", study%flags, status)
          call write_ladders(file, study, status)
@@ -56,15 +44,8 @@ contains
          call write_choice(file, study, status)
          call make_provenance(file, plan, status)
          call write_status(file, status_complete, status)
-         call h5fclose_f(file, closed)
-         status = min(status, closed)
       end if
-      if (status >= 0) then
-         call put_in_place(path, error)
-      else
-         call set_error(error, exit_file, "cannot write "//path//": the disk may be full")
-      end if
-      if (allocated(error)) closed = remove_file(path//".part")
+      call end_whole_file(path, file, status, error)
    end subroutine write_precision
 
    !> The settings and what their runs tell together.
