@@ -4,7 +4,7 @@
 module sweep_file
    use errors, only: error_t
    use hdf5, only: h5fclose_f, h5fopen_f, h5gclose_f, h5gget_info_f, h5lget_name_by_idx_f, h5ocopy_f
-   use hdf5, only: h5_index_name_f, h5_iter_inc_f, h5f_acc_rdonly_f, h5p_default_f
+   use hdf5, only: h5_index_name_f, h5_iter_inc_f, h5f_acc_rdonly_f
    use hdf5, only: hid_t, hsize_t
    use hdf5_attributes, only: text_attribute
    use hdf5_calls, only: new_group
