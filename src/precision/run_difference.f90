@@ -82,18 +82,20 @@ contains
    end subroutine compare_sorts
 
    !> Differences of the contacts up to a time: none of them are numbers without contacts, or if their sequence is another.
+   !> The restitution is a ratio of speeds, of which an error of the motion makes little where they are high and much where they are
+   !> near it; so the difference of each ratio is weighed by the impact speed, over the highest of them.
    subroutine compare_contacts(run, reference, until, onset, peak, restitution, is_other)
       class(kept_run_t), intent(in) :: run        !! the run
       class(kept_run_t), intent(in) :: reference  !! what it is compared with
       real(wp), intent(in) :: until               !! last time that counts [s]
       real(wp), intent(out) :: onset              !! greatest difference of onset times [s]
       real(wp), intent(out) :: peak               !! of peak forces, over the greatest peak [1]
-      real(wp), intent(out) :: restitution        !! of release over impact speeds [1]
+      real(wp), intent(out) :: restitution        !! of release over impact speeds, weighed [1]
       logical, intent(out) :: is_other            !! whether the sequence of contacts is another one
 
       type(contact_t), allocatable :: a(:), b(:)
       integer, allocatable :: partner(:)
-      real(wp) :: last, greatest
+      real(wp) :: last, greatest, fastest
       integer :: k, n
 
       onset = not_a_number()
@@ -108,13 +110,15 @@ contains
       if (is_other .or. n == 0) return
       onset = maxval(abs(b(partner)%onset - a(:n)%onset))
       greatest = 0.0_wp
+      fastest = maxval(a(:n)%impact_speed)
       do k = 1, n
          associate (one => a(k), other => b(partner(k)))
             if (.not. (ieee_is_finite(one%release_speed) .and. ieee_is_finite(other%release_speed))) cycle
             greatest = max(greatest, one%peak_force)
             call raise(peak, abs(other%peak_force - one%peak_force))
             if (one%impact_speed > 0.0_wp .and. other%impact_speed > 0.0_wp) then
-               call raise(restitution, abs(other%release_speed/other%impact_speed - one%release_speed/one%impact_speed))
+               call raise(restitution, one%impact_speed/fastest* &
+                          abs(other%release_speed/other%impact_speed - one%release_speed/one%impact_speed))
             end if
          end associate
       end do

@@ -266,8 +266,7 @@ def test_errors_are_told_inside_the_horizon_only(gudgeon):
     agreed = study.read("reference/agrees_until")
     assert (np.diff(agreed) <= 0).all() and (times[np.isfinite(times)] >= agreed[np.isfinite(times)]).all()
     last = study.ladder("verner")[-1]
-    assert last["onsets [s]"] < 1e-7 and last["peaks"] < 1e-3
-    assert last["restitution"] < 0.05  # a ratio of speeds: of the slowest impacts of the window these are hardly more than the error
+    assert last["onsets [s]"] < 1e-7 and last["peaks"] < 1e-3 and last["restitution"] < 1e-3
     assert last["onsets [s]"] >= 0
 
 
