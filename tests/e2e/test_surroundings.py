@@ -276,7 +276,7 @@ def test_memory_that_runs_out_in_the_run(gudgeon, place):
 def test_memory_that_ends_with_the_events(gudgeon, place):
     """A list of events that outgrows the memory ends the run with the number of events, and keeps what was written."""
     deck = written(place, plain_deck((("analysis.dynamic", "end", "600 s"), ("output", "every", "0.1 s"), ("output", "contact_rows", "off"))))
-    done = execute(gudgeon, "run", deck, "--out", place / "out", "--quiet", limit=120, preexec_fn=limited(resource.RLIMIT_AS, (least_room(gudgeon) + 4) << 20))
+    done = execute(gudgeon, "run", deck, "--out", place / "out", "--quiet", limit=300, preexec_fn=limited(resource.RLIMIT_AS, (least_room(gudgeon) + 4) << 20))
     assert done.returncode == 9 and b"memory" in done.stderr and (b"events" in done.stderr or b"motion" in done.stderr), done
 
 
