@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench stability fuzz figures studies lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability fuzz figures studies lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program
 
 all:
@@ -80,6 +80,12 @@ check:
 bench:
 	$(inner)release binary bench_programs
 	@GUDGEON_BUILD=$(abspath $(BUILD)) tests/bench/run_bench.sh
+
+# Other programs on the same scenes: PEERS='--quick' for options of tests/bench/peers/peers.py
+bench-peers:
+	$(inner)release binary
+	@tests/bench/peers/set_up.sh $(abspath $(BUILD))/bench/peers
+	@$(PYTHON) -B tests/bench/peers/peers.py --build $(abspath $(BUILD)) $(PEERS)
 
 stability:
 	@scripts/setup
@@ -122,6 +128,7 @@ help:
 	@echo "make run        set up, build, run a first deck       make figures  run every deck of inputs/"
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
+	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
