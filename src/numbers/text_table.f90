@@ -2,6 +2,7 @@
 module text_table
    use catalogue, only: catalogue_t
    use channel_names, only: base_name, scalar_name, scalar_t
+   use decimal_text, only: decimal_width, put_decimal
    use errors, only: error_t
    use kinds, only: wp
    use output_plan, only: output_plan_t
@@ -10,10 +11,7 @@ module text_table
    use text_file, only: text_file_t
    implicit none (type, external)
    private
-   public :: column_label, file_heading, number_format, number_width, one_line, text_table_t
-
-   integer, parameter :: number_width = 25                             !! characters of a number, with the blank after it
-   character(*), parameter :: number_format = "(*(es24.16e3, 1x))"    !! of a row: 17 digits read back to the same number
+   public :: column_label, file_heading, one_line, put_row_of_numbers, text_table_t
 
    !> A file and its rows that are not yet there. Where rows may be those of contacts, the last column says what each is.
    type :: text_table_t
@@ -136,13 +134,25 @@ contains
       character(:), allocatable :: text
       integer :: k, width
 
-      width = number_width*size(self%rows, 1)
+      width = decimal_width*size(self%rows, 1)
       allocate (character(width*n + 8) :: text)
       do k = 1, n
-         write (text((k - 1)*width + 1:k*width), number_format) self%rows(:, k)
+         call put_row_of_numbers(self%rows(:, k), text((k - 1)*width + 1:k*width))
          text(k*width:k*width) = new_line("a")
       end do
       call self%file%append(text(1:width*n), error)
    end subroutine flush_rows
+
+   !> Numbers side by side, with 17 digits, which read back to the same numbers.
+   subroutine put_row_of_numbers(numbers, line)
+      real(wp), intent(in) :: numbers(:)    !! (n) any [any]
+      character(*), intent(out) :: line     !! (decimal_width*n) each with a blank after it
+
+      integer :: k
+
+      do k = 1, size(numbers)
+         call put_decimal(numbers(k), line((k - 1)*decimal_width + 1:k*decimal_width))
+      end do
+   end subroutine put_row_of_numbers
 
 end module text_table

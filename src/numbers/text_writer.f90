@@ -6,6 +6,7 @@ module text_writer
    use catalogue, only: catalogue_t, n_rooms, room_clearances, room_contacts
    use channel_names, only: item_name, scalar_t
    use channels, only: selection_t
+   use decimal_text, only: decimal_width
    use errors, only: error_t, set_error
    use event_list, only: event_list_t, n_event_numbers, n_event_words, number_names, number_units, word_names
    use kinds, only: i8, wp
@@ -15,7 +16,7 @@ module text_writer
    use text, only: text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: fail_file, replace_file, text_file_t
-   use text_table, only: file_heading, number_format, number_width, text_table_t
+   use text_table, only: file_heading, put_row_of_numbers, text_table_t
    implicit none (type, external)
    private
    public :: extra_table_t, file_of_item, text_writer_t
@@ -256,19 +257,19 @@ contains
       character(:), allocatable :: text          !! whole lines
 
       type(buffer_t) :: buffer
-      character(number_width*n_event_numbers) :: line
+      character(decimal_width*n_event_numbers) :: line
       character(:), allocatable :: word
       integer :: i, k
 
       do i = 1, size(list)
-         write (line, number_format) events%numbers(:, list(i))
-         call buffer%add(line(1:number_width - 1))
+         call put_row_of_numbers(events%numbers(:, list(i)), line)
+         call buffer%add(line(1:decimal_width - 1))
          do k = 1, n_event_words
             word = events%word(list(i), k)
             if (len_trim(word) == 0) word = "-"
             call buffer%add(" "//word)
          end do
-         call buffer%add(line(number_width:number_width*n_event_numbers - 1)//new_line("a"))
+         call buffer%add(line(decimal_width:decimal_width*n_event_numbers - 1)//new_line("a"))
       end do
       text = buffer%get()
    end function event_rows

@@ -2,13 +2,14 @@
 module test_output_text
    use check, only: check_close, check_equal, check_true, suite_t
    use display_units, only: choose_unit, display_unit_t
+   use decimal_text, only: decimal_width
    use errors, only: error_t
    use event_list, only: event_list_t
    use json_text, only: json_object_t, json_string
    use kinds, only: not_a_number, wp
    use plot_text, only: quoted, valid_utf8
    use recorder, only: event_t
-   use text_table, only: number_format, number_width
+   use text_table, only: put_row_of_numbers
    implicit none (type, external)
    private
    public :: run_test_output_text
@@ -107,11 +108,11 @@ contains
       character(200) :: line
       real(wp) :: back(5)
 
-      write (line, number_format) numbers
-      read (line(1:5*number_width), *) back
+      call put_row_of_numbers(numbers, line)
+      read (line(1:5*decimal_width), *) back
       call check_close(error, back, numbers, 0.0_wp, "numbers")
-      write (line, number_format) not_a_number()
-      call check_equal(error, line(1:number_width), repeat(" ", number_width - 4)//"NaN ", "not a number")
+      call put_row_of_numbers([not_a_number()], line)
+      call check_equal(error, line(1:decimal_width), repeat(" ", decimal_width - 4)//"NaN ", "not a number")
    end subroutine numbers_read_back
 
    subroutine events_are_sorted(error)
