@@ -81,7 +81,7 @@ contains
       integer :: g, k
 
       guards%is_set = .true.
-      associate (settings => scene%guards)
+      associate (settings => scene%settings%guards)
          guards%penetration = settings%number("penetration")
          guards%energy = settings%number("energy")
          if (settings%number("speed") > 0.0_wp) guards%speed = settings%number("speed")

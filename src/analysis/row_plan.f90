@@ -18,7 +18,7 @@ contains
 
       has_rows = .false.
       if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
-      select case (scene%output%word("contact_rows"))
+      select case (scene%settings%output%word("contact_rows"))
       case ("on")
          has_rows = .true.
       case ("auto")
@@ -34,7 +34,7 @@ contains
 
       words = ""
       if (scene%analysis /= analysis_dynamic .or. system%n_contact == 0) return
-      associate (word => scene%output%values(place_of(scene%output, "contact_rows"))%text)
+      associate (word => scene%settings%output%values(place_of(scene%settings%output, "contact_rows"))%text)
          words = "rows at the onset, peak and end of every contact"
          if (.not. has_contact_rows(scene, system)) words = "no "//words
          words = words//" (contact_rows = "//word

@@ -52,7 +52,7 @@ contains
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
-      associate (start => scene%dynamic%values(place_of(scene%dynamic, "start"))%text)
+      associate (start => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "start"))%text)
          starts_ideal = start == "ideal"
          at_start = merge(levels_ideal, levels, starts_ideal)
          if (start == "static") call start_at_rest(scene, system, q, v, report, error)
@@ -86,7 +86,7 @@ contains
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
       call look_at_overlap(system, y, &
-                           scene%dynamic%word("overlap") == "preload", error)
+                           scene%settings%dynamic%word("overlap") == "preload", error)
    end subroutine find_start
 
    !> The static equilibrium at t = 0, its contacts begun.

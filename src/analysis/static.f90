@@ -69,8 +69,8 @@ contains
       logical :: is_exact, is_settled
 
       call cpu_time(cpu_0)
-      equilibrium%tolerance = scene%static%number("tolerance")
-      most = nint(scene%static%number("maximum_iterations"))
+      equilibrium%tolerance = scene%settings%static%number("tolerance")
+      most = nint(scene%settings%static%number("maximum_iterations"))
       call assemble_at_rest(scene, system, q, report, error)
       if (allocated(error)) return
       call look_at(system, q)
@@ -123,7 +123,7 @@ contains
       real(wp) :: v(size(q))
 
       v = 0.0_wp
-      if (scene%static%word("start") == "ideal") then
+      if (scene%settings%static%word("start") == "ideal") then
          call new_system(scene, levels_ideal, twin)
          call assemble(twin%linkage, q, v, report, error)
       else

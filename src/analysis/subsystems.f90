@@ -61,7 +61,7 @@ contains
             subsystem%system%linkage%solution%is_redundant = system%linkage%solution%is_redundant
             call find_contacts(system, table, slot, item, subsystem)
             subsystem%rubbing = numbers_of(rubbing_names(subsystem%system), rubbing)
-            call find_integrator(scene%dynamic%word("method"), subsystem%method)
+            call find_integrator(scene%settings%dynamic%word("method"), subsystem%method)
             subsystem%method%controls = method%controls
             call new_instants(one, end, subsystem%system%n_loose > 0, subsystem%instants)
          end associate
@@ -74,13 +74,15 @@ contains
       character(:), allocatable :: reason     !! in words
 
       reason = ""
-      if (scene%dynamic%word("groups") == "together") then
-         reason = "groups = together"
-      else if (size(scene%guards%values(place_of(scene%guards, "stop"))%conditions) > 0) then
-         reason = "a condition that ends the run looks at all of them"
-      else if (scene%dynamic%number("maximum_steps") > 0.0_wp .or. scene%dynamic%number("maximum_evaluations") > 0.0_wp) then
-         reason = "their steps or evaluations are counted together"
-      end if
+      associate (dynamic => scene%settings%dynamic, guards => scene%settings%guards)
+         if (dynamic%word("groups") == "together") then
+            reason = "groups = together"
+         else if (size(guards%values(place_of(guards, "stop"))%conditions) > 0) then
+            reason = "a condition that ends the run looks at all of them"
+         else if (dynamic%number("maximum_steps") > 0.0_wp .or. dynamic%number("maximum_evaluations") > 0.0_wp) then
+            reason = "their steps or evaluations are counted together"
+         end if
+      end associate
    end function reason_to_stay
 
    !> How the bodies of a scene are integrated, blank if they are one group.

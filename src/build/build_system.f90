@@ -45,7 +45,7 @@ contains
       do k = 1, n_joint_kinds
          is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
-      system%with_ledger = scene%dynamic%flag("ledger") &
+      system%with_ledger = scene%settings%dynamic%flag("ledger") &
                            .and. scene%analysis == analysis_dynamic
       system%with_energies = system%with_ledger .or. scene%analysis /= analysis_dynamic
       call choose_bodies(scene, levels, with_start_rows, reduction)
@@ -83,7 +83,7 @@ contains
       system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0 &
                         .and. system%rubbing%n == 0
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%grips%n_slip > 0 .and. scene%dynamic%word("method") == "ida") then
+      if (system%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
          system%is_large = .false.
       end if
    end subroutine new_system
@@ -145,14 +145,14 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      associate (value => scene%dynamic%values(place_of(scene%dynamic, "stabilise")), &
-                 tolerance => scene%dynamic%number("tolerance"))
+      associate (value => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "stabilise")), &
+                 tolerance => scene%settings%dynamic%number("tolerance"))
          word = value%text
          if (word == "auto") then
             word = "projection"
             if (.not. all_smooth(scene)) word = "baumgarte"
             if (system%linkage%rows%n_solve == 0 .or. &
-                scene%dynamic%word("method") == "ida") word = "none"
+                scene%settings%dynamic%word("method") == "ida") word = "none"
          end if
          do k = 1, n_hold_kinds
             call new_hold(k, way)

@@ -67,8 +67,8 @@ contains
       integer :: k
 
       is_used = .false.
-      do k = 1, size(scene%base)
-         call look(scene%base(k))
+      do k = 1, size(scene%tables%base)
+         call look(scene%tables%base(k))
       end do
       do k = 1, size(scene%joints)
          call look(scene%joints(k))

@@ -90,7 +90,7 @@ contains
       character(*), intent(in) :: key       !! key of [guards]
       character(:), allocatable :: verb     !! warns, ends, or says nothing
 
-      select case (scene%guards%word(key))
+      select case (scene%settings%guards%word(key))
       case ("stop"); verb = "ends"
       case ("warn"); verb = "warns"
       case default; verb = "says nothing"

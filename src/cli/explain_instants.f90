@@ -27,7 +27,7 @@ contains
       integer :: k
 
       if (loaded%scene%analysis /= analysis_dynamic) return
-      associate (settings => loaded%scene%dynamic)
+      associate (settings => loaded%scene%settings%dynamic)
          fixed = settings%number("step")
          greatest = settings%number("maximum_step")
       end associate

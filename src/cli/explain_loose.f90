@@ -25,7 +25,7 @@ contains
       integer :: c, i, k, last, v
 
       if (loaded%system%n_loose == 0) return
-      step = loaded%scene%dynamic%number("step")
+      step = loaded%scene%settings%dynamic%number("step")
       call say("")
       call say("loose joints")
       allocate (delta(loaded%system%n_contact), rate(loaded%system%n_contact), source=0.0_wp)

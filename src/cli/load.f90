@@ -142,7 +142,7 @@ contains
       if (.not. allocated(options%analysis)) return
       known = ""
       do k = 1, n_analysis
-         if (.not. scene%has_analysis(k)) cycle
+         if (.not. scene%settings%has_analysis(k)) cycle
          known = known//" "//trim(analysis_names(k))
          if (analysis_names(k) /= options%analysis) cycle
          scene%analysis = k
@@ -174,11 +174,11 @@ contains
       if (options%tolerance > 0.0_wp) then
          select case (scene%analysis)
          case (analysis_dynamic)
-            call set_tolerance(scene%dynamic_kind, scene%dynamic)
+            call set_tolerance(scene%settings%dynamic%info, scene%settings%dynamic%item_t)
          case (analysis_kinematic)
-            call set_tolerance(scene%kinematic_kind, scene%kinematic)
+            call set_tolerance(scene%settings%kinematic%info, scene%settings%kinematic%item_t)
          case default
-            call set_tolerance(scene%static_kind, scene%static)
+            call set_tolerance(scene%settings%static%info, scene%settings%static%item_t)
          end select
          if (allocated(error)) return
       end if
@@ -188,14 +188,14 @@ contains
          return
       end if
       if (allocated(options%method)) then
-         c = column_of(scene%dynamic_kind, "method")
-         known = scene%dynamic_kind%columns(c)%choices
+         c = column_of(scene%settings%dynamic%info, "method")
+         known = scene%settings%dynamic%info%columns(c)%choices
          if (index(" "//known//" ", " "//options%method//" ") == 0) then
             call set_error(error, exit_usage, "unknown method '"//options%method//"'"//new_line("a")//"  = methods: "//known)
             return
          end if
-         scene%dynamic%values(c)%text = options%method
-         scene%dynamic%values(c)%location = location_t()
+         scene%settings%dynamic%values(c)%text = options%method
+         scene%settings%dynamic%values(c)%location = location_t()
       end if
 
    contains
@@ -228,18 +228,18 @@ contains
       character(:), allocatable :: hint, message
       integer :: bad, k
 
-      associate (value => scene%output%values(place_of(scene%output, "channels")))
+      associate (value => scene%settings%output%values(place_of(scene%settings%output, "channels")))
          call select_channels(value%words, catalogue, selection, bad, message, hint)
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
       end associate
-      associate (value => scene%output%values(place_of(scene%output, "figures")))
+      associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
          call check_figures(value%words, catalogue, bad, message, hint)
          if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no figure of this deck", hint)
       end associate
-      if (.not. scene%has_statistics) return
-      do k = 1, size(scene%statistics%values)
-         associate (value => scene%statistics%values(k))
+      if (.not. scene%settings%statistics%is_present) return
+      do k = 1, size(scene%settings%statistics%values)
+         associate (value => scene%settings%statistics%values(k))
             if (size(value%words) == 0) cycle
             call select_channels(value%words, catalogue, selection, bad, message, hint)
             if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
@@ -261,16 +261,16 @@ contains
 
       message = ""
       hint = ""
-      associate (words => scene%output%values(place_of(scene%output, "figures"))%words)
+      associate (words => scene%settings%output%values(place_of(scene%settings%output, "figures"))%words)
          do bad = 1, size(words)
             call new_figure(words(bad)%s, catalogue, figure, message, hint)
             if (figure%kind <= figure_portrait) cycle
-            if (.not. scene%has_statistics) then
+            if (.not. scene%settings%statistics%is_present) then
                message = "'"//words(bad)%s//"' needs a section [statistics]"
                hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
                return
             end if
-            if (.not. scene%statistics%is_given("period") .and. &
+            if (.not. scene%settings%statistics%is_given("period") .and. &
                 (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
                message = "'"//words(bad)%s//"' needs the period of the drive"
                hint = "in section [statistics]: period = 1 turns of motor, or a time"
@@ -302,7 +302,7 @@ contains
       character(:), allocatable :: hint, message
       integer :: bad, k
 
-      associate (words => scene%statistics%values(place_of(scene%statistics, "channels"))%words)
+      associate (words => scene%settings%statistics%values(place_of(scene%settings%statistics, "channels"))%words)
          call selection%clear(catalogue)
          if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
          call names_of_numbers(list_scalars(selection), catalogue, list)

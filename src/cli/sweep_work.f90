@@ -56,9 +56,9 @@ contains
       call get_includes(loaded%deck, work%plan%include_names, work%plan%include_texts)
       call work%plan%complete()
       work%results%sweep = loaded%sweep
-      work%results%is_ensemble = loaded%scene%has_ensemble
-      if (loaded%scene%has_ensemble) then
-         work%results%n_member = nint(loaded%scene%ensemble%number("runs"))
+      work%results%is_ensemble = loaded%scene%settings%ensemble%is_present
+      if (loaded%scene%settings%ensemble%is_present) then
+         work%results%n_member = nint(loaded%scene%settings%ensemble%number("runs"))
       end if
       call work%results%start()
       work%program = own_path()

@@ -92,7 +92,7 @@ contains
          call set_error(error, exit_usage, "a comparison runs the section [analysis.dynamic], which the deck does not begin with")
          return
       end if
-      words = loaded%scene%precision%values(place_of(loaded%scene%precision, "methods"))%words
+      words = loaded%scene%settings%precision%values(place_of(loaded%scene%settings%precision, "methods"))%words
       if (allocated(options%methods)) words = split_blank(replace(options%methods, ",", " "))
       if (size(words) == 0) call set_error(error, exit_usage, "option --methods needs settings, as ""verner rk4""")
       do k = 1, size(words)
@@ -121,7 +121,7 @@ contains
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(precision_t), intent(out) :: study              !! asked, not begun
 
-      associate (asked => loaded%scene%precision)
+      associate (asked => loaded%scene%settings%precision)
          study%budget = asked%number("budget")
          if (options%budget > 0.0_wp) study%budget = options%budget
          study%accuracy = asked%number("accuracy")

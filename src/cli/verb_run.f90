@@ -123,11 +123,11 @@ contains
 
       integer :: n
 
-      if (.not. loaded%scene%has_ensemble) then
+      if (.not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
          return
       end if
-      n = nint(loaded%scene%ensemble%number("runs"))
+      n = nint(loaded%scene%settings%ensemble%number("runs"))
       if (options%member > n) then
          call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%member))
       end if
@@ -148,7 +148,7 @@ contains
       real(wp), allocatable :: q(:)
       real(wp) :: limit_cpu
 
-      associate (settings => loaded%scene%kinematic)
+      associate (settings => loaded%scene%settings%kinematic)
          newton%tolerance = settings%number("tolerance")
          newton%most = nint(settings%number("maximum_iterations"))
       end associate
@@ -157,7 +157,7 @@ contains
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, keeper%plan)
-      limit_cpu = loaded%scene%kinematic%number("limit_cpu")
+      limit_cpu = loaded%scene%settings%kinematic%number("limit_cpu")
       call run_kinematic(loaded%system, q, loaded%plan, newton, limit_cpu, keeper, summary, error)
       call directory%close()
    end subroutine run_prescribed
@@ -196,8 +196,8 @@ contains
       type(scene_t), intent(in) :: scene                                !! the scene
       class(integrator_t), allocatable, intent(out) :: method           !! the integrator, not started
 
-      call find_integrator(scene%dynamic%word("method"), method)
-      call read_controls(scene%dynamic, method%controls)
+      call find_integrator(scene%settings%dynamic%word("method"), method)
+      call read_controls(scene%settings%dynamic%item_t, method%controls)
    end subroutine new_method
 
    !> The mechanism with ideal joints, text files only, for the figures.
@@ -282,12 +282,12 @@ contains
       type(loaded_t), intent(in) :: loaded            !! the deck
       type(statistics_plan_t), intent(out) :: plan    !! what is asked for
 
-      plan%is_wanted = loaded%scene%has_statistics .and. loaded%scene%analysis == analysis_dynamic
+      plan%is_wanted = loaded%scene%settings%statistics%is_present .and. loaded%scene%analysis == analysis_dynamic
       if (.not. plan%is_wanted) return
       plan%after = loaded%plan%after
       plan%end = loaded%plan%end
       plan%period = loaded%plan%period
-      associate (settings => loaded%scene%statistics)
+      associate (settings => loaded%scene%settings%statistics)
          plan%channels = settings%values(place_of(settings, "channels"))%words
          plan%spectra = settings%values(place_of(settings, "spectra"))%words
          plan%bins = nint(settings%number("bins"))
@@ -325,7 +325,7 @@ contains
          type(text_list_t) :: list
          integer :: bad, k
 
-         associate (words => loaded%scene%output%values(place_of(loaded%scene%output, key))%words)
+         associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
             do k = 1, size(words)
                if (one == "figure") then
                   call check_figures(words(k:k), catalogue, bad, message, hint)

@@ -56,7 +56,7 @@ contains
 
       integer :: i, k
 
-      if (.not. loaded%sweep%is_present .and. .not. loaded%scene%has_ensemble) then
+      if (.not. loaded%sweep%is_present .and. .not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "the deck has neither a section [sweep] nor [ensemble]"//new_line("a")// &
                         "  = 'gudgeon help sweep' tells how to write one; 'gudgeon run' runs the deck as it is")
       else if (loaded%is_stream) then

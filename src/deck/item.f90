@@ -80,7 +80,7 @@ contains
 
    !> Place of a column among the values of a row by its name; 0 if the kind has none of that name.
    pure integer function find_place(item, name) result(place)
-      type(item_t), intent(in) :: item   !! the row, or the section
+      class(item_t), intent(in) :: item  !! the row, or the section
       character(*), intent(in) :: name   !! the column, or the key
 
       do place = 1, size(item%values)
@@ -91,7 +91,7 @@ contains
 
    !> Place of a column that the kind must have: if it has not, the program is wrong, and ends.
    pure integer function place_of(item, name) result(place)
-      type(item_t), intent(in) :: item   !! the row, or the section
+      class(item_t), intent(in) :: item  !! the row, or the section
       character(*), intent(in) :: name   !! the column, or the key
 
       place = find_place(item, name)
