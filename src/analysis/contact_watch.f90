@@ -178,8 +178,8 @@ contains
       has_onset = .false.
       has_jump = .false.
       self%shift = 0.0_wp
-      do n = 1, method%n_happened
-         number = method%happened(n)
+      do n = 1, method%events%n_happened
+         number = method%events%happened(n)
          if (system%functions%kind_of(number) /= touch_function) then
             has_jump = has_jump .or. system%functions%kind_of(number) == turn_function
             cycle

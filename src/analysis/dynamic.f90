@@ -142,7 +142,7 @@ contains
       associate (whole => run%whole)
          do k = 1, whole%n_front
             associate (part => whole%parts(whole%front(k)))
-               part%method%look = merge(plan%every, huge(1.0_wp), part%method%t >= plan%first_output)
+               part%method%events%look = merge(plan%every, huge(1.0_wp), part%method%t >= plan%first_output)
                call advance_part(part, run%tally, error)
                if (.not. allocated(error) .and. run%budget%is_spent()) then
                   call describe_failure(part%system, part%method, time_used_up, error)
@@ -258,7 +258,7 @@ contains
             end do
          end if
          do k = 1, n
-            if (whole%parts(run%waiting(k))%method%n_happened == 0) cycle
+            if (whole%parts(run%waiting(k))%method%events%n_happened == 0) cycle
             call handle_events_of(run, run%waiting(k:k), plan, recorder, error)
             if (allocated(error)) return
          end do
@@ -308,10 +308,10 @@ contains
          if (run%stop%met == 0) summary%time_end = minval([(whole%parts(p)%method%t, p=1, size(whole%parts))])
          do p = 1, size(whole%parts)
             associate (part => whole%parts(p))
-               summary%steps = summary%steps + part%method%n_steps
-               summary%rejected_steps = summary%rejected_steps + part%method%n_rejected
+               summary%steps = summary%steps + part%method%count%n_steps
+               summary%rejected_steps = summary%rejected_steps + part%method%count%n_rejected
                summary%rhs_evaluations = summary%rhs_evaluations + part%system%n_evaluations
-               summary%output_evaluations = summary%output_evaluations + part%method%n_output_evaluations
+               summary%output_evaluations = summary%output_evaluations + part%method%count%n_output_evaluations
                summary%factorisations = summary%factorisations + part%system%linkage%solution%solver%n_factorisations
             end associate
          end do

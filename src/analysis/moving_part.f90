@@ -146,8 +146,8 @@ contains
             return
          end if
          step_hint = 0.0_wp
-         do k = 1, method%n_happened
-            call part%watch%handle_event(system, method, method%happened(k), is_over, row, hint)
+         do k = 1, method%events%n_happened
+            call part%watch%handle_event(system, method, method%events%happened(k), is_over, row, hint)
             if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
             tally%events = tally%events + 1
             if (is_over) then
@@ -156,7 +156,7 @@ contains
                if (allocated(error)) return
                call cpu_time(cpu_1)
                tally%aside = tally%aside + (cpu_1 - cpu_0)
-            else if (system%functions%kind_of(method%happened(k)) == touch_function) then
+            else if (system%functions%kind_of(method%events%happened(k)) == touch_function) then
                tally%contacts = tally%contacts + 1
             end if
          end do
@@ -171,7 +171,7 @@ contains
       end associate
    end subroutine handle_part_events
 
-   !> Pass an instant at which functions of time are not smooth. Events that this brings about wait in `method%happened`.
+   !> Pass an instant at which functions of time are not smooth. Events that this brings about wait in `method%events%happened`.
    subroutine pass_part_instant(part, tally, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, at the instant
       type(run_tally_t), intent(inout) :: tally           !! of the run
@@ -182,7 +182,7 @@ contains
       integer :: status
 
       associate (system => part%system, method => part%method)
-         method%g = method%g1
+         method%events%g = method%events%g1
          before = method%step%f1
          call part%jumps%before_instant(system, method)
          call part%instants%pass(system%linkage%piece)

@@ -58,7 +58,7 @@ contains
          message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
          if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular
       end select
-      message = message//new_line("a")//"  = at t = "//real_text(method%t, 9)//" s, after "//to_text(method%n_steps)// &
+      message = message//new_line("a")//"  = at t = "//real_text(method%t, 9)//" s, after "//to_text(method%count%n_steps)// &
                 " steps, the last of "//real_text(method%step%h, 3)//" s"
       allocate (ydot(system%n), source=0.0_wp)
       call system%evaluate(method%t, method%step%y1, ydot, code)
@@ -144,7 +144,7 @@ contains
 
       integer :: contact, slot
 
-      call system%find_contact(method%happened(1), slot, contact)
+      call system%find_contact(method%events%happened(1), slot, contact)
       associate (set => system%clearances(slot)%set)
          name = set%names(set%item_of(contact))%s
       end associate

@@ -100,13 +100,13 @@ contains
       integer :: contact, k, number, slot
       logical :: is_slow
 
-      method%n_happened = 0
+      method%events%n_happened = 0
       if (system%functions%has_turn) then
          do k = 1, system%n_contact
             number = system%functions%place(turn_function, k)
-            if (method%g(number) > 0.0_wp .or. .not. method%g1(number) > 0.0_wp) cycle
-            method%n_happened = method%n_happened + 1
-            method%happened(method%n_happened) = number
+            if (method%events%g(number) > 0.0_wp .or. .not. method%events%g1(number) > 0.0_wp) cycle
+            method%events%n_happened = method%events%n_happened + 1
+            method%events%happened(method%events%n_happened) = number
          end do
       end if
       if (.not. system%functions%has_slip) return
@@ -120,9 +120,9 @@ contains
                          abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%linkage%scales%pace*system%linkage%scales%length
             end if
          end associate
-         if (.not. is_slow .and. (method%g(number) > 0.0_wp .or. .not. method%g1(number) > 0.0_wp)) cycle
-         method%n_happened = method%n_happened + 1
-         method%happened(method%n_happened) = number
+         if (.not. is_slow .and. (method%events%g(number) > 0.0_wp .or. .not. method%events%g1(number) > 0.0_wp)) cycle
+         method%events%n_happened = method%events%n_happened + 1
+         method%events%happened(method%events%n_happened) = number
       end do
    end subroutine note_jumps
 

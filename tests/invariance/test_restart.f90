@@ -153,9 +153,11 @@ contains
 
          call check_close(error, run%loaded%method%step%y1, first%loaded%method%step%y1, 0.0_wp, "state at the end")
          call check_close(error, run%loaded%method%step%f1, first%loaded%method%step%f1, 0.0_wp, "derivative at the end")
-         call check_equal(error, int(run%loaded%method%n_steps), int(first%loaded%method%n_steps), "steps")
-         call check_equal(error, int(run%loaded%method%n_rejected), int(first%loaded%method%n_rejected), "rejected steps")
-         call check_equal(error, int(run%loaded%method%n_evaluations), int(first%loaded%method%n_evaluations), "evaluations")
+         associate (count => run%loaded%method%count, first_count => first%loaded%method%count)
+            call check_equal(error, int(count%n_steps), int(first_count%n_steps), "steps")
+            call check_equal(error, int(count%n_rejected), int(first_count%n_rejected), "rejected steps")
+            call check_equal(error, int(count%n_evaluations), int(first_count%n_evaluations), "evaluations")
+         end associate
          call check_equal(error, int(run%loaded%system%n_evaluations), int(first%loaded%system%n_evaluations), &
                           "evaluations of the system")
          call save_run(first, one)

@@ -154,7 +154,7 @@ contains
          logical :: is_over
 
          call new_contact_watch(loaded%system, watch)
-         call watch%handle_event(loaded%system, loaded%method, loaded%method%happened(1), is_over, row, step_hint)
+         call watch%handle_event(loaded%system, loaded%method, loaded%method%events%happened(1), is_over, row, step_hint)
          call check_true(error, .not. is_over, "a contact begins")
          call loaded%method%restart(loaded%system, step_hint, outcome)
       end subroutine begin

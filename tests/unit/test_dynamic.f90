@@ -420,8 +420,8 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! always advance_event
 
-      self%n_happened = 1
-      self%happened(1) = 1
+      self%events%n_happened = 1
+      self%events%happened(1) = 1
       status = advance_event
    end subroutine stuck_advance
 

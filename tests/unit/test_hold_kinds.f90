@@ -430,7 +430,7 @@ contains
             call go_to(second, 1.0_wp)
             if (allocated(error)) return
             call check_close(error, second%method%step%y1, first%method%step%y1, 0.0_wp, "state at the end with "//setting)
-            call check_equal(error, int(second%method%n_steps), int(first%method%n_steps), "steps with "//setting)
+            call check_equal(error, int(second%method%count%n_steps), int(first%method%count%n_steps), "steps with "//setting)
          end associate
       end subroutine check_restart
 
