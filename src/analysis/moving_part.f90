@@ -27,6 +27,16 @@ module moving_part
    real(wp), parameter :: lost_length = 0.1_wp     !! violation beyond all measure: a length, of the size of the bodies [1]
    real(wp), parameter :: lost_angle = 1.0_wp      !! an angle [rad]
 
+   !> Energies of a part.
+   type :: part_ledger_t
+      real(wp) :: balance_0 = 0.0_wp      !! balance of the ledger at the start [J]
+      real(wp) :: potential_0 = 0.0_wp    !! potential energy at the start [J]
+      real(wp) :: residual = 0.0_wp       !! of the ledger at the last step [J]
+      real(wp) :: level = 0.0_wp          !! kinetic + elastic energy + |change of potential| there [J]
+      real(wp) :: magnitude = 0.0_wp      !! of what the ledger adds up there [J]
+      real(wp) :: lost = 0.0_wp           !! what its contacts have lost by then [J]
+   end type part_ledger_t
+
    !> A part in motion.
    type :: moving_part_t
       type(mechanism_t), pointer :: system => null()       !! its equations
@@ -38,12 +48,7 @@ module moving_part
       integer :: status = 0                                !! how its last step ended; an event, until it is handled
       integer :: n_idle = 0                                !! events since the last time that time passed
       real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]
-      real(wp) :: balance_0 = 0.0_wp                       !! balance of the ledger at the start [J]
-      real(wp) :: potential_0 = 0.0_wp                     !! potential energy at the start [J]
-      real(wp) :: residual = 0.0_wp                        !! of the ledger at the last step [J]
-      real(wp) :: level = 0.0_wp                           !! kinetic + elastic energy + |change of potential| there [J]
-      real(wp) :: magnitude = 0.0_wp                       !! of what the ledger adds up there [J]
-      real(wp) :: lost = 0.0_wp                            !! what its contacts have lost by then [J]
+      type(part_ledger_t) :: ledger                        !! its energies
       real(wp) :: worst = 0.0_wp                           !! greatest violation so far, over the size of the bodies or a radian [1]
       integer :: worst_row = 0                             !! the row it belongs to
       logical :: is_lost = .false.                         !! whether a violation is beyond all measure
@@ -91,8 +96,8 @@ contains
          end if
          call part%guards%begin(system)
          energy = energy_of(system, y)
-         part%balance_0 = energy%balance()
-         part%potential_0 = energy%potential
+         part%ledger%balance_0 = energy%balance()
+         part%ledger%potential_0 = energy%potential
          call look_at_step(part, tally)
          call look_at_energy(part, tally)
          if (system%n_loose > 0) call part%watch%after_restart(system, method)
@@ -242,10 +247,10 @@ contains
 
       if (.not. part%system%with_ledger) return
       energy = energy_of(part%system, part%method%step%y1)
-      call follow(energy%balance() - part%balance_0, part%residual, tally%residual)
-      call follow(energy%dissipated_contact, part%lost, tally%lost)
-      call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%potential_0), part%level, tally%level)
-      call follow(energy%magnitude(), part%magnitude, tally%magnitude)
+      call follow(energy%balance() - part%ledger%balance_0, part%ledger%residual, tally%residual)
+      call follow(energy%dissipated_contact, part%ledger%lost, tally%lost)
+      call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%ledger%potential_0), part%ledger%level, tally%level)
+      call follow(energy%magnitude(), part%ledger%magnitude, tally%magnitude)
       tally%least_lost = min(tally%least_lost, tally%lost)
       tally%residual_max = max(tally%residual_max, abs(tally%residual))
       tally%energy_max = max(tally%energy_max, tally%level)

@@ -141,15 +141,15 @@ contains
       type(output_plan_t), intent(out) :: plan             !! the plan
 
       plan%directory = path
-      plan%deck_name = loaded%path
-      plan%deck_text = deck_text(loaded%deck)
+      plan%origin%deck_name = loaded%path
+      plan%origin%deck_text = deck_text(loaded%deck)
       plan%title = loaded%scene%title
-      plan%program_version = program_version
-      plan%git_sha1 = git_sha1
-      plan%compiler = compiler
-      plan%libraries = library_versions()
-      plan%command = options%command
-      call get_includes(loaded%deck, plan%include_names, plan%include_texts)
+      plan%origin%program_version = program_version
+      plan%origin%git_sha1 = git_sha1
+      plan%origin%compiler = compiler
+      plan%origin%libraries = library_versions()
+      plan%origin%command = options%command
+      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
       call plan%complete()
    end subroutine make_plan
 

@@ -67,8 +67,8 @@ contains
       end if
       if (allocated(error)) return
       do k = 1, size(loaded%sweep%parameters)
-         do i = 1, size(options%overrides)
-            associate (word => options%overrides(i)%s)
+         do i = 1, size(options%change%overrides)
+            associate (word => options%change%overrides(i)%s)
                if (trim(adjustl(word(1:max(index(word, "=") - 1, 0)))) /= loaded%sweep%parameters(k)%name) cycle
                call set_error(error, exit_usage, "parameter '"//loaded%sweep%parameters(k)%name// &
                               "' is swept by the deck, so it cannot be set")

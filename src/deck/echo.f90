@@ -180,9 +180,9 @@ contains
          s = exact_text(value%number)
          if (.not. value%expression%is_constant) s = "{"//value%expression%source//"}"
       case (cell_vector)
-         s = exact_text(value%vector(1))
-         do i = 2, value%n_vector
-            s = s//" "//exact_text(value%vector(i))
+         s = exact_text(value%vector%x(1))
+         do i = 2, value%vector%n
+            s = s//" "//exact_text(value%vector%x(i))
          end do
       case (cell_duration)
          s = exact_text(value%number)

@@ -244,13 +244,13 @@ contains
       associate (summary => outcome%summary)
          rung%cpu = summary%cpu_seconds
          rung%cpu_least = summary%cpu_seconds
-         rung%steps = summary%steps
-         rung%rejected = summary%rejected_steps
-         rung%evaluations = summary%rhs_evaluations - summary%output_evaluations
+         rung%steps = summary%count%steps
+         rung%rejected = summary%count%rejected_steps
+         rung%evaluations = summary%count%rhs_evaluations - summary%count%output_evaluations
          if (rung%state /= rung_done) return
-         rung%error(error_violation) = summary%violation_max
-         if (summary%ledger .and. summary%energy_max > 0.0_wp) then
-            rung%error(error_ledger) = summary%energy_residual_max/summary%energy_max
+         rung%error(error_violation) = summary%quality%violation_max
+         if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
+            rung%error(error_ledger) = summary%quality%energy_residual_max/summary%quality%energy_max
          end if
       end associate
    end subroutine run_rung
@@ -280,7 +280,7 @@ contains
             nothing%is_kept = .false.
             job%cpu = shorter(budget%cpu_left(until_ladders), job)
             call run_setting(job, setting_t("verner", "", ""), job%scene%settings%precision%number("coarsest"), nothing, outcome)
-            if (outcome%summary%steps > 0) longest = study%end/real(outcome%summary%steps, wp)
+            if (outcome%summary%count%steps > 0) longest = study%end/real(outcome%summary%count%steps, wp)
          end if
          longest = 10.0_wp**(real(nint(4.0_wp*log10(longest)), wp)/4.0_wp)
       end if

@@ -62,7 +62,7 @@ contains
       if (diagnostics%count() > 0) return
 
       scene%title = scene%settings%header%word("title")
-      scene%gravity(1:2) = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector(1:2)
+      scene%gravity(1:2) = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x(1:2)
       call new_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
       call new_points(scene%tables%base(table_points)%items, scene%points)
       call new_materials(scene%tables%base(table_materials)%items, scene%materials)

@@ -52,19 +52,19 @@ contains
                grips%mobility(c) = mobility_of(self, c)
             end associate
          end do
-         grips%b(:n) = self%linkage%solution%b(:n)
+         grips%load%b(:n) = self%linkage%solution%b(:n)
          self%linkage%solution%b(:n) = 0.0_wp
          do d = 1, m
-            grips%unit = 0.0_wp
-            call add_pair(self, d, 1.0_wp, grips%unit)
-            call self%linkage%find_accelerations(grips%unit, .false., .true., status)
+            grips%load%unit = 0.0_wp
+            call add_pair(self, d, 1.0_wp, grips%load%unit)
+            call self%linkage%find_accelerations(grips%load%unit, .false., .true., status)
             if (status /= 0) exit
             do c = 1, m
                grips%matrix(c, d) = sliding_acceleration(self, c, .false.)
             end do
             grips%is_fixed(d) = grips%matrix(d, d) <= least_mobility*grips%mobility(d)
          end do
-         self%linkage%solution%b(:n) = grips%b(:n)
+         self%linkage%solution%b(:n) = grips%load%b(:n)
          if (status /= 0) return
          call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
                           grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)

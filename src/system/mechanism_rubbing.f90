@@ -135,16 +135,16 @@ contains
 
       associate (rubbing => self%rubbing, solution => self%linkage%solution, n => self%linkage%rows%n_solve)
          call take_multipliers(self, rubbing%lambda)
-         rubbing%b(:n) = solution%b(:n)
+         rubbing%load%b(:n) = solution%b(:n)
          solution%b(:n) = 0.0_wp
          do d = 1, rubbing%n
-            rubbing%unit = 0.0_wp
-            call add_friction(self, d, 1.0_wp, rubbing%unit)
-            call self%linkage%find_accelerations(rubbing%unit, .false., .false., status)
+            rubbing%load%unit = 0.0_wp
+            call add_friction(self, d, 1.0_wp, rubbing%load%unit)
+            call self%linkage%find_accelerations(rubbing%load%unit, .false., .false., status)
             if (status /= 0) exit
             call take_multipliers(self, rubbing%response(:, :, d))
          end do
-         solution%b(:n) = rubbing%b(:n)
+         solution%b(:n) = rubbing%load%b(:n)
       end associate
    end subroutine respond
 

@@ -27,12 +27,12 @@ contains
       rate(number + 1:number + self%n_contact) = 0.0_wp
       moment = self%time_of_difference(t)
       if (any_sticks(self)) then
-         call self%evaluate(t, y, self%grips%ydot, status)
-         self%grips%y = y + moment*self%grips%ydot
-         call self%evaluate(t + moment, self%grips%y, self%grips%ydot, status)
+         call self%evaluate(t, y, self%grips%trial%ydot, status)
+         self%grips%trial%y = y + moment*self%grips%trial%ydot
+         call self%evaluate(t + moment, self%grips%trial%y, self%grips%trial%ydot, status)
          call note_holds(self, rate)
       end if
-      call self%evaluate(t, y, self%grips%ydot, status)
+      call self%evaluate(t, y, self%grips%trial%ydot, status)
       do slot = 1, size(self%clearances)
          associate (set => self%clearances(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
@@ -130,7 +130,7 @@ contains
             end if
          end if
          call set%slip_as(k, sticks)
-         call self%evaluate(t, y, self%grips%ydot, status)
+         call self%evaluate(t, y, self%grips%trial%ydot, status)
          associate (tangent => set%grip%tangent(k))
             if (tangent%is_driven) then
                call set%note_decision(k, t, 0.0_wp)
@@ -164,11 +164,11 @@ contains
          now = set%grip%tangent(k)%v
          v = now
          if (abs(now) < 0.5_wp*still) then
-            self%grips%y = y + later*self%grips%ydot
-            call self%linkage%set_motion(t + later, self%grips%y)
+            self%grips%trial%y = y + later*self%grips%trial%ydot
+            call self%linkage%set_motion(t + later, self%grips%trial%y)
             call set%lay(k, self%linkage%motion)
             v = set%grip%tangent(k)%v
-            call self%evaluate(t, y, self%grips%ydot, status)
+            call self%evaluate(t, y, self%grips%trial%ydot, status)
          end if
          slip = sticks
          if (abs(v) >= 0.5_wp*still) slip = nint(sign(1.0_wp, v))

@@ -438,7 +438,9 @@ contains
          call run_to_end(loaded(k), keeper(k), summary(k), error)
          if (allocated(error)) return
          energy(k) = energy_of(loaded(k)%system, loaded(k)%method%step%y1)
-         call check_true(error, summary(k)%energy_residual_max < 1.0e-8_wp*summary(k)%energy_max, "the ledger closes, "//words(k))
+         associate (quality => summary(k)%quality)
+            call check_true(error, quality%energy_residual_max < 1.0e-8_wp*quality%energy_max, "the ledger closes, "//words(k))
+         end associate
       end do
       associate (a => energy(1), b => energy(2))
          call check_close(error, [b%kinetic, b%potential, b%elastic, b%drive_work, b%load_work, b%dissipated_damper], &

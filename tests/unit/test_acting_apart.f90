@@ -120,7 +120,7 @@ contains
          call check_close(error, motion%v(1, 1), -speed, 1.0e-6_wp*speed, "speed after")
          call check_close(error, motion%r(1, 1), (gap - reach) - speed*(end - before - inside), 1.0e-6_wp*gap, "where it is")
       end associate
-      call check_true(error, summary%energy_residual_max < 1.0e-6_wp*0.5_wp*mass*speed**2, "the ledger is closed")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-6_wp*0.5_wp*mass*speed**2, "the ledger is closed")
    end subroutine test_ball_that_never_touches
 
    !> A cushion.
