@@ -7,6 +7,7 @@ module verb_explain
    use errors, only: error_t
    use explain_dropped, only: say_dropped
    use explain_floors, only: floors_of_scene
+   use explain_friction, only: explain_rubbing_joints
    use explain_guards, only: say_guards
    use explain_instants, only: explain_instants_of
    use explain_loose, only: explain_loose_joints
@@ -124,6 +125,7 @@ contains
       call explain_size(loaded%scene, loaded%system, twin)
       call explain_start(loaded, assembly, allocated(start_error))
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
+      call explain_rubbing_joints(loaded%scene, loaded%system)
       call explain_loose_joints(loaded, y)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method_and_times(loaded)

@@ -13,7 +13,7 @@ module echo
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters
+   public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters, item_words
 
 contains
 
@@ -126,6 +126,25 @@ contains
       end do
       s = buffer%get()
    end function echo_settings
+
+   !> The values of a row in words, as `coefficient 0.1, speed 0.01 m/s`.
+   function item_words(info, item) result(words)
+      type(kind_info_t), intent(in) :: info   !! the kind
+      type(item_t), intent(in) :: item        !! its row
+      character(:), allocatable :: words      !! columns, values and units; what is left open is not told
+
+      integer :: k
+
+      words = ""
+      do k = 1, size(item%values)
+         associate (column => info%columns(k), value => item%values(k))
+            if (is_empty(column, value)) cycle
+            if (len(words) > 0) words = words//", "
+            words = words//column%name//" "//value_text(column, value)
+            if (has_unit(column) .and. .not. has_own_unit(column, value)) words = words//" "//unit_text(column%dimension)
+         end associate
+      end do
+   end function item_words
 
    !> Whether a column has a unit.
    pure logical function has_unit(column)
