@@ -3,6 +3,7 @@
 !> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
 !> Limits: coordinates whose derivatives are the rates.
 submodule(mechanism) mechanism_dae
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use rows, only: place_in_row, rows_t
    implicit none (type, external)
 
