@@ -193,8 +193,8 @@ contains
                call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
                             motion%v(2, k)), 3)//" m/s, faster than the guard 'speed' allows: "//real_text(self%speed, 3)//" m/s")
             end if
-            way = hypot(motion%r(1, k) - self%start(1, k), motion%r(2, k) - self%start(2, k))
-            if (way > self%way) call raise(self%travel(k), way, t)
+            way = (motion%r(1, k) - self%start(1, k))**2 + (motion%r(2, k) - self%start(2, k))**2
+            if (way > self%way**2) call raise(self%travel(k), sqrt(way), t)
          end do
       end associate
    end subroutine guards_look

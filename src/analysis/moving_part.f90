@@ -113,7 +113,7 @@ contains
       real(wp) :: t_stop
 
       associate (system => part%system, method => part%method)
-         call part%instants%stop_after(system, method, t_stop)
+         call part%instants%stop_after(method, t_stop)
          call method%advance(system, t_stop, part%status)
          if (part%status < 0) then
             call describe_failure(system, method, part%status, error)
@@ -172,6 +172,7 @@ contains
             call describe_failure(system, method, status, error)
             return
          end if
+         call part%instants%note_turning(system)
          call part%watch%after_restart(system, method)
       end associate
    end subroutine handle_part_events
@@ -215,7 +216,7 @@ contains
       end associate
    end subroutine pass_part_instant
 
-   !> Pace and constraint violation at the end of a step.
+   !> Pace, turning and constraint violation at the end of a step.
    subroutine look_at_step(part, tally)
       type(moving_part_t), intent(inout) :: part   !! the part, its system last evaluated at the end of the step
       type(run_tally_t), intent(inout) :: tally    !! maxima are raised
@@ -225,6 +226,7 @@ contains
 
       associate (linkage => part%system%linkage)
          call part%system%follow_pace(part%method%step%y1)
+         call part%instants%note_turning(part%system)
          do k = 1, linkage%rows%n_solve
             scaled = linkage%solution%row_weight(k)*abs(linkage%rows%phi(k))
             part%is_lost = part%is_lost .or. scaled > merge(lost_angle, lost_length, linkage%rows%is_angle(k))

@@ -72,6 +72,8 @@ contains
       do while (part%instants%next%at < part%system%linkage%piece%end)
          call part%instants%pass(piece)
       end do
+      call part%system%linkage%set_motion(part%method%t, part%method%step%y1)
+      call part%instants%note_turning(part%system)
    end subroutine load_part_memory
 
    !> The pieces of a part, in the order in which they are saved.
