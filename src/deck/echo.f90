@@ -260,12 +260,7 @@ contains
       type(deck_t), intent(in) :: deck       !! the deck, after items and settings were read
       type(text_t), allocatable :: lines(:)  !! (n) in the order of reading
 
-      integer :: k
-
-      allocate (lines(deck%n_default))
-      do k = 1, deck%n_default
-         lines(k)%s = deck%defaults(k)%s
-      end do
+      lines = deck%defaults%get()
    end function all_defaults
 
    !> The parameters as they were used.
