@@ -303,7 +303,7 @@ contains
          summary%method%solver = whole%system%linkage%solution%solver%name()
          summary%method%stabilisation = whole%system%way%words()
          summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
-         summary%quality%has_ledger = whole%system%with_ledger
+         summary%quality%has_ledger = whole%system%ledger%is_kept
          summary%time_end = run%stop%t
          if (run%stop%met == 0) summary%time_end = minval([(whole%parts(p)%method%t, p=1, size(whole%parts))])
          do p = 1, size(whole%parts)

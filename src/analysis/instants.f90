@@ -236,8 +236,8 @@ contains
       integer :: i, k
 
       self%omega = 0.0_wp
-      do k = 1, size(system%clearances)
-         associate (body => system%clearances(k)%set%body)
+      do k = 1, size(system%loose%sets)
+         associate (body => system%loose%sets(k)%set%items%body)
             do i = 1, size(body, 2)
                self%omega = max(self%omega, maxval(abs(system%linkage%motion%omega(:, body(:, i)))))
             end do

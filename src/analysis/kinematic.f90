@@ -223,7 +223,7 @@ contains
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
       call system%evaluate_loads(state%t)
       call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
-      do turn = 1, merge(most_turns, 0, system%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
+      do turn = 1, merge(most_turns, 0, system%friction%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
          call system%rub_by_multipliers(.true., turn > 1, change)
          call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
          if (change <= same) exit

@@ -100,7 +100,7 @@ contains
          part%ledger%potential_0 = energy%potential
          call look_at_step(part, tally)
          call look_at_energy(part, tally)
-         if (system%n_loose > 0) call part%watch%after_restart(system, method)
+         if (system%loose%n > 0) call part%watch%after_restart(system, method)
       end associate
    end subroutine begin_part
 
@@ -124,7 +124,7 @@ contains
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
-         if (system%n_loose > 0) call part%watch%after_step(system, method)
+         if (system%loose%n > 0) call part%watch%after_step(system, method)
          call look_at_energy(part, tally)
          call part%guards%look(system, method%t)
       end associate
@@ -161,7 +161,7 @@ contains
                if (allocated(error)) return
                call cpu_time(cpu_1)
                tally%aside = tally%aside + (cpu_1 - cpu_0)
-            else if (system%functions%kind_of(method%events%happened(k)) == touch_function) then
+            else if (system%loose%functions%kind_of(method%events%happened(k)) == touch_function) then
                tally%contacts = tally%contacts + 1
             end if
          end do
@@ -247,7 +247,7 @@ contains
 
       type(energy_t) :: energy
 
-      if (.not. part%system%with_ledger) return
+      if (.not. part%system%ledger%is_kept) return
       energy = energy_of(part%system, part%method%step%y1)
       call follow(energy%balance() - part%ledger%balance_0, part%ledger%residual, tally%residual)
       call follow(energy%dissipated_contact, part%ledger%lost, tally%lost)
@@ -287,7 +287,7 @@ contains
       type(event_t) :: row
       logical :: has_row, is_found
 
-      if (part%system%grips%n_slip == 0) return
+      if (part%system%friction%grips%n_slip == 0) return
       do
          call decide_next(part%system, t, y, is_found, has_row, row)
          if (.not. is_found) exit

@@ -33,7 +33,7 @@ contains
       real(wp), intent(in) :: lost                 !! least that contacts had lost: negative, they made energy [J]
       type(summary_t), intent(inout) :: summary    !! warnings are added to it
 
-      if (system%with_ledger) then  ! else the residual is a NaN, which must not be compared
+      if (system%ledger%is_kept) then  ! else the residual is a NaN, which must not be compared
          associate (quality => summary%quality)
             if (quality%energy_residual_max > careful_energy*quality%energy_max .and. quality%energy_max > 0.0_wp) then
                call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &

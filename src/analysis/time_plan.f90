@@ -86,7 +86,7 @@ contains
       if (scene%settings%statistics%is_present .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
          call plan_statistics(scene, system, plan, diagnostics)
       end if
-      if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%n_loose > 0, plan%instants)
+      if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%loose%n > 0, plan%instants)
    end subroutine new_time_plan
 
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.

@@ -18,7 +18,7 @@ contains
 
       integer :: k, m
 
-      if (system%rubbing%n == 0) return
+      if (system%friction%rubbing%n == 0) return
       call say("")
       call say("ideal joints that rub")
       do k = 1, system%linkage%n_solved_set

@@ -47,7 +47,7 @@ contains
       if (allocated(error)) return
       call say(loaded%path//": no mistakes; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
                counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
-               counted(loaded%system%n_loose, "loose joint", "loose joints")//"; assembled to "// &
+               counted(loaded%system%loose%n, "loose joint", "loose joints")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded)//comparison_text(loaded))
    end subroutine check_deck
 

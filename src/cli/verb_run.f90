@@ -101,7 +101,7 @@ contains
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, plan)
-      if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%n_loose > 0) then
+      if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%loose%n > 0) then
          call run_twin(loaded, plan, ideal, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))

@@ -27,22 +27,37 @@ module mechanism
    private
    public :: mechanism_t
 
+   !> Loose joints.
+   type :: loose_t
+      type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
+      integer :: n = 0                                 !! loose joints in all
+      integer :: n_contact = 0                         !! contacts of all of them
+      real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
+      type(event_functions_t) :: functions             !! which event functions their contacts have
+   end type loose_t
+
+   !> Friction that is solved for.
+   type :: friction_t
+      type(grip_forces_t) :: grips    !! contacts whose friction remembers
+      type(rubbing_t) :: rubbing      !! ideal joints that rub
+   end type friction_t
+
+   !> What is told of energies.
+   type :: ledger_t
+      logical :: is_kept = .true.         !! whether the ledger is kept
+      logical :: has_energies = .true.    !! whether energies are reported, with or without a ledger
+   end type ledger_t
+
    !> A planar scene.
    type, extends(dae_system_t) :: mechanism_t
-      type(linkage_t) :: linkage                            !! bodies, ideal joints and drivers, and the solution of the equations
-      type(loading_t) :: loading                            !! gravity and force elements
-      type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
-      integer :: n_loose = 0                                !! loose joints in all
-      integer :: n_contact = 0                              !! contacts of all loose joints
-      real(wp), allocatable :: losses(:, :)                 !! (2, contacts) power lost by contact and friction [W]
-      type(event_functions_t) :: functions                  !! which event functions there are
-      type(grip_forces_t) :: grips                          !! contacts whose friction remembers
-      type(rubbing_t) :: rubbing                            !! ideal joints that rub
-      class(hold_t), allocatable :: way                     !! way of holding the constraints
-      logical :: with_ledger = .true.                       !! whether the ledger is kept
-      logical :: with_energies = .true.                     !! whether energies are reported, with or without a ledger
-      integer(i8) :: n_evaluations = 0                      !! evaluations made
-      real(wp), allocatable, private :: held(:)             !! (positions + rates) state corrected for an evaluation [any]
+      type(linkage_t) :: linkage                  !! bodies, ideal joints and drivers, and the solution of the equations
+      type(loading_t) :: loading                  !! gravity and force elements
+      type(loose_t) :: loose                      !! loose joints
+      type(friction_t) :: friction                !! friction that is solved for
+      class(hold_t), allocatable :: way           !! way of holding the constraints
+      type(ledger_t) :: ledger                    !! what is told of energies
+      integer(i8) :: n_evaluations = 0            !! evaluations made
+      real(wp), allocatable, private :: held(:)   !! (positions + rates) state corrected for an evaluation [any]
    contains
       procedure :: evaluate => mechanism_evaluate, dae_residual => mechanism_dae_residual
       procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread, weights => mechanism_weights
@@ -339,7 +354,7 @@ contains
       class(mechanism_t), intent(inout) :: self  !! the system
       real(wp), intent(in) :: h                  !! length of the step [s]
 
-      if (h < huge(1.0_wp)) self%grips%h = h
+      if (h < huge(1.0_wp)) self%friction%grips%h = h
       call self%way%begin_step(self%linkage, h)
    end subroutine mechanism_set_step
 

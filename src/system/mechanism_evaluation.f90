@@ -13,7 +13,7 @@ contains
       ! in the smooth stretch: `smooth_piece`, without its call
       inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
       self%n_evaluations = self%n_evaluations + 1
-      if (self%grips%n_bristle > 0) call self%take_bristles(y)
+      if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
          self%held = y(:size(self%held))
          call self%way%correct_stage(self%linkage, t, self%held, status)
@@ -24,11 +24,11 @@ contains
       end if
       call evaluate_terms(self, inside, status)
       if (status /= 0) return
-      if (self%linkage%rows%n_unknown > 0 .or. self%grips%n_slip > 0) then
-         call self%linkage%find_accelerations(self%loading%g, .true., self%grips%n_slip > 0, status)
-         if (status == 0 .and. self%rubbing%n > 0) then
+      if (self%linkage%rows%n_unknown > 0 .or. self%friction%grips%n_slip > 0) then
+         call self%linkage%find_accelerations(self%loading%g, .true., self%friction%grips%n_slip > 0, status)
+         if (status == 0 .and. self%friction%rubbing%n > 0) then
             call self%rub(status)  ! and what sticks
-         else if (status == 0 .and. self%grips%n_slip > 0) then
+         else if (status == 0 .and. self%friction%grips%n_slip > 0) then
             call self%stick(status)
          end if
          if (status /= 0) return
@@ -43,12 +43,12 @@ contains
             associate (last => nq + linkage%n_rate - guided%n)
                call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(last + 1:), &
                                  ydot(nq - guided%n + 1:), ydot(last + 1:), status)
-               if (self%with_ledger) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
+               if (self%ledger%is_kept) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
             end associate
          end if
       end associate
-      if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
-      if (self%with_ledger) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
+      if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
+      if (self%ledger%is_kept) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
    end procedure mechanism_evaluate
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
@@ -72,8 +72,8 @@ contains
          do k = 1, size(loading%forces)
             call loading%forces(k)%set%evaluate(inside, motion, loading%loads, loading%power)
          end do
-         do k = 1, size(self%clearances)
-            call self%clearances(k)%set%evaluate(motion, loading%loads, self%losses)
+         do k = 1, size(self%loose%sets)
+            call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%losses)
          end do
          call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
       end associate

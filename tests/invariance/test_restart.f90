@@ -311,7 +311,7 @@ contains
       if (allocated(error)) return
       call save_run(second, again)
       call check_close(error, again%row, saved%row, 0.0_wp, "saved again")
-      call check_equal(error, second%loaded%system%clearances(1)%set%n_touching, 1, "contacts")
+      call check_equal(error, second%loaded%system%loose%sets(1)%set%n_touching, 1, "contacts")
       allocate (y(second%loaded%system%n), source=0.0_wp)
       call second%loaded%method%state_at(second%loaded%system, second%loaded%method%t, y)
       call check_close(error, y, first%loaded%method%step%y1, 0.0_wp, "present state")

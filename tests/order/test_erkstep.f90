@@ -133,7 +133,7 @@ contains
       call check_close(error, rate(1), speed, 1.0e-10_wp, "impact speed")
       if (allocated(error)) return
 
-      call judge%system%clearances(1)%set%begin_contact(1, ours%method%t, rate(1), 0.0_wp)
+      call judge%system%loose%sets(1)%set%begin_contact(1, ours%method%t, rate(1), 0.0_wp)
       call begin(ours)
       call solve_by_erkstep(judge%system, ours%method%t, ours%method%t + half, judge%y, status, n_step=300)
       call check_equal(error, status, 0, "status of ERKStep within the contact")

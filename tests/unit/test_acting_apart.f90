@@ -60,8 +60,8 @@ contains
             end do
             call get_gaps(bench, 0.0_wp, delta, rate)
             reach = 2.0_wp*maxval(abs(delta(bench%first:bench%last)))
-            deallocate (set%law)
-            allocate (set%law, source=cushion(reach))
+            deallocate (set%laws%normal)
+            allocate (set%laws%normal, source=cushion(reach))
             call evaluate_loads(bench, loads, losses)
             normal = 0.0_wp
             call set%report("normal_force", bench%motion, normal)
@@ -110,8 +110,8 @@ contains
 
       call load_text(ball, loaded, error)
       if (allocated(error)) return
-      deallocate (loaded%system%clearances(1)%set%law)
-      allocate (loaded%system%clearances(1)%set%law, source=cushion(reach))
+      deallocate (loaded%system%loose%sets(1)%set%laws%normal)
+      allocate (loaded%system%loose%sets(1)%set%laws%normal, source=cushion(reach))
       call run_to_end(loaded, keeper, summary, error)
       if (allocated(error)) return
       call check_equal(error, keeper%n_event, 0, "contacts")
