@@ -52,16 +52,16 @@ contains
       value%given = .true.
       value%text = ""
       low = -1.0_wp
-      if (column%upper < unbounded) low = column%upper - 1.0_wp
-      if (column%lower > -unbounded) low = column%lower
+      if (column%bounds%upper < unbounded) low = column%bounds%upper - 1.0_wp
+      if (column%bounds%lower > -unbounded) low = column%bounds%lower
       high = low + 2.0_wp
-      if (column%upper < unbounded) high = column%upper
+      if (column%bounds%upper < unbounded) high = column%bounds%upper
       select case (column%cell)
       case (cell_number)
          value%number = random%between(low, high)
       case (cell_vector)
-         value%n_vector = column%size
-         value%vector = random%vector(3, low, high)
+         value%vector%n = column%size
+         value%vector%x = random%vector(3, low, high)
       case (cell_word)
          value%text = "word"
          if (allocated(column%choices)) then
@@ -109,7 +109,7 @@ contains
 
       factor = unit_of_length**column%dimension%m
       value%number = factor*value%number
-      value%vector = factor*value%vector
+      value%vector%x = factor*value%vector%x
       if (.not. allocated(value%expression)) return
       value%expression = make_expression(exact_text(factor)//"*"//value%expression%source, column)
    end subroutine scale_value

@@ -47,7 +47,7 @@ contains
       type(trend_t), intent(out) :: force             !! normal force
       type(trend_t), intent(out) :: penetration       !! penetration
 
-      call system%clearances(slot)%set%watch(item, system%linkage%motion, penetration%value, penetration%rate, &
+      call system%loose%sets(slot)%set%watch(item, system%linkage%motion, penetration%value, penetration%rate, &
                                              force%value, force%rate)
    end subroutine look
 

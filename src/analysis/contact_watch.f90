@@ -58,11 +58,11 @@ contains
       type(contact_watch_t), intent(out) :: watch   !! the watch
 
       allocate (watch%peaks(1))
-      allocate (watch%owes_row(system%n_contact), source=.false.)
-      allocate (watch%told(system%n_contact), source=0.0_wp)
-      allocate (watch%force(system%n_contact), watch%penetration(system%n_contact))
+      allocate (watch%owes_row(system%loose%n_contact), source=.false.)
+      allocate (watch%told(system%loose%n_contact), source=0.0_wp)
+      allocate (watch%force(system%loose%n_contact), watch%penetration(system%loose%n_contact))
       allocate (watch%y(system%n), watch%ydot(system%n), source=0.0_wp)
-      allocate (watch%g(system%n_contact), watch%g_rate(system%n_contact), source=0.0_wp)
+      allocate (watch%g(system%loose%n_contact), watch%g_rate(system%loose%n_contact), source=0.0_wp)
    end subroutine new_contact_watch
 
    !> Look for maxima of force and penetration within the last step, and whether a force is cut off.
@@ -78,12 +78,12 @@ contains
       logical :: has_force_peak, has_peak
 
       self%n_peak = 0
-      do k = 1, size(system%clearances)
-         if (system%clearances(k)%set%n_touching == 0) cycle
+      do k = 1, size(system%loose%sets)
+         if (system%loose%sets(k)%set%n_touching == 0) cycle
          call system%linkage%set_acceleration(method%step%f1)
-         do i = 1, system%clearances(k)%set%n_contact
-            if (.not. system%clearances(k)%set%contact(i)%is_touching) cycle
-            number = system%clearances(k)%set%first_contact + i
+         do i = 1, system%loose%sets(k)%set%n_contact
+            if (.not. system%loose%sets(k)%set%contact(i)%is_touching) cycle
+            number = system%loose%sets(k)%set%before%contacts + i
             call look(system, k, i, force, penetration)
             has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
             has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate < 0.0_wp
@@ -96,10 +96,10 @@ contains
                call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
             end if
             if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
-            call system%clearances(k)%set%note_depth(i, max(deepest, penetration%value))
+            call system%loose%sets(k)%set%note_depth(i, max(deepest, penetration%value))
             call keep_force(self, system, method, k, i, peak, force%value)
-            if (system%with_ledger) then
-               call follow_cut_off(system%clearances(k)%set, i, penetration%value, force%value, &
+            if (system%ledger%is_kept) then
+               call follow_cut_off(system%loose%sets(k)%set, i, penetration%value, force%value, &
                                    method%step%y1(system%in_state(place_of_loss(number, loss_contact))))
             end if
             self%force(number) = force
@@ -122,8 +122,8 @@ contains
       real(wp) :: greatest
       integer :: number
 
-      number = system%clearances(slot)%set%first_contact + item
-      associate (set => system%clearances(slot)%set)
+      number = system%loose%sets(slot)%set%before%contacts + item
+      associate (set => system%loose%sets(slot)%set)
          greatest = set%contact(item)%peak_force
          if (peak%force > max(greatest, at_end)) then
             if (peak%force > (1.0_wp + noise)*self%told(number)) call tell(peak)
@@ -178,23 +178,24 @@ contains
       has_onset = .false.
       has_jump = .false.
       self%shift = 0.0_wp
-      do n = 1, method%n_happened
-         number = method%happened(n)
-         if (system%functions%kind_of(number) /= touch_function) then
-            has_jump = has_jump .or. system%functions%kind_of(number) == turn_function
+      do n = 1, method%events%n_happened
+         number = method%events%happened(n)
+         if (system%loose%functions%kind_of(number) /= touch_function) then
+            has_jump = has_jump .or. system%loose%functions%kind_of(number) == turn_function
             cycle
          end if
          call system%find_contact(number, k, i)
          call system%linkage%set_motion(method%t, method%step%y1)
          call look(system, k, i, force, penetration)
-         associate (set => system%clearances(k)%set)
+         associate (set => system%loose%sets(k)%set)
             if (set%contact(i)%is_touching) then
                has_end = .true.
-               has_jump = has_jump .or. set%energy_jumps .or. law_jumps(set, i, penetration%rate, set%contact(i)%impact_speed)
+               has_jump = has_jump .or. set%traits%energy_jumps .or. law_jumps(set, i, penetration%rate, &
+                                                                               set%contact(i)%impact_speed)
                cycle
             end if
             has_onset = .true.
-            has_jump = has_jump .or. set%energy_jumps .or. method%controls%onset /= onset_located
+            has_jump = has_jump .or. set%traits%energy_jumps .or. method%controls%onset /= onset_located
             if (.not. law_jumps(set, i, penetration%rate, max(penetration%rate, 0.0_wp))) cycle
             has_jump = .true.
             self%shift = max(self%shift, time_to_see(system, method, penetration%value, penetration%rate))
@@ -220,12 +221,12 @@ contains
          self%shift = 0.0_wp
          call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
       end if
-      do k = 1, size(system%clearances)
-         if (system%clearances(k)%set%n_touching == 0) cycle
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         if (system%loose%sets(k)%set%n_touching == 0) cycle
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
-               number = set%first_contact + i
+               number = set%before%contacts + i
                call look(system, k, i, self%force(number), self%penetration(number))
                call set%note_depth(i, self%penetration(number)%value)
                call set%note_force(i, self%force(number)%value)
@@ -253,8 +254,8 @@ contains
       type(trend_t) :: force, penetration
 
       call system%find_contact(number, k, i)
-      if (system%functions%kind_of(number) /= touch_function) then
-         is_over = system%functions%kind_of(number) == slip_function
+      if (system%loose%functions%kind_of(number) /= touch_function) then
+         is_over = system%loose%functions%kind_of(number) == slip_function
          if (is_over) then
             call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
          else
@@ -266,15 +267,15 @@ contains
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
       call look(system, k, i, force, penetration)
       rate = penetration%rate  ! the normal one: at an end of a guide that of the event is axial
-      associate (set => system%clearances(k)%set)
+      associate (set => system%loose%sets(k)%set)
          stored = 0.0_wp
-         if (set%energy_jumps) stored = set%elastic_energy(system%linkage%motion)
+         if (set%traits%energy_jumps) stored = set%elastic_energy(system%linkage%motion)
          is_over = set%contact(i)%is_touching
          self%owes_row(number) = .false.
          self%told(number) = 0.0_wp
          if (is_over) then
             loss = loss_of(system, method%step%y1, k, i)
-            if (system%with_ledger) then
+            if (system%ledger%is_kept) then
                z = system%in_state(place_of_loss(number, loss_contact))
                method%step%y1(z) = lost_by_damping(set, i, system%linkage%motion, method%step%y1(z))
             end if
@@ -286,7 +287,7 @@ contains
             call set%note_swing(i, penetration%value)
             step_hint = step_in_contact()
          end if
-         if (.not. (set%energy_jumps .and. system%with_ledger)) return
+         if (.not. (set%traits%energy_jumps .and. system%ledger%is_kept)) return
          lost = stored - set%elastic_energy(system%linkage%motion)
          z = system%in_state(place_of_loss(number, loss_contact))
          method%step%y1(z) = method%step%y1(z) + lost
@@ -297,7 +298,7 @@ contains
 
       !> Step that suits the contact: a part of its swing; of that of the slowest impact if it has neither speed nor depth.
       real(wp) function step_in_contact() result(step)
-         associate (set => system%clearances(k)%set)
+         associate (set => system%loose%sets(k)%set)
             if (set%contact(i)%swing > 0.0_wp) then
                step = first_step*pi/set%contact(i)%swing
             else
@@ -321,8 +322,8 @@ contains
       is_open = .false.
       if (.not. allocated(method%step%y1)) return  ! the run did not begin
       call system%linkage%set_motion(method%t, method%step%y1)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                call set%end_contact(i, method%t, 0.0_wp, loss_of(system, method%step%y1, k, i), .false., row)
@@ -384,11 +385,11 @@ contains
       integer :: z
 
       loss = not_a_number()
-      if (.not. system%with_ledger) return
-      associate (set => system%clearances(slot)%set)
-         z = system%in_state(place_of_loss(set%first_contact + item, loss_contact))
+      if (.not. system%ledger%is_kept) return
+      associate (set => system%loose%sets(slot)%set)
+         z = system%in_state(place_of_loss(set%before%contacts + item, loss_contact))
          loss = lost_by_damping(set, item, system%linkage%motion, y(z))
-         z = system%in_state(place_of_loss(set%first_contact + item, loss_friction))
+         z = system%in_state(place_of_loss(set%before%contacts + item, loss_friction))
          loss = loss + y(z)
       end associate
    end function loss_of

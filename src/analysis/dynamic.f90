@@ -142,7 +142,7 @@ contains
       associate (whole => run%whole)
          do k = 1, whole%n_front
             associate (part => whole%parts(whole%front(k)))
-               part%method%look = merge(plan%every, huge(1.0_wp), part%method%t >= plan%first_output)
+               part%method%events%look = merge(plan%every, huge(1.0_wp), part%method%t >= plan%first_output)
                call advance_part(part, run%tally, error)
                if (.not. allocated(error) .and. run%budget%is_spent()) then
                   call describe_failure(part%system, part%method, time_used_up, error)
@@ -258,7 +258,7 @@ contains
             end do
          end if
          do k = 1, n
-            if (whole%parts(run%waiting(k))%method%n_happened == 0) cycle
+            if (whole%parts(run%waiting(k))%method%events%n_happened == 0) cycle
             call handle_events_of(run, run%waiting(k:k), plan, recorder, error)
             if (allocated(error)) return
          end do
@@ -299,34 +299,34 @@ contains
 
       allocate (summary%warnings(0))
       associate (whole => run%whole, tally => run%tally)
-         summary%method = method_name(method)
-         summary%solver = whole%system%linkage%solution%solver%name()
-         summary%stabilisation = whole%system%way%words()
-         summary%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
-         summary%ledger = whole%system%with_ledger
+         summary%method%integrator = method_name(method)
+         summary%method%solver = whole%system%linkage%solution%solver%name()
+         summary%method%stabilisation = whole%system%way%words()
+         summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
+         summary%quality%has_ledger = whole%system%ledger%is_kept
          summary%time_end = run%stop%t
          if (run%stop%met == 0) summary%time_end = minval([(whole%parts(p)%method%t, p=1, size(whole%parts))])
          do p = 1, size(whole%parts)
             associate (part => whole%parts(p))
-               summary%steps = summary%steps + part%method%n_steps
-               summary%rejected_steps = summary%rejected_steps + part%method%n_rejected
-               summary%rhs_evaluations = summary%rhs_evaluations + part%system%n_evaluations
-               summary%output_evaluations = summary%output_evaluations + part%method%n_output_evaluations
-               summary%factorisations = summary%factorisations + part%system%linkage%solution%solver%n_factorisations
+               summary%count%steps = summary%count%steps + part%method%count%n_steps
+               summary%count%rejected_steps = summary%count%rejected_steps + part%method%count%n_rejected
+               summary%count%rhs_evaluations = summary%count%rhs_evaluations + part%system%n_evaluations
+               summary%count%output_evaluations = summary%count%output_evaluations + part%method%count%n_output_evaluations
+               summary%count%factorisations = summary%count%factorisations + part%system%linkage%solution%solver%n_factorisations
             end associate
          end do
          summary%groups = size(whole%parts)
-         if (summary%groups > 1) summary%rhs_evaluations = summary%rhs_evaluations + whole%system%n_evaluations
-         summary%output_evaluations = summary%output_evaluations + run%sampler%n_reports
-         summary%events = tally%events
-         summary%contacts = tally%contacts
-         summary%samples = int(run%sampler%n_sample)
-         summary%rows = run%sampler%n_row
-         summary%energy_max = tally%energy_max
-         summary%energy_residual_max = tally%residual_max
-         if (.not. summary%ledger) summary%energy_residual_max = not_a_number()
-         summary%violation_max = tally%violation_max
-         summary%violation_rate_max = tally%violation_rate_max
+         if (summary%groups > 1) summary%count%rhs_evaluations = summary%count%rhs_evaluations + whole%system%n_evaluations
+         summary%count%output_evaluations = summary%count%output_evaluations + run%sampler%n_reports
+         summary%count%events = tally%events
+         summary%count%contacts = tally%contacts
+         summary%count%samples = int(run%sampler%n_sample)
+         summary%count%rows = run%sampler%n_row
+         summary%quality%energy_max = tally%energy_max
+         summary%quality%energy_residual_max = tally%residual_max
+         if (.not. summary%quality%has_ledger) summary%quality%energy_residual_max = not_a_number()
+         summary%quality%violation_max = tally%violation_max
+         summary%quality%violation_rate_max = tally%violation_rate_max
          if (.not. allocated(error)) call audit(summary, limits, error)
          worst = maxloc(whole%parts%worst, dim=1)
          call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%worst, whole%parts(worst)%worst_row, &

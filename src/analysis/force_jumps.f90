@@ -21,7 +21,8 @@ contains
       real(wp), parameter :: hardly = 1.0e-9_wp                   ! force at the former, of that at the latter [1]
       real(wp), dimension(2) :: by_delta, by_rate, elastic, f
 
-      call set%law%force(2, depths, [rate, rate], [impact_speed, impact_speed], spread(set%parameters(:, k), 2, 2), f, &
+      call set%laws%normal%force(2, depths, [rate, rate], [impact_speed, impact_speed], spread(set%laws%parameters(:, k), 2, 2), &
+                                 f, &
                          by_delta, by_rate, elastic)
       jumps = f(1) > hardly*f(2)
    end function law_jumps

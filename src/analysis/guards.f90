@@ -81,16 +81,16 @@ contains
       integer :: g, k
 
       guards%is_set = .true.
-      associate (settings => scene%guards)
+      associate (settings => scene%settings%guards)
          guards%penetration = settings%number("penetration")
          guards%energy = settings%number("energy")
          if (settings%number("speed") > 0.0_wp) guards%speed = settings%number("speed")
          guards%size = extent_of_scene(scene)
          travel = settings%number("travel")
          if (travel*guards%size > 0.0_wp) guards%way = travel*guards%size
-         allocate (guards%limit(n_contact_guard, system%n_contact), source=huge(1.0_wp))
-         do k = 1, size(system%clearances)
-            call set_limits(system%clearances(k)%set, guards)
+         allocate (guards%limit(n_contact_guard, system%loose%n_contact), source=huge(1.0_wp))
+         do k = 1, size(system%loose%sets)
+            call set_limits(system%loose%sets(k)%set, guards)
          end do
          guards%stops(guard_penetration) = .true.
          do g = 2, n_contact_guard
@@ -110,15 +110,15 @@ contains
       real(wp) :: radius
 
       do c = 1, set%n_contact
-         m = set%first_contact + c
+         m = set%before%contacts + c
          item = set%item_of(c)
-         associate (pair => set%pairs(item), limit => guards%limit(:, m))
+         associate (pair => set%items%pairs(item), limit => guards%limit(:, m))
             radius = pair%radius_j
             if (pair%radius_i > 0.0_wp) radius = min(radius, pair%radius_i)
             if (pair%shape == shape_plane) radius = max(radius, pair%length)
             if (guards%penetration*radius > 0.0_wp) limit(guard_penetration) = guards%penetration*radius
-            if (set%is_round) limit(guard_clearance) = set%clearance(item)
-            limit(guard_law_range) = set%parameters(parameter_deepest, c)
+            if (set%traits%is_round) limit(guard_clearance) = set%items%clearance(item)
+            limit(guard_law_range) = set%laws%parameters(parameter_deepest, c)
             limit(guard_impact_speed) = pair%speed_limit
             limit(guard_strength) = force_at_pressure(pair, pair%strength)
          end associate
@@ -159,7 +159,7 @@ contains
       type(mechanism_t), intent(in) :: system    !! the system, its motion that of the start
 
       if (.not. self%is_set) return
-      allocate (self%breach(n_contact_guard, system%n_contact), self%travel(system%linkage%bodies%n))
+      allocate (self%breach(n_contact_guard, system%loose%n_contact), self%travel(system%linkage%bodies%n))
       self%start = system%linkage%motion%r(1:2, 1:system%linkage%bodies%n)
    end subroutine guards_begin
 
@@ -173,12 +173,12 @@ contains
       integer :: c, k, m
 
       if (.not. self%is_set) return
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             if (set%n_touching == 0) cycle
             do c = 1, set%n_contact
                if (.not. set%contact(c)%is_touching) cycle
-               m = set%first_contact + c
+               m = set%before%contacts + c
                associate (contact => set%contact(c))
                   values = [contact%peak_penetration, contact%peak_penetration, contact%peak_penetration, contact%impact_speed, &
                             contact%peak_force]
@@ -193,8 +193,8 @@ contains
                call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
                             motion%v(2, k)), 3)//" m/s, faster than the guard 'speed' allows: "//real_text(self%speed, 3)//" m/s")
             end if
-            way = hypot(motion%r(1, k) - self%start(1, k), motion%r(2, k) - self%start(2, k))
-            if (way > self%way) call raise(self%travel(k), way, t)
+            way = (motion%r(1, k) - self%start(1, k))**2 + (motion%r(2, k) - self%start(2, k))**2
+            if (way > self%way**2) call raise(self%travel(k), sqrt(way), t)
          end do
       end associate
    end subroutine guards_look
@@ -248,7 +248,7 @@ contains
 
       integer :: g, m
 
-      m = set%first_contact + c
+      m = set%before%contacts + c
       do g = 1, n_contact_guard
          if (.not. values(g) > self%limit(g, m)) cycle
          call raise(self%breach(g, m), values(g), t)
@@ -264,7 +264,7 @@ contains
 
       words = "joint '"//set%names(set%item_of(c))%s//"'"
       if (set%label_of(c) /= "") words = words//", contact "//set%label_of(c)
-      words = words//", law '"//set%law%name//"'"
+      words = words//", law '"//set%laws%normal%name//"'"
    end function joint_words
 
    !> What was passed, in words.
@@ -315,14 +315,14 @@ contains
       integer :: c, g, i, k
 
       if (.not. allocated(self%breach)) return
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n
                words = ""
                do g = 1, n_contact_guard
                   if (self%stops(g)) cycle
-                  c = greatest_of(self%breach(g, set%first_contact + (i - 1)*set%n_contact_item + 1: &
-                                              set%first_contact + i*set%n_contact_item))
+                  c = greatest_of(self%breach(g, set%before%contacts + (i - 1)*set%n_contact_item + 1: &
+                                              set%before%contacts + i*set%n_contact_item))
                   if (c == 0) cycle
                   c = (i - 1)*set%n_contact_item + c
                   if (words == "") then
@@ -330,7 +330,7 @@ contains
                   else
                      words = words//"; "
                   end if
-                  words = words//breach_words(self, g, set%first_contact + c)
+                  words = words//breach_words(self, g, set%before%contacts + c)
                end do
                if (words /= "") call append_text(warnings, words)
             end do

@@ -40,10 +40,12 @@ module instants
       type(place_t) :: next                      !! the next instant
       real(wp) :: end = 0.0_wp                   !! end of the motion [s]
       logical :: paces = .false.                 !! some function limits the step
+      real(wp) :: omega = 0.0_wp                 !! greatest angular speed of a body that a contact may touch [rad/s]
    contains
       procedure :: begin => instants_begin
       procedure :: is_at => instants_is_at
       procedure :: pass => instants_pass
+      procedure :: note_turning => instants_note_turning
       procedure :: stop_after => instants_stop_after
    end type instants_t
 
@@ -226,16 +228,32 @@ contains
       end do
    end subroutine find_next
 
-   !> Where a step that begins now must end at the latest.
-   subroutine instants_stop_after(self, system, method, stop)
+   !> Note how fast the bodies of contacts turn: it limits the next step.
+   pure subroutine instants_note_turning(self, system)
+      class(instants_t), intent(inout) :: self   !! the instants
+      type(mechanism_t), intent(in) :: system    !! the system, its motion that of the beginning of the next step
+
+      integer :: i, k
+
+      self%omega = 0.0_wp
+      do k = 1, size(system%loose%sets)
+         associate (body => system%loose%sets(k)%set%items%body)
+            do i = 1, size(body, 2)
+               self%omega = max(self%omega, maxval(abs(system%linkage%motion%omega(:, body(:, i)))))
+            end do
+         end associate
+      end do
+   end subroutine instants_note_turning
+
+   !> Latest end of the step that begins; how fast bodies turn there has been noted.
+   subroutine instants_stop_after(self, method, stop)
       class(instants_t), intent(inout) :: self       !! the instants
-      type(mechanism_t), intent(inout) :: system !! the system; its motion becomes that of the beginning of the step
       class(integrator_t), intent(in) :: method      !! the integrator, at the beginning of the step
       real(wp), intent(out) :: stop                  !! its latest end [s]
 
       type(ieee_status_type) :: status
-      real(wp) :: latest, omega
-      integer :: i, k
+      real(wp) :: latest
+      integer :: i
 
       stop = min(self%end, self%next%at)
       if (method%controls%maximum_step > 0.0_wp .or. method%controls%fixed_step > 0.0_wp) return
@@ -249,17 +267,7 @@ contains
          end do
          call ieee_set_status(status)
       end if
-      if (system%n_loose == 0) return
-      call system%linkage%set_motion(method%t, method%step%y1)
-      omega = 0.0_wp
-      do k = 1, size(system%clearances)
-         associate (body => system%clearances(k)%set%body)
-            do i = 1, size(body, 2)
-               omega = max(omega, maxval(abs(system%linkage%motion%omega(:, body(:, i)))))
-            end do
-         end associate
-      end do
-      if (omega*(stop - method%t) > turn) stop = method%t + turn/omega
+      if (self%omega*(stop - method%t) > turn) stop = method%t + turn/self%omega
    end subroutine instants_stop_after
 
 end module instants

@@ -61,11 +61,11 @@ contains
 
       call system_clock(clock_0, ticks)
       call build_catalogue(system, catalogue)
-      summary%method = "newton"
-      summary%solver = "lapack (singular values)"
-      summary%tolerance = newton%tolerance
-      summary%ledger = .false.
-      summary%energy_residual_max = not_a_number()
+      summary%method%integrator = "newton"
+      summary%method%solver = "lapack (singular values)"
+      summary%method%tolerance = newton%tolerance
+      summary%quality%has_ledger = .false.
+      summary%quality%energy_residual_max = not_a_number()
       allocate (summary%warnings(0))
       if (size(system%linkage%ideal) > 0) then
          call append_text(summary%warnings, "joints with clearance are taken as ideal in a kinematic analysis")
@@ -78,7 +78,7 @@ contains
       call system_clock(clock_1)
       summary%cpu_seconds = cpu_1 - cpu_0
       summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
-      summary%factorisations = newton%n_solved
+      summary%count%factorisations = newton%n_solved
       summary%status = status_complete
       summary%message = ""
       if (allocated(error)) then
@@ -118,7 +118,7 @@ contains
          call report(system, state, catalogue, summary)
          call recorder%sample(state%t, catalogue, error)
          if (allocated(error)) return
-         summary%samples = summary%samples + 1
+         summary%count%samples = summary%count%samples + 1
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
          if (budget%is_spent() .and. k < last_instant(plan)) then
             call budget%refuse(state%t, error)
@@ -155,11 +155,11 @@ contains
          call try(system, newton, next, outcome)
          if (outcome == solved) then
             state = next
-            summary%steps = summary%steps + 1_i8
+            summary%count%steps = summary%count%steps + 1_i8
             summary%time_end = state%t
             h = min(2.0_wp*h, t - state%t)
          else
-            summary%rejected_steps = summary%rejected_steps + 1_i8
+            summary%count%rejected_steps = summary%count%rejected_steps + 1_i8
             h = 0.5_wp*h
             if (h < shortest) then
                call describe_failure(system, state, next%t, outcome, newton, error)
@@ -223,7 +223,7 @@ contains
       call evaluate_rows(system%linkage, state%t, state%q, state%v)
       call system%evaluate_loads(state%t)
       call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
-      do turn = 1, merge(most_turns, 0, system%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
+      do turn = 1, merge(most_turns, 0, system%friction%rubbing%n > 0)  ! friction in joints, by the reactions that it gives
          call system%rub_by_multipliers(.true., turn > 1, change)
          call find_reactions(system%linkage, system%loading%g, state%a, unbalanced)
          if (change <= same) exit
@@ -231,9 +231,9 @@ contains
       y = [state%q, state%v]
       call fill_catalogue(system, state%t, y, 0.0_wp, catalogue)
       energy = energy_of(system, y)
-      summary%energy_max = max(summary%energy_max, energy%kinetic + energy%elastic)
-      summary%violation_max = max(summary%violation_max, maxval(abs(system%linkage%rows%phi)))
-      summary%violation_rate_max = max(summary%violation_rate_max, maxval(abs(system%linkage%solution%phi_dot)))
+      summary%quality%energy_max = max(summary%quality%energy_max, energy%kinetic + energy%elastic)
+      summary%quality%violation_max = max(summary%quality%violation_max, maxval(abs(system%linkage%rows%phi)))
+      summary%quality%violation_rate_max = max(summary%quality%violation_rate_max, maxval(abs(system%linkage%solution%phi_dot)))
    end subroutine report
 
    !> Say when, where and why the motion cannot go on, and what to try.

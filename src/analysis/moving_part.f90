@@ -27,6 +27,16 @@ module moving_part
    real(wp), parameter :: lost_length = 0.1_wp     !! violation beyond all measure: a length, of the size of the bodies [1]
    real(wp), parameter :: lost_angle = 1.0_wp      !! an angle [rad]
 
+   !> Energies of a part.
+   type :: part_ledger_t
+      real(wp) :: balance_0 = 0.0_wp      !! balance of the ledger at the start [J]
+      real(wp) :: potential_0 = 0.0_wp    !! potential energy at the start [J]
+      real(wp) :: residual = 0.0_wp       !! of the ledger at the last step [J]
+      real(wp) :: level = 0.0_wp          !! kinetic + elastic energy + |change of potential| there [J]
+      real(wp) :: magnitude = 0.0_wp      !! of what the ledger adds up there [J]
+      real(wp) :: lost = 0.0_wp           !! what its contacts have lost by then [J]
+   end type part_ledger_t
+
    !> A part in motion.
    type :: moving_part_t
       type(mechanism_t), pointer :: system => null()       !! its equations
@@ -38,12 +48,7 @@ module moving_part
       integer :: status = 0                                !! how its last step ended; an event, until it is handled
       integer :: n_idle = 0                                !! events since the last time that time passed
       real(wp) :: t_event = 0.0_wp                         !! time of the last event [s]
-      real(wp) :: balance_0 = 0.0_wp                       !! balance of the ledger at the start [J]
-      real(wp) :: potential_0 = 0.0_wp                     !! potential energy at the start [J]
-      real(wp) :: residual = 0.0_wp                        !! of the ledger at the last step [J]
-      real(wp) :: level = 0.0_wp                           !! kinetic + elastic energy + |change of potential| there [J]
-      real(wp) :: magnitude = 0.0_wp                       !! of what the ledger adds up there [J]
-      real(wp) :: lost = 0.0_wp                            !! what its contacts have lost by then [J]
+      type(part_ledger_t) :: ledger                        !! its energies
       real(wp) :: worst = 0.0_wp                           !! greatest violation so far, over the size of the bodies or a radian [1]
       integer :: worst_row = 0                             !! the row it belongs to
       logical :: is_lost = .false.                         !! whether a violation is beyond all measure
@@ -91,11 +96,11 @@ contains
          end if
          call part%guards%begin(system)
          energy = energy_of(system, y)
-         part%balance_0 = energy%balance()
-         part%potential_0 = energy%potential
+         part%ledger%balance_0 = energy%balance()
+         part%ledger%potential_0 = energy%potential
          call look_at_step(part, tally)
          call look_at_energy(part, tally)
-         if (system%n_loose > 0) call part%watch%after_restart(system, method)
+         if (system%loose%n > 0) call part%watch%after_restart(system, method)
       end associate
    end subroutine begin_part
 
@@ -108,7 +113,7 @@ contains
       real(wp) :: t_stop
 
       associate (system => part%system, method => part%method)
-         call part%instants%stop_after(system, method, t_stop)
+         call part%instants%stop_after(method, t_stop)
          call method%advance(system, t_stop, part%status)
          if (part%status < 0) then
             call describe_failure(system, method, part%status, error)
@@ -119,7 +124,7 @@ contains
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
-         if (system%n_loose > 0) call part%watch%after_step(system, method)
+         if (system%loose%n > 0) call part%watch%after_step(system, method)
          call look_at_energy(part, tally)
          call part%guards%look(system, method%t)
       end associate
@@ -146,8 +151,8 @@ contains
             return
          end if
          step_hint = 0.0_wp
-         do k = 1, method%n_happened
-            call part%watch%handle_event(system, method, method%happened(k), is_over, row, hint)
+         do k = 1, method%events%n_happened
+            call part%watch%handle_event(system, method, method%events%happened(k), is_over, row, hint)
             if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
             tally%events = tally%events + 1
             if (is_over) then
@@ -156,7 +161,7 @@ contains
                if (allocated(error)) return
                call cpu_time(cpu_1)
                tally%aside = tally%aside + (cpu_1 - cpu_0)
-            else if (system%functions%kind_of(method%happened(k)) == touch_function) then
+            else if (system%loose%functions%kind_of(method%events%happened(k)) == touch_function) then
                tally%contacts = tally%contacts + 1
             end if
          end do
@@ -167,11 +172,12 @@ contains
             call describe_failure(system, method, status, error)
             return
          end if
+         call part%instants%note_turning(system)
          call part%watch%after_restart(system, method)
       end associate
    end subroutine handle_part_events
 
-   !> Pass an instant at which functions of time are not smooth. Events that this brings about wait in `method%happened`.
+   !> Pass an instant at which functions of time are not smooth. Events that this brings about wait in `method%events%happened`.
    subroutine pass_part_instant(part, tally, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, at the instant
       type(run_tally_t), intent(inout) :: tally           !! of the run
@@ -182,7 +188,7 @@ contains
       integer :: status
 
       associate (system => part%system, method => part%method)
-         method%g = method%g1
+         method%events%g = method%events%g1
          before = method%step%f1
          call part%jumps%before_instant(system, method)
          call part%instants%pass(system%linkage%piece)
@@ -210,7 +216,7 @@ contains
       end associate
    end subroutine pass_part_instant
 
-   !> Pace and constraint violation at the end of a step.
+   !> Pace, turning and constraint violation at the end of a step.
    subroutine look_at_step(part, tally)
       type(moving_part_t), intent(inout) :: part   !! the part, its system last evaluated at the end of the step
       type(run_tally_t), intent(inout) :: tally    !! maxima are raised
@@ -220,6 +226,7 @@ contains
 
       associate (linkage => part%system%linkage)
          call part%system%follow_pace(part%method%step%y1)
+         call part%instants%note_turning(part%system)
          do k = 1, linkage%rows%n_solve
             scaled = linkage%solution%row_weight(k)*abs(linkage%rows%phi(k))
             part%is_lost = part%is_lost .or. scaled > merge(lost_angle, lost_length, linkage%rows%is_angle(k))
@@ -240,12 +247,12 @@ contains
 
       type(energy_t) :: energy
 
-      if (.not. part%system%with_ledger) return
+      if (.not. part%system%ledger%is_kept) return
       energy = energy_of(part%system, part%method%step%y1)
-      call follow(energy%balance() - part%balance_0, part%residual, tally%residual)
-      call follow(energy%dissipated_contact, part%lost, tally%lost)
-      call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%potential_0), part%level, tally%level)
-      call follow(energy%magnitude(), part%magnitude, tally%magnitude)
+      call follow(energy%balance() - part%ledger%balance_0, part%ledger%residual, tally%residual)
+      call follow(energy%dissipated_contact, part%ledger%lost, tally%lost)
+      call follow(energy%kinetic + energy%elastic + abs(energy%potential - part%ledger%potential_0), part%ledger%level, tally%level)
+      call follow(energy%magnitude(), part%ledger%magnitude, tally%magnitude)
       tally%least_lost = min(tally%least_lost, tally%lost)
       tally%residual_max = max(tally%residual_max, abs(tally%residual))
       tally%energy_max = max(tally%energy_max, tally%level)
@@ -280,7 +287,7 @@ contains
       type(event_t) :: row
       logical :: has_row, is_found
 
-      if (part%system%grips%n_slip == 0) return
+      if (part%system%friction%grips%n_slip == 0) return
       do
          call decide_next(part%system, t, y, is_found, has_row, row)
          if (.not. is_found) exit

@@ -31,7 +31,7 @@ contains
       integer, intent(in) :: member         !! number of the run, from 1
       type(shift_t) :: shift                !! its perturbation
 
-      associate (settings => scene%ensemble)
+      associate (settings => scene%settings%ensemble)
          shift = random_shift(scene%bodies, coordinates, nint(settings%number("seed")), member, settings%number("position"), &
                               settings%number("velocity"))
       end associate

@@ -33,13 +33,15 @@ contains
       real(wp), intent(in) :: lost                 !! least that contacts had lost: negative, they made energy [J]
       type(summary_t), intent(inout) :: summary    !! warnings are added to it
 
-      if (system%with_ledger) then  ! else the residual is a NaN, which must not be compared
-         if (summary%energy_residual_max > careful_energy*summary%energy_max .and. summary%energy_max > 0.0_wp) then
-            call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &
-                             real_text(summary%energy_residual_max/summary%energy_max, 3)// &
-                             " of the largest energy; try a smaller tolerance")
-         end if
-         if (lost < -careful_energy*summary%energy_max) then
+      if (system%ledger%is_kept) then  ! else the residual is a NaN, which must not be compared
+         associate (quality => summary%quality)
+            if (quality%energy_residual_max > careful_energy*quality%energy_max .and. quality%energy_max > 0.0_wp) then
+               call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &
+                                real_text(quality%energy_residual_max/quality%energy_max, 3)// &
+                                " of the largest energy; try a smaller tolerance")
+            end if
+         end associate
+         if (lost < -careful_energy*summary%quality%energy_max) then
             call append_text(summary%warnings, "contacts made up to "//real_text(-lost, 3)//" J out of nothing: a law "// &
                              "without a potential, as faces = blend and book are; foundation has one")
          end if
@@ -59,17 +61,18 @@ contains
       type(limits_t), intent(in) :: limits               !! limits
       type(error_t), allocatable, intent(out) :: error   !! a limit is exceeded
 
-      if (limits%energy > 0.0_wp .and. summary%ledger) then
-         if (.not. summary%energy_residual_max <= limits%energy*summary%energy_max) then
+      if (limits%energy > 0.0_wp .and. summary%quality%has_ledger) then
+         if (.not. summary%quality%energy_residual_max <= limits%energy*summary%quality%energy_max) then
             call set_error(error, exit_audit, "audit failed: the ledger's residual reached "// &
-                           real_text(summary%energy_residual_max/summary%energy_max, 3)//" of the largest energy, allowed are "// &
-                           real_text(limits%energy, 3)//new_line("a")//"  = everything was saved; try a smaller tolerance")
+                           real_text(summary%quality%energy_residual_max/summary%quality%energy_max, 3)// &
+                           " of the largest energy, allowed are "//real_text(limits%energy, 3)//new_line("a")// &
+                           "  = everything was saved; try a smaller tolerance")
             return
          end if
       end if
-      if (limits%violation > 0.0_wp .and. .not. summary%violation_max <= limits%violation) then
+      if (limits%violation > 0.0_wp .and. .not. summary%quality%violation_max <= limits%violation) then
          call set_error(error, exit_audit, "audit failed: a constraint was violated by "// &
-                        real_text(summary%violation_max, 3)//" m (or rad), allowed are "// &
+                        real_text(summary%quality%violation_max, 3)//" m (or rad), allowed are "// &
                         real_text(limits%violation, 3)//new_line("a")// &
                         "  = everything was saved; try a smaller tolerance or greater gains of the stabilisation")
       end if

@@ -58,7 +58,7 @@ contains
          message = "the error cannot be kept within the tolerance: the step would be smaller than allowed"
          if (where_singular /= "") message = message//", the equations cannot be solved"//where_singular
       end select
-      message = message//new_line("a")//"  = at t = "//real_text(method%t, 9)//" s, after "//to_text(method%n_steps)// &
+      message = message//new_line("a")//"  = at t = "//real_text(method%t, 9)//" s, after "//to_text(method%count%n_steps)// &
                 " steps, the last of "//real_text(method%step%h, 3)//" s"
       allocate (ydot(system%n), source=0.0_wp)
       call system%evaluate(method%t, method%step%y1, ydot, code)
@@ -103,9 +103,9 @@ contains
       character(:), allocatable :: words        !! a line of the message, blank if there is none
 
       words = ""
-      if (system%rubbing%wedged == 0) return
-      associate (set => system%linkage%joints(system%rubbing%slot(system%rubbing%wedged))%set, &
-                 m => system%rubbing%place(system%rubbing%wedged))
+      if (system%friction%rubbing%wedged == 0) return
+      associate (set => system%linkage%joints(system%friction%rubbing%slot(system%friction%rubbing%wedged))%set, &
+                 m => system%friction%rubbing%place(system%friction%rubbing%wedged))
          words = new_line("a")//"  = friction in '"//set%names(set%friction%item(m))%s// &
                  "' presses it harder than it is pressed: the joint wedges"
       end associate
@@ -117,18 +117,18 @@ contains
       class(integrator_t), intent(in) :: method        !! the integrator
       character(:), allocatable :: words               !! a line of the message, blank if nothing touches
 
-      real(wp) :: delta(system%n_contact), deepest, rate(system%n_contact)
+      real(wp) :: delta(system%loose%n_contact), deepest, rate(system%loose%n_contact)
       integer :: i, k
 
       words = ""
-      if (system%n_loose == 0) return
+      if (system%loose%n == 0) return
       deepest = -1.0_wp
       call system%events(method%t, method%step%y1, delta, rate)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n_contact
-               if (.not. set%contact(i)%is_touching .or. -delta(set%first_contact + i) <= deepest) cycle
-               deepest = -delta(set%first_contact + i)
+               if (.not. set%contact(i)%is_touching .or. -delta(set%before%contacts + i) <= deepest) cycle
+               deepest = -delta(set%before%contacts + i)
                words = new_line("a")//"  = deepest contact there: '"//set%names(set%item_of(i))%s//"', penetration "// &
                        real_text(deepest, 3)//" m"
             end do
@@ -144,8 +144,8 @@ contains
 
       integer :: contact, slot
 
-      call system%find_contact(method%happened(1), slot, contact)
-      associate (set => system%clearances(slot)%set)
+      call system%find_contact(method%events%happened(1), slot, contact)
+      associate (set => system%loose%sets(slot)%set)
          name = set%names(set%item_of(contact))%s
       end associate
    end function last_event

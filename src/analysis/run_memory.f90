@@ -34,8 +34,10 @@ contains
          call part%system%save(row, place)
          call part%watch%save(row, place)
          call put(row, place, part%n_idle)
-         call put(row, place, [part%t_event, part%balance_0, part%potential_0, part%residual, part%level, part%magnitude, &
-                               part%lost, part%worst])
+         associate (ledger => part%ledger)
+            call put(row, place, [part%t_event, ledger%balance_0, ledger%potential_0, ledger%residual, ledger%level, &
+                                  ledger%magnitude, ledger%lost, part%worst])
+         end associate
          call put(row, place, part%worst_row)
       end associate
    end subroutine save_part_memory
@@ -58,18 +60,20 @@ contains
          call part%watch%load(row, place)
          call get(row, place, part%n_idle)
          call get(row, place, part%t_event)
-         call get(row, place, part%balance_0)
-         call get(row, place, part%potential_0)
-         call get(row, place, part%residual)
-         call get(row, place, part%level)
-         call get(row, place, part%magnitude)
-         call get(row, place, part%lost)
+         call get(row, place, part%ledger%balance_0)
+         call get(row, place, part%ledger%potential_0)
+         call get(row, place, part%ledger%residual)
+         call get(row, place, part%ledger%level)
+         call get(row, place, part%ledger%magnitude)
+         call get(row, place, part%ledger%lost)
          call get(row, place, part%worst)
          call get(row, place, part%worst_row)
       end associate
       do while (part%instants%next%at < part%system%linkage%piece%end)
          call part%instants%pass(piece)
       end do
+      call part%system%linkage%set_motion(part%method%t, part%method%step%y1)
+      call part%instants%note_turning(part%system)
    end subroutine load_part_memory
 
    !> The pieces of a part, in the order in which they are saved.

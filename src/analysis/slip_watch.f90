@@ -31,9 +31,9 @@ contains
 
       integer :: before
 
-      before = system%clearances(slot)%set%grip%slip(k)
+      before = system%loose%sets(slot)%set%grip%slip(k)
       call system%decide_slip(t, y, slot, k)
-      has_row = system%clearances(slot)%set%grip%slip(k) /= before
+      has_row = system%loose%sets(slot)%set%grip%slip(k) /= before
       if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", before == sticks), row)
    end subroutine handle_slip
 
@@ -50,8 +50,8 @@ contains
 
       is_found = .false.
       has_row = .false.
-      do slot = 1, size(system%clearances)
-         associate (set => system%clearances(slot)%set)
+      do slot = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= is_undecided) cycle
@@ -74,7 +74,7 @@ contains
       character(*), intent(in) :: before            !! its state before
       type(event_t), intent(out) :: row             !! what happened
 
-      associate (set => system%clearances(slot)%set)
+      associate (set => system%loose%sets(slot)%set)
          row%time = t
          row%kind = trim(merge(word_stick//" ", word_slip//"  ", set%grip%slip(k) == sticks))
          row%item = set%names(set%item_of(k))%s
@@ -100,29 +100,29 @@ contains
       integer :: contact, k, number, slot
       logical :: is_slow
 
-      method%n_happened = 0
-      if (system%functions%has_turn) then
-         do k = 1, system%n_contact
-            number = system%functions%place(turn_function, k)
-            if (method%g(number) > 0.0_wp .or. .not. method%g1(number) > 0.0_wp) cycle
-            method%n_happened = method%n_happened + 1
-            method%happened(method%n_happened) = number
+      method%events%n_happened = 0
+      if (system%loose%functions%has_turn) then
+         do k = 1, system%loose%n_contact
+            number = system%loose%functions%place(turn_function, k)
+            if (method%events%g(number) > 0.0_wp .or. .not. method%events%g1(number) > 0.0_wp) cycle
+            method%events%n_happened = method%events%n_happened + 1
+            method%events%happened(method%events%n_happened) = number
          end do
       end if
-      if (.not. system%functions%has_slip) return
-      do k = 1, system%n_contact
-         number = system%functions%place(slip_function, k)
+      if (.not. system%loose%functions%has_slip) return
+      do k = 1, system%loose%n_contact
+         number = system%loose%functions%place(slip_function, k)
          call system%find_contact(number, slot, contact)
-         associate (set => system%clearances(slot)%set)
+         associate (set => system%loose%sets(slot)%set)
             is_slow = .false.
             if (set%grip%memory == memory_slip .and. set%contact(contact)%is_touching) then
                is_slow = abs(set%grip%slip(contact)) == 1 .and. &
                          abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%linkage%scales%pace*system%linkage%scales%length
             end if
          end associate
-         if (.not. is_slow .and. (method%g(number) > 0.0_wp .or. .not. method%g1(number) > 0.0_wp)) cycle
-         method%n_happened = method%n_happened + 1
-         method%happened(method%n_happened) = number
+         if (.not. is_slow .and. (method%events%g(number) > 0.0_wp .or. .not. method%events%g1(number) > 0.0_wp)) cycle
+         method%events%n_happened = method%events%n_happened + 1
+         method%events%happened(method%events%n_happened) = number
       end do
    end subroutine note_jumps
 

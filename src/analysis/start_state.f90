@@ -52,7 +52,7 @@ contains
 
       call memory_is_for("the start of "//to_text(size(scene%bodies%names))//" bodies")
       call system%linkage%deck_state(q, v)
-      associate (start => scene%dynamic%values(place_of(scene%dynamic, "start"))%text)
+      associate (start => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "start"))%text)
          starts_ideal = start == "ideal"
          at_start = merge(levels_ideal, levels, starts_ideal)
          if (start == "static") call start_at_rest(scene, system, q, v, report, error)
@@ -86,7 +86,7 @@ contains
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
       call look_at_overlap(system, y, &
-                           scene%dynamic%word("overlap") == "preload", error)
+                           scene%settings%dynamic%word("overlap") == "preload", error)
    end subroutine find_start
 
    !> The static equilibrium at t = 0, its contacts begun.
@@ -104,8 +104,8 @@ contains
       call find_equilibrium(scene, system, q, report, equilibrium, error)
       if (allocated(error)) return
       v = 0.0_wp
-      do k = 1, size(system%clearances)
-         call system%clearances(k)%set%begin_at_rest()
+      do k = 1, size(system%loose%sets)
+         call system%loose%sets(k)%set%begin_at_rest()
       end do
    end subroutine start_at_rest
 
@@ -138,21 +138,21 @@ contains
       logical, intent(in) :: is_preload                    !! overlap is wanted
       type(error_t), allocatable, intent(out) :: error     !! names the joint and the depth
 
-      real(wp) :: delta(system%n_contact), rate(system%n_contact)
+      real(wp) :: delta(system%loose%n_contact), rate(system%loose%n_contact)
       integer :: i, k
 
-      if (system%n_loose == 0) return
+      if (system%loose%n == 0) return
       call system%events(0.0_wp, y, delta, rate)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n_contact
-               if (delta(set%first_contact + i) <= touching*set%clearance(set%item_of(i))) cycle
+               if (delta(set%before%contacts + i) <= touching*set%items%clearance(set%item_of(i))) cycle
                if (is_preload) then
-                  call set%begin_contact(i, 0.0_wp, max(rate(set%first_contact + i), 0.0_wp), 0.0_wp)
+                  call set%begin_contact(i, 0.0_wp, max(rate(set%before%contacts + i), 0.0_wp), 0.0_wp)
                   cycle
                end if
                call set_error(error, exit_assembly, "initial overlap: joint '"//set%names(set%item_of(i))%s// &
-                              "' begins with its surfaces "//to_text(delta(set%first_contact + i))//" m into each other"// &
+                              "' begins with its surfaces "//to_text(delta(set%before%contacts + i))//" m into each other"// &
                               new_line("a")//"  = move its bodies, enlarge the clearance, begin with start = ideal, "// &
                               "or say overlap = preload")
                return

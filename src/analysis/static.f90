@@ -69,8 +69,8 @@ contains
       logical :: is_exact, is_settled
 
       call cpu_time(cpu_0)
-      equilibrium%tolerance = scene%static%number("tolerance")
-      most = nint(scene%static%number("maximum_iterations"))
+      equilibrium%tolerance = scene%settings%static%number("tolerance")
+      most = nint(scene%settings%static%number("maximum_iterations"))
       call assemble_at_rest(scene, system, q, report, error)
       if (allocated(error)) return
       call look_at(system, q)
@@ -123,7 +123,7 @@ contains
       real(wp) :: v(size(q))
 
       v = 0.0_wp
-      if (scene%static%word("start") == "ideal") then
+      if (scene%settings%static%word("start") == "ideal") then
          call new_system(scene, levels_ideal, twin)
          call assemble(twin%linkage, q, v, report, error)
       else
@@ -269,24 +269,24 @@ contains
       system%linkage%solution%phi_dot = 0.0_wp
       allocate (summary%warnings(0))
       if (equilibrium%warning /= "") call append_text(summary%warnings, equilibrium%warning)
-      summary%method = "relaxation"
-      if (equilibrium%is_polished) summary%method = "kinsol"
+      summary%method%integrator = "relaxation"
+      if (equilibrium%is_polished) summary%method%integrator = "kinsol"
       summary%equilibrium = equilibrium%words//"; "//real_text(equilibrium%unbalanced, 2)//" of the largest load out of balance"
-      summary%tolerance = equilibrium%tolerance
-      summary%steps = int(equilibrium%steps, i8)
-      summary%rhs_evaluations = equilibrium%n_evaluations
-      summary%ledger = .false.
-      summary%energy_residual_max = not_a_number()
+      summary%method%tolerance = equilibrium%tolerance
+      summary%count%steps = int(equilibrium%steps, i8)
+      summary%count%rhs_evaluations = equilibrium%n_evaluations
+      summary%quality%has_ledger = .false.
+      summary%quality%energy_residual_max = not_a_number()
       energy = energy_of(system, y)
-      summary%energy_max = energy%elastic
-      if (system%linkage%rows%n > 0) summary%violation_max = maxval(abs(system%linkage%rows%phi))
+      summary%quality%energy_max = energy%elastic
+      if (system%linkage%rows%n > 0) summary%quality%violation_max = maxval(abs(system%linkage%rows%phi))
       summary%cpu_seconds = equilibrium%cpu_seconds
       summary%wall_seconds = equilibrium%cpu_seconds
       call recorder%start(catalogue, error)
       if (.not. allocated(error)) then
          call fill_catalogue(system, 0.0_wp, y, 0.0_wp, catalogue)
          call recorder%sample(0.0_wp, catalogue, error)
-         if (.not. allocated(error)) summary%samples = 1
+         if (.not. allocated(error)) summary%count%samples = 1
       end if
       summary%status = status_complete
       summary%message = ""

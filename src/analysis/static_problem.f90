@@ -48,13 +48,13 @@ contains
       class(mechanism_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
 
-      real(wp) :: delta(system%n_contact), rate(system%n_contact), rest(size(system%linkage%mass))
+      real(wp) :: delta(system%loose%n_contact), rate(system%loose%n_contact), rest(size(system%linkage%mass))
       integer :: k
 
       rest = 0.0_wp
       call evaluate_rows(system%linkage, 0.0_wp, q, rest)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             call set%gaps(system%linkage%motion, delta, rate)
             call set%touch_where(delta)
          end associate

@@ -61,9 +61,9 @@ contains
             subsystem%system%linkage%solution%is_redundant = system%linkage%solution%is_redundant
             call find_contacts(system, table, slot, item, subsystem)
             subsystem%rubbing = numbers_of(rubbing_names(subsystem%system), rubbing)
-            call find_integrator(scene%dynamic%word("method"), subsystem%method)
+            call find_integrator(scene%settings%dynamic%word("method"), subsystem%method)
             subsystem%method%controls = method%controls
-            call new_instants(one, end, subsystem%system%n_loose > 0, subsystem%instants)
+            call new_instants(one, end, subsystem%system%loose%n > 0, subsystem%instants)
          end associate
       end do
    end subroutine new_subsystems
@@ -74,13 +74,15 @@ contains
       character(:), allocatable :: reason     !! in words
 
       reason = ""
-      if (scene%dynamic%word("groups") == "together") then
-         reason = "groups = together"
-      else if (size(scene%guards%values(place_of(scene%guards, "stop"))%conditions) > 0) then
-         reason = "a condition that ends the run looks at all of them"
-      else if (scene%dynamic%number("maximum_steps") > 0.0_wp .or. scene%dynamic%number("maximum_evaluations") > 0.0_wp) then
-         reason = "their steps or evaluations are counted together"
-      end if
+      associate (dynamic => scene%settings%dynamic, guards => scene%settings%guards)
+         if (dynamic%word("groups") == "together") then
+            reason = "groups = together"
+         else if (size(guards%values(place_of(guards, "stop"))%conditions) > 0) then
+            reason = "a condition that ends the run looks at all of them"
+         else if (dynamic%number("maximum_steps") > 0.0_wp .or. dynamic%number("maximum_evaluations") > 0.0_wp) then
+            reason = "their steps or evaluations are counted together"
+         end if
+      end associate
    end function reason_to_stay
 
    !> How the bodies of a scene are integrated, blank if they are one group.
@@ -109,12 +111,12 @@ contains
       type(text_t), allocatable :: names(:)
       integer :: i, k, n
 
-      allocate (names(system%n_loose), slot(system%n_loose), item(system%n_loose))
+      allocate (names(system%loose%n), slot(system%loose%n), item(system%loose%n))
       n = 0
-      do k = 1, size(system%clearances)
-         do i = 1, system%clearances(k)%set%n
+      do k = 1, size(system%loose%sets)
+         do i = 1, system%loose%sets(k)%set%n
             n = n + 1
-            names(n)%s = system%clearances(k)%set%names(i)%s
+            names(n)%s = system%loose%sets(k)%set%names(i)%s
             slot(n) = k
             item(n) = i
          end do
@@ -129,10 +131,10 @@ contains
 
       integer :: k
 
-      allocate (names(system%rubbing%n))
+      allocate (names(system%friction%rubbing%n))
       do k = 1, size(names)
-         associate (set => system%linkage%joints(system%rubbing%slot(k))%set)
-            names(k)%s = set%names(set%friction%item(system%rubbing%place(k)))%s
+         associate (set => system%linkage%joints(system%friction%rubbing%slot(k))%set)
+            names(k)%s = set%names(set%friction%item(system%friction%rubbing%place(k)))%s
          end associate
       end do
    end function rubbing_names
@@ -161,16 +163,16 @@ contains
 
       integer :: i, joint, k, m
 
-      allocate (subsystem%slot(subsystem%system%n_contact), subsystem%contact(subsystem%system%n_contact))
+      allocate (subsystem%slot(subsystem%system%loose%n_contact), subsystem%contact(subsystem%system%loose%n_contact))
       m = 0
-      do k = 1, size(subsystem%system%clearances)
-         associate (set => subsystem%system%clearances(k)%set)
+      do k = 1, size(subsystem%system%loose%sets)
+         associate (set => subsystem%system%loose%sets(k)%set)
             do i = 1, set%n_contact
                m = m + 1
                joint = table%find(set%names(set%item_of(i))%s)
                subsystem%slot(m) = slot(joint)
                subsystem%contact(m) = (item(joint) - 1)*set%n_contact_item + modulo(i - 1, set%n_contact_item) + 1
-               call set%adopt(i, system%clearances(subsystem%slot(m))%set, subsystem%contact(m))
+               call set%adopt(i, system%loose%sets(subsystem%slot(m))%set, subsystem%contact(m))
             end do
          end associate
       end do

@@ -44,12 +44,12 @@ contains
 
       allocate (plan%strobes(0))
       if (scene%analysis == analysis_static) return
-      end = scene%dynamic%values(place_of(scene%dynamic, "end"))
-      if (scene%analysis == analysis_kinematic) end = scene%kinematic%values(place_of(scene%kinematic, "end"))
-      associate (from => scene%output%values(place_of(scene%output, "from")), &
-                 stretch => scene%output%values(place_of(scene%output, "last")), &
-                 every => scene%output%values(place_of(scene%output, "every")), &
-                 most => scene%output%values(place_of(scene%output, "instants_limit")))
+      end = scene%settings%dynamic%values(place_of(scene%settings%dynamic, "end"))
+      if (scene%analysis == analysis_kinematic) end = scene%settings%kinematic%values(place_of(scene%settings%kinematic, "end"))
+      associate (from => scene%settings%output%values(place_of(scene%settings%output, "from")), &
+                 stretch => scene%settings%output%values(place_of(scene%settings%output, "last")), &
+                 every => scene%settings%output%values(place_of(scene%settings%output, "every")), &
+                 most => scene%settings%output%values(place_of(scene%settings%output, "instants_limit")))
          plan%end = seconds(end, "end", -1.0_wp, system, diagnostics)
          plan%first_output = seconds(from, "from", -1.0_wp, system, diagnostics)
          last = seconds(stretch, "last", plan%end, system, diagnostics)
@@ -83,10 +83,10 @@ contains
             end associate
          end if
       end associate
-      if (scene%has_statistics .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
+      if (scene%settings%statistics%is_present .and. scene%analysis /= analysis_kinematic .and. diagnostics%count() == 0) then
          call plan_statistics(scene, system, plan, diagnostics)
       end if
-      if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%n_loose > 0, plan%instants)
+      if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%loose%n > 0, plan%instants)
    end subroutine new_time_plan
 
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.
@@ -100,9 +100,9 @@ contains
       integer :: item, k, most, n, slot
       real(wp) :: t
 
-      most = nint(scene%output%number("instants_limit"))
-      associate (after => scene%statistics%values(place_of(scene%statistics, "after")), &
-                 period => scene%statistics%values(place_of(scene%statistics, "period")))
+      most = nint(scene%settings%output%number("instants_limit"))
+      associate (after => scene%settings%statistics%values(place_of(scene%settings%statistics, "after")), &
+                 period => scene%settings%statistics%values(place_of(scene%settings%statistics, "period")))
          plan%after = seconds(after, "after", -1.0_wp, system, diagnostics)
          slot = 0
          if (period%given) call find_driver(period, "period", system, slot, item, diagnostics)

@@ -27,11 +27,11 @@ contains
       integer, intent(in) :: slot                      !! set of the contact
       integer, intent(in) :: k                         !! contact of the set
 
-      real(wp) :: acceleration(system%n_contact), delta(system%n_contact), rate(system%n_contact)
+      real(wp) :: acceleration(system%loose%n_contact), delta(system%loose%n_contact), rate(system%loose%n_contact)
       integer :: number
 
-      associate (set => system%clearances(slot)%set)
-         number = set%first_contact + k
+      associate (set => system%loose%sets(slot)%set)
+         number = set%before%contacts + k
          if (set%contact(k)%course == rests) then
             call system%turns(t, y, rate, acceleration)
             call set%set_course(k, merge(approaches, parts, rate(number) > 0.0_wp))
@@ -55,11 +55,11 @@ contains
       real(wp), dimension(2) :: by_delta, by_rate, elastic, f
       integer :: item
 
-      associate (set => system%clearances(slot)%set)
+      associate (set => system%loose%sets(slot)%set)
          item = set%item_of(k)
-         call set%law%force(2, [delta, delta], [1.0_wp, -1.0_wp], spread(set%contact(k)%impact_speed, 1, 2), &
-                            spread(set%parameters(:, k), 2, 2), f, by_delta, by_rate, elastic)
-         speed = 0.5_wp*(f(1) - f(2))*sqrt(set%pairs(item)%inverse_mass/max(by_delta(1), tiny(1.0_wp)))
+         call set%laws%normal%force(2, [delta, delta], [1.0_wp, -1.0_wp], spread(set%contact(k)%impact_speed, 1, 2), &
+                            spread(set%laws%parameters(:, k), 2, 2), f, by_delta, by_rate, elastic)
+         speed = 0.5_wp*(f(1) - f(2))*sqrt(set%items%pairs(item)%inverse_mass/max(by_delta(1), tiny(1.0_wp)))
       end associate
       speed = max(speed, tiny(1.0_wp))
    end function speed_of_rest

@@ -81,7 +81,7 @@ contains
          call linkage%add_change(.true., method%step%y1)
          call linkage%set_motion(method%t, method%step%y1)
          gained = mechanical_energy(system) - before
-         if (system%with_ledger) then
+         if (system%ledger%is_kept) then
             z = system%in_state(work_drive)
             method%step%y1(z) = method%step%y1(z) + gained
          end if

@@ -91,7 +91,7 @@ contains
 
       allocate (numbers(size(place%slot)))
       do k = 1, size(numbers)
-         numbers(k) = system%clearances(place%slot(k))%set%first_contact + place%contact(k)
+         numbers(k) = system%loose%sets(place%slot(k))%set%before%contacts + place%contact(k)
       end do
    end function contacts_of
 
@@ -278,31 +278,31 @@ contains
       integer :: from, i, k, m, to
 
       m = 0
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n_contact
                m = m + 1
-               associate (target => whole%clearances(place%slot(m))%set, c => place%contact(m))
+               associate (target => whole%loose%sets(place%slot(m))%set, c => place%contact(m))
                   call target%adopt(c, set, i)
                   if (set%grip%memory == memory_bristle) then
                      y(whole%bristle_place(place%slot(m), c)) = own(system%bristle_place(k, i))
                   end if
-                  if (.not. system%with_ledger) cycle
+                  if (.not. system%ledger%is_kept) cycle
                   from = system%in_state(place_of_loss(m, 1))
-                  to = whole%in_state(place_of_loss(target%first_contact + c, 1))
+                  to = whole%in_state(place_of_loss(target%before%contacts + c, 1))
                   y(to:to + n_loss - 1) = own(from:from + n_loss - 1)
                end associate
             end do
          end associate
       end do
-      do k = 1, system%rubbing%n
-         if (system%rubbing%bristle(k) == 0) cycle
+      do k = 1, system%friction%rubbing%n
+         if (system%friction%rubbing%bristle(k) == 0) cycle
          y(whole%rubbing_place(place%rubbing(k))) = own(system%rubbing_place(k))
       end do
-      if (.not. system%with_ledger) return
-      if (system%rubbing%n > 0) then
-         from = system%in_state(place_of_joint_loss(system%n_contact))
-         to = whole%in_state(place_of_joint_loss(whole%n_contact))
+      if (.not. system%ledger%is_kept) return
+      if (system%friction%rubbing%n > 0) then
+         from = system%in_state(place_of_joint_loss(system%loose%n_contact))
+         to = whole%in_state(place_of_joint_loss(whole%loose%n_contact))
          y(to) = y(to) + own(from)
       end if
       from = system%in_state(0)

@@ -61,9 +61,9 @@ contains
             end if
          end associate
       end do
-      allocate (system%clearances(n), system%linkage%ideal(n_ideal))
+      allocate (system%loose%sets(n), system%linkage%ideal(n_ideal))
       do k = 1, n
-         call move_alloc(slots(k)%set, system%clearances(k)%set)
+         call move_alloc(slots(k)%set, system%loose%sets(k)%set)
       end do
       do k = 1, n_ideal
          call move_alloc(twins(k)%set, system%linkage%ideal(k)%set)
@@ -167,16 +167,16 @@ contains
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
       call slot%set%new(items, ties%point(1), ties%point(2), scene%points, scene%laws(normal_law)%law, friction)
-      if (face_law > 0) allocate (slot%set%face_law, source=scene%laws(face_law)%law)
-      slot%set%leaves = [(0, i=1, size(items))]
-      allocate (slot%set%way(2, size(items)), source=0.0_wp)
+      if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
+      slot%set%items%leaves = [(0, i=1, size(items))]
+      allocate (slot%set%items%way(2, size(items)), source=0.0_wp)
       do i = 1, size(items)
-         if (ties(i)%by_joint) call look_at_joint(scene, ties(i)%joint(1), slot%set%leaves(i), slot%set%way(:, i))
+         if (ties(i)%by_joint) call look_at_joint(scene, ties(i)%joint(1), slot%set%items%leaves(i), slot%set%items%way(:, i))
       end do
-      slot%set%first = system%n_loose
-      slot%set%first_contact = system%n_contact
-      system%n_loose = system%n_loose + slot%set%n
-      system%n_contact = system%n_contact + slot%set%n_contact
+      slot%set%before%items = system%loose%n
+      slot%set%before%contacts = system%loose%n_contact
+      system%loose%n = system%loose%n + slot%set%n
+      system%loose%n_contact = system%loose%n_contact + slot%set%n_contact
       call slot%set%prepare(items)
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set

@@ -64,7 +64,7 @@ contains
       if (scene%analysis /= analysis_dynamic) return
       call find_known_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
-      if (scene%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
+      if (scene%settings%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
       ! without any unknown nothing would control the step, and the works would be as good as chance
       if (size(reduction%links) == scene%bodies%n) reduction%links = reduction%links(:0)
       associate (links => reduction%links)
@@ -73,8 +73,8 @@ contains
             if (links(k)%driver > 0) reduction%choices(links(k)%driver)%is_fixing(links(k)%driving) = .true.
          end do
          if (with_start_rows) return
-         if (scene%dynamic%word("coordinates") == "full") return
-         associate (method => scene%dynamic%values(place_of(scene%dynamic, "method"))%text)
+         if (scene%settings%dynamic%word("coordinates") == "full") return
+         associate (method => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "method"))%text)
             if (method == "ida" .or. (method == "bdf" .and. is_large(scene))) return
          end associate
          is_known = .false.

@@ -40,7 +40,7 @@ contains
          call coordinates%find_masses(scene%bodies, linkage%mass)
       end associate
       linkage%scales%length = size_of_bodies(scene)
-      linkage%scales%tolerance = scene%dynamic%number("tolerance")
+      linkage%scales%tolerance = scene%settings%dynamic%number("tolerance")
       call new_motion(n, linkage%motion)
       call linkage%deck_state(q, v)
       call linkage%place_bodies(q, 0.0_wp*v)
@@ -135,7 +135,7 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      word = scene%dynamic%word("solver")
+      word = scene%settings%dynamic%word("solver")
       if (word == "auto") then
          word = "sparse"
          if (schur_is_cheap(linkage%rows)) word = "schur"

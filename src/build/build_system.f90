@@ -45,9 +45,9 @@ contains
       do k = 1, n_joint_kinds
          is_taken(k) = with_start_rows .or. .not. scene%joints(k)%info%is_start_only
       end do
-      system%with_ledger = scene%dynamic%flag("ledger") &
+      system%ledger%is_kept = scene%settings%dynamic%flag("ledger") &
                            .and. scene%analysis == analysis_dynamic
-      system%with_energies = system%with_ledger .or. scene%analysis /= analysis_dynamic
+      system%ledger%has_energies = system%ledger%is_kept .or. scene%analysis /= analysis_dynamic
       call choose_bodies(scene, levels, with_start_rows, reduction)
       associate (choices => reduction%choices, linkage => system%linkage)
          call begin_linkage(scene, linkage)
@@ -61,7 +61,7 @@ contains
          call set_guided(scene, reduction%guides, choices, linkage)
          linkage%piece = piece_at_start(scene)
          call declare_rows(linkage)
-         call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%rubbing)
+         call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%friction%rubbing)
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
          call choose_hold(scene, system)
@@ -69,21 +69,22 @@ contains
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
-      allocate (system%losses(n_loss, system%n_contact), source=0.0_wp)
-      system%n_quadrature = merge(n_quadratures(system%n_contact) + merge(1, 0, system%rubbing%n > 0), 0, system%with_ledger)
+      allocate (system%loose%losses(n_loss, system%loose%n_contact), source=0.0_wp)
+      system%n_quadrature = merge(n_quadratures(system%loose%n_contact) + merge(1, 0, system%friction%rubbing%n > 0), 0, &
+                                  system%ledger%is_kept)
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_grips(system)
-      system%functions%n_contact = system%n_contact
-      call system%functions%add(touch_function)
-      if (system%grips%n_slip > 0) call system%functions%add(slip_function)
-      if (any([(system%clearances(k)%set%law%jumps_at_turn, k=1, size(system%clearances))])) then
-         call system%functions%add(turn_function)
+      system%loose%functions%n_contact = system%loose%n_contact
+      call system%loose%functions%add(touch_function)
+      if (system%friction%grips%n_slip > 0) call system%loose%functions%add(slip_function)
+      if (any([(system%loose%sets(k)%set%laws%normal%jumps_at_turn, k=1, size(system%loose%sets))])) then
+         call system%loose%functions%add(turn_function)
       end if
-      system%n_event = system%functions%n
-      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%grips%n_bristle == 0 &
-                        .and. system%rubbing%n == 0
+      system%n_event = system%loose%functions%n
+      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
+                        .and. system%friction%rubbing%n == 0
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%grips%n_slip > 0 .and. scene%dynamic%word("method") == "ida") then
+      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
          system%is_large = .false.
       end if
    end subroutine new_system
@@ -96,17 +97,17 @@ contains
 
       n_bristle = 0
       n_slip = 0
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             call set%place_bristles(n_bristle)
             if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%n_contact
             if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
          end associate
       end do
-      system%rubbing%first_bristle = n_bristle
-      n_bristle = n_bristle + system%rubbing%n_bristle
+      system%friction%rubbing%first_bristle = n_bristle
+      n_bristle = n_bristle + system%friction%rubbing%n_bristle
       system%n = system%n + n_bristle
-      call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%grips)
+      call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%friction%grips)
    end subroutine count_grips
 
    !> Gravity, and force elements: one set per kind that has rows.
@@ -145,14 +146,14 @@ contains
       character(:), allocatable :: word
       integer :: k
 
-      associate (value => scene%dynamic%values(place_of(scene%dynamic, "stabilise")), &
-                 tolerance => scene%dynamic%number("tolerance"))
+      associate (value => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "stabilise")), &
+                 tolerance => scene%settings%dynamic%number("tolerance"))
          word = value%text
          if (word == "auto") then
             word = "projection"
             if (.not. all_smooth(scene)) word = "baumgarte"
             if (system%linkage%rows%n_solve == 0 .or. &
-                scene%dynamic%word("method") == "ida") word = "none"
+                scene%settings%dynamic%word("method") == "ida") word = "none"
          end if
          do k = 1, n_hold_kinds
             call new_hold(k, way)

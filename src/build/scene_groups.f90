@@ -246,8 +246,7 @@ contains
       one%laws = scene%laws
       one%frictions = scene%frictions
       one%analysis = scene%analysis
-      one%dynamic_kind = scene%dynamic_kind
-      one%dynamic = scene%dynamic
+      one%settings%dynamic = scene%settings%dynamic
       do k = 1, n_joint_kinds
          one%joints(k)%info = scene%joints(k)%info
       end do

@@ -66,7 +66,7 @@ contains
             journal%radius_i = -item%number("radius_i")
             journal%radius_j = item%number("radius_j")
             journal%clearance = journal%radius_i - journal%radius_j
-            self%clearance(k) = -journal%clearance
+            self%items%clearance(k) = -journal%clearance
          end associate
       end do
    end subroutine discs_prepare

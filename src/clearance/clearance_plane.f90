@@ -65,11 +65,11 @@ contains
          associate (item => items(k))
             c = cos(item%number("axis_angle"))
             s = sin(item%number("axis_angle"))
-            self%normal_i(:, k) = -merge([c, s], [-s, c], item%word("axis") == "x")
-            self%radius(k) = item%number("radius")
-            self%height(k) = -self%radius(k)
-            self%point_j(:, k) = self%s_j(1:2, k)
-            self%clearance(k) = self%radius(k)
+            self%plane%normal_i(:, k) = -merge([c, s], [-s, c], item%word("axis") == "x")
+            self%plane%radius(k) = item%number("radius")
+            self%plane%height(k) = -self%plane%radius(k)
+            self%plane%point_j(:, k) = self%items%s_j(1:2, k)
+            self%items%clearance(k) = self%plane%radius(k)
          end associate
       end do
    end subroutine plane_prepare

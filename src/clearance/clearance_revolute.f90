@@ -72,15 +72,15 @@ contains
 
       integer :: k
 
-      self%is_round = .true.
+      self%traits%is_round = .true.
       call self%make_room()
       allocate (self%journal(self%n))
       do k = 1, self%n
          associate (item => items(k), journal => self%journal(k))
-            self%clearance(k) = item%number("clearance")
+            self%items%clearance(k) = item%number("clearance")
             journal%radius_i = item%number("bearing_radius")
-            journal%radius_j = journal%radius_i - self%clearance(k)
-            journal%clearance = self%clearance(k)
+            journal%radius_j = journal%radius_i - self%items%clearance(k)
+            journal%clearance = self%items%clearance(k)
             journal%is_book = item%word("form") == "book"
             if (journal%is_book) journal%share = 0.0_wp
          end associate

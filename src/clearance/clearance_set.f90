@@ -26,22 +26,37 @@ module clearance_set
    integer, parameter :: loss_contact = 1   !! power taken by contact damping
    integer, parameter :: loss_friction = 2  !! power taken by friction
 
+   !> What a geometry is like.
+   type :: clearance_traits_t
+      logical :: is_round = .false.       !! the clearance is a radial one
+      logical :: has_faces = .false.      !! contacts of an item share a face, and what it stores
+      logical :: energy_jumps = .false.   !! stored energy and forces may jump where a contact begins or ends
+   end type clearance_traits_t
+
+   !> Items of a geometry: where they are, and their surfaces.
+   type :: clearance_items_t
+      integer, allocatable :: body(:, :)          !! (2, n) bodies of bearing and journal, 0: ground
+      real(wp), allocatable :: s_i(:, :)          !! (3, n) centre of the bearing, frame of its body [m]
+      real(wp), allocatable :: s_j(:, :)          !! (3, n) centre of the journal, frame of its body [m]
+      real(wp), allocatable :: clearance(:)       !! (n) clearance [m]
+      integer, allocatable :: leaves(:)           !! (n) of items tied by a joint: what that leaves, see `kind_info`
+      real(wp), allocatable :: way(:, :)          !! (2, n) and the axis of one that leaves a way, frame of i [1]
+      type(surfaces_t), allocatable :: pairs(:)   !! (n) the surfaces
+   end type clearance_items_t
+
+   !> Laws of all items of a set.
+   type :: clearance_laws_t
+      real(wp), allocatable :: parameters(:, :)        !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
+      class(normal_law_t), allocatable :: normal       !! normal law of all items
+      class(normal_law_t), allocatable :: face         !! normal law of faces, where the geometry has some; unallocated: none
+      class(friction_law_t), allocatable :: friction   !! friction law of all items; unallocated: none
+   end type clearance_laws_t
+
    !> All items that share a geometry and its laws.
    type, abstract, extends(contact_states_t) :: clearance_set_t
-      logical :: is_round = .false.                         !! the clearance is a radial one
-      logical :: has_faces = .false.                        !! contacts of an item share a face, and what it stores
-      logical :: energy_jumps = .false.                     !! stored energy and forces may jump where a contact begins or ends
-      integer, allocatable :: body(:, :)                    !! (2, n) bodies of bearing and journal, 0: ground
-      real(wp), allocatable :: s_i(:, :)                    !! (3, n) centre of the bearing, frame of its body [m]
-      real(wp), allocatable :: s_j(:, :)                    !! (3, n) centre of the journal, frame of its body [m]
-      real(wp), allocatable :: clearance(:)                 !! (n) clearance [m]
-      integer, allocatable :: leaves(:)                     !! (n) of items tied by a joint: what that leaves, see `kind_info`
-      real(wp), allocatable :: way(:, :)                    !! (2, n) and the axis of one that leaves a way, frame of i [1]
-      type(surfaces_t), allocatable :: pairs(:)             !! (n) the surfaces
-      real(wp), allocatable :: parameters(:, :)             !! (n_law_parameter, n_contact) of the normal law, fitted to them [any]
-      class(normal_law_t), allocatable :: law               !! normal law of all items
-      class(normal_law_t), allocatable :: face_law          !! normal law of faces, where the geometry has some; unallocated: none
-      class(friction_law_t), allocatable :: friction        !! friction law of all items; unallocated: none
+      type(clearance_traits_t) :: traits   !! what the geometry is like
+      type(clearance_items_t) :: items     !! where the items are, and their surfaces
+      type(clearance_laws_t) :: laws       !! laws of all items
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure, nopass :: contact_labels => clearance_contact_labels
@@ -191,21 +206,21 @@ contains
       self%labels = self%contact_labels()
       self%n_contact_item = size(self%labels)
       self%n_contact = self%n*self%n_contact_item
-      allocate (self%names(self%n), self%body(2, self%n), self%s_i(3, self%n), self%s_j(3, self%n))
-      allocate (self%clearance(self%n), self%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
-      allocate (self%pairs(self%n))
+      allocate (self%names(self%n), self%items%body(2, self%n), self%items%s_i(3, self%n), self%items%s_j(3, self%n))
+      allocate (self%items%clearance(self%n), self%laws%parameters(n_law_parameter, self%n_contact), source=0.0_wp)
+      allocate (self%items%pairs(self%n))
       allocate (self%contact(self%n_contact))
-      allocate (self%law, source=law)
+      allocate (self%laws%normal, source=law)
       if (allocated(friction)) then
-         if (friction%is_active()) allocate (self%friction, source=friction)
+         if (friction%is_active()) allocate (self%laws%friction, source=friction)
          if (friction%is_active()) call new_grip(self%n_contact, friction, self%grip)
       end if
       do k = 1, self%n
          self%names(k)%s = items(k)%name
-         self%body(1, k) = points%body(bearing(k))
-         self%body(2, k) = points%body(journal(k))
-         self%s_i(:, k) = points%s(:, bearing(k))
-         self%s_j(:, k) = points%s(:, journal(k))
+         self%items%body(1, k) = points%body(bearing(k))
+         self%items%body(2, k) = points%body(journal(k))
+         self%items%s_i(:, k) = points%s(:, bearing(k))
+         self%items%s_j(:, k) = points%s(:, journal(k))
       end do
    end subroutine clearance_new
 
@@ -225,7 +240,7 @@ contains
       real(wp) :: span(2)                         !! (2) in bodies i and j [m]
 
       associate (item => self%item_of(contact))
-         span = [sum(abs(self%s_i(:, item))), sum(abs(self%s_j(:, item))) + self%clearance(item)]
+         span = [sum(abs(self%items%s_i(:, item))), sum(abs(self%items%s_j(:, item))) + self%items%clearance(item)]
       end associate
    end function clearance_span_of
 
@@ -264,14 +279,14 @@ contains
       integer :: c, k
 
       do k = 1, self%n
-         call self%describe(items(k), materials, self%pairs(k))
-         bodies = pack(self%body(:, k), self%body(:, k) > 0)
+         call self%describe(items(k), materials, self%items%pairs(k))
+         bodies = pack(self%items%body(:, k), self%items%body(:, k) > 0)
          if (.not. all(is_driven(bodies))) bodies = pack(bodies, .not. is_driven(bodies))
-         self%pairs(k)%inverse_mass = sum(1.0_wp/mass(bodies))
-         call self%law%fit(self%pairs(k), parameters, message, help)
-         parameters(parameter_gentle) = gentle**2*self%pairs(k)%inverse_mass
+         self%items%pairs(k)%inverse_mass = sum(1.0_wp/mass(bodies))
+         call self%laws%normal%fit(self%items%pairs(k), parameters, message, help)
+         parameters(parameter_gentle) = gentle**2*self%items%pairs(k)%inverse_mass
          do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
-            self%parameters(:, c) = parameters
+            self%laws%parameters(:, c) = parameters
          end do
       end do
    end subroutine clearance_fit_law
@@ -287,9 +302,9 @@ contains
       integer :: item
 
       item = self%item_of(k)
-      associate (inverse_mass => self%pairs(item)%inverse_mass)
-         speed = sqrt(2.0_wp*inverse_mass*self%law%potential(max(delta, 0.0_wp), self%parameters(:, k)))
-         time = self%law%contact_time(self%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
+      associate (inverse_mass => self%items%pairs(item)%inverse_mass)
+         speed = sqrt(2.0_wp*inverse_mass*self%laws%normal%potential(max(delta, 0.0_wp), self%laws%parameters(:, k)))
+         time = self%laws%normal%contact_time(self%laws%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
       end associate
       if (time > 0.0_wp) self%contact(k)%swing = pi/time
    end subroutine clearance_note_swing
@@ -317,8 +332,8 @@ contains
       integer :: item
 
       item = self%item_of(k)
-      time = self%law%contact_time(self%parameters(:, k), speed, &
-                                   inverse_mass(self%body(1, item)) + inverse_mass(self%body(2, item)))
+      time = self%laws%normal%contact_time(self%laws%parameters(:, k), speed, &
+                                   inverse_mass(self%items%body(1, item)) + inverse_mass(self%items%body(2, item)))
    end function clearance_contact_time
 
 end module clearance_set

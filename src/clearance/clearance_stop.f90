@@ -80,21 +80,21 @@ contains
 
       call self%make_planes()
       do k = 1, self%n
-         self%clearance(k) = items(k)%number("lever")
+         self%items%clearance(k) = items(k)%number("lever")
          do c = lower, upper
             m = 2*(k - 1) + c
-            self%point_j(:, m) = self%s_j(1:2, k)
-            self%height(m) = never
+            self%plane%point_j(:, m) = self%items%s_j(1:2, k)
+            self%plane%height(m) = never
             if (.not. items(k)%is_given(limits(c))) cycle
             limit = items(k)%number(limits(c))
             side = merge(1.0_wp, -1.0_wp, c == upper)
-            if (self%leaves(k) == leaves_turn) then
-               self%point_j(1, m) = self%point_j(1, m) + items(k)%number("lever")
-               self%normal_i(:, m) = side*[-sin(limit), cos(limit)]
-               self%height(m) = 0.0_wp
+            if (self%items%leaves(k) == leaves_turn) then
+               self%plane%point_j(1, m) = self%plane%point_j(1, m) + items(k)%number("lever")
+               self%plane%normal_i(:, m) = side*[-sin(limit), cos(limit)]
+               self%plane%height(m) = 0.0_wp
             else
-               self%normal_i(:, m) = side*self%way(:, k)
-               self%height(m) = side*limit
+               self%plane%normal_i(:, m) = side*self%items%way(:, k)
+               self%plane%height(m) = side*limit
             end if
          end do
       end do

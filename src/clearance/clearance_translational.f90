@@ -109,36 +109,37 @@ contains
       integer :: c, k, m, side
 
       call self%make_planes()
-      allocate (self%axis(2, self%n), self%ends(2, self%n), self%face_parameters(n_law_parameter, self%n), source=0.0_wp)
-      allocate (self%faces(self%n), source=faces_corners)
+      allocate (self%guide%axis(2, self%n), self%guide%ends(2, self%n), self%guide%face_parameters(n_law_parameter, self%n), &
+                source=0.0_wp)
+      allocate (self%guide%faces(self%n), source=faces_corners)
       do k = 1, self%n
          associate (item => items(k))
-            self%axis(:, k) = direction(item%word("axis"), item%number("axis_angle"))
+            self%guide%axis(:, k) = direction(item%word("axis"), item%number("axis_angle"))
             along = direction(item%word("slider_axis"), item%number("slider_angle"))
             gap = item%number("gap")
             if (item%is_given("gap_upper")) gap(upper) = item%number("gap_upper")
             if (item%is_given("gap_lower")) gap(lower) = item%number("gap_lower")
-            self%clearance(k) = minval(gap)
-            self%ends(:, k) = [item%number("guide_start"), item%number("guide_end")]
-            if (maxval(abs(self%ends(:, k))) <= 0.0_wp) self%ends(:, k) = [-huge(1.0_wp), huge(1.0_wp)]
+            self%items%clearance(k) = minval(gap)
+            self%guide%ends(:, k) = [item%number("guide_start"), item%number("guide_end")]
+            if (maxval(abs(self%guide%ends(:, k))) <= 0.0_wp) self%guide%ends(:, k) = [-huge(1.0_wp), huge(1.0_wp)]
             do side = upper, lower
                do c = 1, n_corner
                   m = (k - 1)*self%n_contact_item + (side - 1)*n_corner + c
-                  self%normal_i(:, m) = merge(1.0_wp, -1.0_wp, side == upper)*[-self%axis(2, k), self%axis(1, k)]
-                  self%point_j(:, m) = self%s_j(1:2, k) + corner_x(c)*item%number("length")*along &
+                  self%plane%normal_i(:, m) = merge(1.0_wp, -1.0_wp, side == upper)*[-self%guide%axis(2, k), self%guide%axis(1, k)]
+                  self%plane%point_j(:, m) = self%items%s_j(1:2, k) + corner_x(c)*item%number("length")*along &
                                        + corner_y(c)*item%number("height")*[-along(2), along(1)]
-                  self%height(m) = 0.5_wp*item%number("height") + gap(side)
+                  self%plane%height(m) = 0.5_wp*item%number("height") + gap(side)
                end do
             end do
             select case (item%word("faces"))
-            case ("book"); self%faces(k) = faces_book
-            case ("blend"); self%faces(k) = faces_blend
-            case ("foundation"); self%faces(k) = faces_foundation
+            case ("book"); self%guide%faces(k) = faces_book
+            case ("blend"); self%guide%faces(k) = faces_blend
+            case ("foundation"); self%guide%faces(k) = faces_foundation
             end select
          end associate
       end do
-      self%has_faces = any(self%faces /= faces_corners)
-      self%energy_jumps = any(self%faces == faces_book) .or. any(self%ends(2, :) < huge(1.0_wp))
+      self%traits%has_faces = any(self%guide%faces /= faces_corners)
+      self%traits%energy_jumps = any(self%guide%faces == faces_book) .or. any(self%guide%ends(2, :) < huge(1.0_wp))
    end subroutine translational_prepare
 
    !> Unit vector at an angle from an axis of a body.
@@ -207,12 +208,12 @@ contains
       integer :: k
 
       call clearance_fit_law(self, items, materials, mass, is_driven)
-      if (.not. allocated(self%face_law)) return
+      if (.not. allocated(self%laws%face)) return
       do k = 1, self%n
-         pair = self%pairs(k)
+         pair = self%items%pairs(k)
          pair%shape = shape_face
-         call self%face_law%fit(pair, self%face_parameters(:, k), message, help)
-         self%face_parameters(parameter_gentle, k) = gentle**2*pair%inverse_mass
+         call self%laws%face%fit(pair, self%guide%face_parameters(:, k), message, help)
+         self%guide%face_parameters(parameter_gentle, k) = gentle**2*pair%inverse_mass
       end do
    end subroutine translational_fit_law
 

@@ -15,18 +15,23 @@ module contact_states
    private
    public :: contact_states_t
 
+   !> Numbers of earlier sets.
+   type :: numbers_before_t
+      integer :: items = 0      !! items of earlier sets
+      integer :: contacts = 0   !! contacts of earlier sets
+   end type numbers_before_t
+
    !> The contacts of a set.
    type :: contact_states_t
-      integer :: n = 0                                      !! number of items
-      integer :: n_contact_item = 1                         !! contacts of an item
-      integer :: n_contact = 0                              !! contacts of all items
-      integer :: n_touching = 0                             !! number of contacts that touch
-      integer :: first = 0                                  !! items of earlier sets
-      integer :: first_contact = 0                          !! contacts of earlier sets
-      type(text_t), allocatable :: names(:)                 !! (n) names
-      type(text_t), allocatable :: labels(:)                !! (n_contact_item) names of the contacts of an item
-      type(contact_memory_t), allocatable :: contact(:)     !! (n_contact) state of the contacts
-      type(grip_t) :: grip                                  !! what the contacts remember of their friction
+      integer :: n = 0                                    !! number of items
+      integer :: n_contact_item = 1                       !! contacts of an item
+      integer :: n_contact = 0                            !! contacts of all items
+      integer :: n_touching = 0                           !! number of contacts that touch
+      type(numbers_before_t) :: before                    !! of earlier sets
+      type(text_t), allocatable :: names(:)               !! (n) names
+      type(text_t), allocatable :: labels(:)              !! (n_contact_item) names of the contacts of an item
+      type(contact_memory_t), allocatable :: contact(:)   !! (n_contact) state of the contacts
+      type(grip_t) :: grip                                !! what the contacts remember of their friction
    contains
       procedure :: item_of
       procedure :: label_of
@@ -146,7 +151,7 @@ contains
       class(contact_states_t), intent(inout) :: self  !! the set
       real(wp), intent(in) :: delta(:)                !! (all contacts) penetrations [m]
 
-      self%contact%is_touching = delta(self%first_contact + 1:self%first_contact + self%n_contact) > 0.0_wp
+      self%contact%is_touching = delta(self%before%contacts + 1:self%before%contacts + self%n_contact) > 0.0_wp
       self%n_touching = count(self%contact%is_touching)
    end subroutine touch_where
 

@@ -31,13 +31,13 @@ contains
 
       real(wp) :: stored
 
-      if (set%has_faces) return
+      if (set%traits%has_faces) return
       associate (contact => set%contact(k))
          if (force > 0.0_wp) then
             contact%is_cut_off = .false.
             return
          end if
-         stored = set%law%potential(max(delta, 0.0_wp), set%parameters(:, k))
+         stored = set%laws%normal%potential(max(delta, 0.0_wp), set%laws%parameters(:, k))
          if (contact%is_cut_off) contact%amends = contact%held - stored - quadrature
          contact%is_cut_off = .true.
          contact%held = quadrature + contact%amends + stored
@@ -59,7 +59,7 @@ contains
          lost = quadrature + contact%amends
          if (.not. contact%is_cut_off) return
          call set%watch(k, motion, delta, rate, force, force_rate)
-         lost = contact%held - set%law%potential(max(delta, 0.0_wp), set%parameters(:, k))
+         lost = contact%held - set%laws%normal%potential(max(delta, 0.0_wp), set%laws%parameters(:, k))
       end associate
    end function lost_by_damping
 

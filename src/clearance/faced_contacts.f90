@@ -49,7 +49,7 @@ contains
       type(point_contact_t) :: contacts(most_of_item)
       integer :: c, first
 
-      if (.not. (self%has_faces .and. self%contact(k)%is_touching)) then
+      if (.not. (self%traits%has_faces .and. self%contact(k)%is_touching)) then
          call point_watch(self, k, motion, delta, rate, force, force_rate)
          return
       end if
@@ -84,7 +84,7 @@ contains
          acceleration(c) = self%penetration_acceleration(first + c, motion, contacts(c))
       end do
       ! the others move too, and may be faster; at the onset, of the last digit of the penetration
-      h = max(abs(contacts(k - first)%delta), epsilon(1.0_wp)*(abs(self%height(k)) + norm2(contacts(k - first)%arm_i(1:2))))
+      h = max(abs(contacts(k - first)%delta), epsilon(1.0_wp)*(abs(self%plane%height(k)) + norm2(contacts(k - first)%arm_i(1:2))))
       h = part*min(h/max(maxval(abs(contacts%rate)), tiny(1.0_wp)), sqrt(h/max(maxval(abs(acceleration(:n))), tiny(1.0_wp))))
       force_rate = 0.0_wp
       do place = 1, size(places)
@@ -124,7 +124,7 @@ contains
       type(point_contact_t) :: contacts(most_of_item)
       integer :: c, item, n
 
-      if (.not. self%has_faces) then
+      if (.not. self%traits%has_faces) then
          energy = point_elastic_energy(self, motion)
          return
       end if

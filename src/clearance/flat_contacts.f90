@@ -22,12 +22,17 @@ module flat_contacts
    private
    public :: flat_contacts_t
 
+   !> Planes, and what comes near them.
+   type :: plane_surfaces_t
+      real(wp), allocatable :: normal_i(:, :)   !! (2, n_contact) normal of the plane, frame of i [1]
+      real(wp), allocatable :: point_j(:, :)    !! (2, n_contact) the point A, frame of j [m]
+      real(wp), allocatable :: height(:)        !! (n_contact) h: plane from P along the normal, less the radius [m]
+      real(wp), allocatable :: radius(:)        !! (n_contact) radius of the circle, 0: a point [m]
+   end type plane_surfaces_t
+
    !> Points or circles against planes. `prepare` of a geometry calls `make_planes` and fills the parameters.
    type, abstract, extends(point_contacts_t) :: flat_contacts_t
-      real(wp), allocatable :: normal_i(:, :)          !! (2, n_contact) normal of the plane, frame of i [1]
-      real(wp), allocatable :: point_j(:, :)           !! (2, n_contact) the point A, frame of j [m]
-      real(wp), allocatable :: height(:)               !! (n_contact) h: plane from P along the normal, less the radius [m]
-      real(wp), allocatable :: radius(:)               !! (n_contact) radius of the circle, 0: a point [m]
+      type(plane_surfaces_t) :: plane   !! planes, and what comes near them
    contains
       procedure, non_overridable :: make_planes
       procedure :: evaluate => flat_evaluate
@@ -47,7 +52,7 @@ contains
 
       m = self%n_contact
       call self%make_room()
-      allocate (self%normal_i(2, m), self%point_j(2, m), self%height(m), self%radius(m), source=0.0_wp)
+      allocate (self%plane%normal_i(2, m), self%plane%point_j(2, m), self%plane%height(m), self%plane%radius(m), source=0.0_wp)
    end subroutine make_planes
 
    !> Add the contact forces of the touching contacts.
@@ -72,7 +77,7 @@ contains
       integer :: k
 
       do k = 1, self%n_contact
-         if (.not. (self%contact(k)%is_touching .or. self%has_faces .or. self%law%acts_apart)) cycle
+         if (.not. (self%contact(k)%is_touching .or. self%traits%has_faces .or. self%laws%normal%acts_apart)) cycle
          call measure_one(self, k, .true., motion, contact)
          self%work%contacts(k) = contact
       end do
@@ -90,14 +95,14 @@ contains
       integer :: i, item, j
 
       item = self%item_of(k)
-      i = self%body(1, item)
-      j = self%body(2, item)
-      s_i = motion%rot(1:2, 1, i)*self%s_i(1, item) + motion%rot(1:2, 2, i)*self%s_i(2, item)
-      s_j = motion%rot(1:2, 1, j)*self%point_j(1, k) + motion%rot(1:2, 2, j)*self%point_j(2, k)
-      n = motion%rot(1:2, 1, i)*self%normal_i(1, k) + motion%rot(1:2, 2, i)*self%normal_i(2, k)
-      contact%delta = dot_product(n, motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i) - self%height(k)
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      s_i = motion%rot(1:2, 1, i)*self%items%s_i(1, item) + motion%rot(1:2, 2, i)*self%items%s_i(2, item)
+      s_j = motion%rot(1:2, 1, j)*self%plane%point_j(1, k) + motion%rot(1:2, 2, j)*self%plane%point_j(2, k)
+      n = motion%rot(1:2, 1, i)*self%plane%normal_i(1, k) + motion%rot(1:2, 2, i)*self%plane%normal_i(2, k)
+      contact%delta = dot_product(n, motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i) - self%plane%height(k)
       reach = 0.0_wp
-      if (self%radius(k) > 0.0_wp) reach = self%radius(k) - 0.5_wp*contact%delta
+      if (self%plane%radius(k) > 0.0_wp) reach = self%plane%radius(k) - 0.5_wp*contact%delta
       arm_j = s_j + reach*n
       arm_i = motion%r(1:2, j) - motion%r(1:2, i) + arm_j
       v = motion%v(1:2, j) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
@@ -121,10 +126,10 @@ contains
       integer :: i, item, j
 
       item = self%item_of(k)
-      i = self%body(1, item)
-      j = self%body(2, item)
-      s_i = motion%rot(1:2, 1, i)*self%s_i(1, item) + motion%rot(1:2, 2, i)*self%s_i(2, item)
-      s_j = motion%rot(1:2, 1, j)*self%point_j(1, k) + motion%rot(1:2, 2, j)*self%point_j(2, k)
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      s_i = motion%rot(1:2, 1, i)*self%items%s_i(1, item) + motion%rot(1:2, 2, i)*self%items%s_i(2, item)
+      s_j = motion%rot(1:2, 1, j)*self%plane%point_j(1, k) + motion%rot(1:2, 2, j)*self%plane%point_j(2, k)
       tangent = [-contact%normal(2), contact%normal(1)]
       d = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
       v = motion%v(1:2, j) + motion%omega(3, j)*[-s_j(2), s_j(1)] - motion%v(1:2, i) - motion%omega(3, i)*[-s_i(2), s_i(1)]
@@ -148,11 +153,11 @@ contains
       integer :: i, item, j
 
       item = self%item_of(k)
-      i = self%body(1, item)
-      j = self%body(2, item)
-      s_j = motion%rot(1:2, 1, j)*self%point_j(1, k) + motion%rot(1:2, 2, j)*self%point_j(2, k)
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      s_j = motion%rot(1:2, 1, j)*self%plane%point_j(1, k) + motion%rot(1:2, 2, j)*self%plane%point_j(2, k)
       v = motion%omega(3, j)*[-s_j(2), s_j(1)]  ! of the point A, from the centre of mass
-      nearer = merge(0.5_wp*contact%rate, 0.0_wp, self%radius(k) > 0.0_wp)
+      nearer = merge(0.5_wp*contact%rate, 0.0_wp, self%plane%radius(k) > 0.0_wp)
       turn = motion%omega(3, i)
       speed_i = dot_product(contact%normal(1:2), motion%v(1:2, j) + v - motion%v(1:2, i)) - nearer
       speed_j = dot_product(contact%normal(1:2), v) - nearer
@@ -165,7 +170,7 @@ contains
       real(wp) :: span(2)                         !! (2) in bodies i and j [m]
 
       associate (item => self%item_of(contact))
-         span = [sum(abs(self%s_i(:, item))) + abs(self%height(contact)), sum(abs(self%point_j(:, contact)))]
+         span = [sum(abs(self%items%s_i(:, item))) + abs(self%plane%height(contact)), sum(abs(self%plane%point_j(:, contact)))]
       end associate
    end function flat_span_of
 

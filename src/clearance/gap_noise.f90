@@ -33,7 +33,7 @@ contains
       do k = 1, set%n_contact
          item = set%item_of(k)
          span = set%span_of(k)
-         associate (i => set%body(1, item), j => set%body(2, item))
+         associate (i => set%items%body(1, item), j => set%items%body(2, item))
             noise(k) = operations*eps*(abs(motion%r(1, i)) + abs(motion%r(2, i)) + abs(motion%r(1, j)) + abs(motion%r(2, j)) &
                                        + (1.0_wp + abs(motion%angle(i)))*span(1) + (1.0_wp + abs(motion%angle(j)))*span(2) &
                                        + shared)
@@ -41,7 +41,7 @@ contains
                     + abs(motion%omega(3, j))*span(2) + abs(motion%omega(3, i)) &
                     *(abs(motion%r(1, j) - motion%r(1, i)) + abs(motion%r(2, j) - motion%r(2, i)) + span(1))
             rate_noise(k) = operations*eps*speed
-            if (set%is_round) rate_noise(k) = rate_noise(k) + speed*noise(k)/set%clearance(item)
+            if (set%traits%is_round) rate_noise(k) = rate_noise(k) + speed*noise(k)/set%items%clearance(item)
          end associate
       end do
    end subroutine find_gap_noise

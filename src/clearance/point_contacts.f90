@@ -169,9 +169,9 @@ contains
 
       integer :: k
 
-      if (.not. self%has_faces) self%work%f_rub = self%work%f_n
+      if (.not. self%traits%has_faces) self%work%f_rub = self%work%f_n
       if (self%grip%memory == memory_none) then
-         call rub_by_law(self%n_contact, self%friction, self%contact, self%work%contacts, self%work%f_rub, self%work%speed, &
+         call rub_by_law(self%n_contact, self%laws%friction, self%contact, self%work%contacts, self%work%f_rub, self%work%speed, &
                          self%work%f_t)
          return
       end if
@@ -180,7 +180,7 @@ contains
          if (.not. self%contact(k)%is_touching) cycle
          call self%lay(k, motion)
          self%grip%tangent(k)%f_n = self%work%f_rub(k)
-         call slip_force(self%grip, self%friction, k)
+         call slip_force(self%grip, self%laws%friction, k)
          self%work%f_t(k) = self%grip%tangent(k)%f_t
       end do
    end subroutine point_rub

@@ -18,7 +18,8 @@ contains
 
       first = (item - 1)*self%n_contact_item + 1
       last = item*self%n_contact_item
-      call press(self%n_contact_item, self%law, self%contact(first:last), self%parameters(:, first:last), contacts, delta, rate, &
+      call press(self%n_contact_item, self%laws%normal, self%contact(first:last), self%laws%parameters(:, first:last), contacts, &
+                 delta, rate, &
                  impact_speed, f_n, slope_delta, slope_rate, f_elastic)
    end procedure point_press
 
@@ -29,8 +30,8 @@ contains
 
       do k = 1, self%n_contact
          call self%measure(k, .false., motion, contact)
-         delta(self%first_contact + k) = contact%delta
-         rate(self%first_contact + k) = contact%rate
+         delta(self%before%contacts + k) = contact%delta
+         rate(self%before%contacts + k) = contact%rate
       end do
    end procedure point_gaps
 
@@ -44,8 +45,9 @@ contains
       rate = contact%rate
       force = 0.0_wp
       force_rate = 0.0_wp
-      if (.not. (self%contact(k)%is_touching .or. self%law%acts_apart)) return
-      call press(1, self%law, self%contact(k:k), self%parameters(:, k:k), [contact], d, d_rate, impact_speed, f, slope_delta, &
+      if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) return
+      call press(1, self%laws%normal, self%contact(k:k), self%laws%parameters(:, k:k), [contact], d, d_rate, impact_speed, f, &
+                 slope_delta, &
                  slope_rate, elastic)
       force = f(1)
       force_rate = slope_delta(1)*rate + slope_rate(1)*self%penetration_acceleration(k, motion, contact)
@@ -60,7 +62,8 @@ contains
       item = self%item_of(k)
       call self%measure(k, .true., motion, contact)
       call self%turning(k, motion, contact, turn, speed_i, speed_j)
-      call lie_in_plane(contact, motion%omega(3, self%body(1, item)), motion%omega(3, self%body(2, item)), turn, speed_i, speed_j, &
+      call lie_in_plane(contact, motion%omega(3, self%items%body(1, item)), motion%omega(3, self%items%body(2, item)), turn, &
+                        speed_i, speed_j, &
                         tangent)
    end procedure point_lie
 
@@ -74,13 +77,13 @@ contains
       do item = 1, self%n
          first = (item - 1)*n
          call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
-         if (channel == "force") values(:, self%first + item) = 0.0_wp
+         if (channel == "force") values(:, self%before%items + item) = 0.0_wp
          do c = 1, n
-            m = self%first_contact + first + c
+            m = self%before%contacts + first + c
             select case (channel)
             case ("force")
                f = planar_force(contacts(c), f_n(c), f_t(c))
-               values(:, self%first + item) = values(:, self%first + item) + f(:size(values, 1))
+               values(:, self%before%items + item) = values(:, self%before%items + item) + f(:size(values, 1))
             case ("penetration")
                values(1, m) = max(contacts(c)%delta, 0.0_wp)
             case ("penetration_rate")
@@ -92,7 +95,7 @@ contains
             case ("state")
                values(1, m) = real(merge(state_contact, state_free, self%contact(first + c)%is_touching), wp)
             case default
-               call self%report_item(channel, item, motion, contacts(:n), f_n(:n), f_t(:n), values(:, self%first + item))
+               call self%report_item(channel, item, motion, contacts(:n), f_n(:n), f_t(:n), values(:, self%before%items + item))
                exit
             end select
          end do
@@ -116,15 +119,15 @@ contains
       f_n = 0.0_wp
       f_t = 0.0_wp
       do c = 1, n
-         call self%measure(first + c, allocated(self%friction), motion, contacts(c))
+         call self%measure(first + c, allocated(self%laws%friction), motion, contacts(c))
       end do
-      if (self%n_touching == 0 .and. .not. self%law%acts_apart) return
+      if (self%n_touching == 0 .and. .not. self%laws%normal%acts_apart) return
       call self%press(item, contacts, f_n, f_elastic(:n))
       f_rub(:n) = f_n
-      if (self%has_faces) call self%share_item(item, contacts, f_n, f_elastic(:n), f_rub(:n))
-      if (.not. allocated(self%friction)) return
+      if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic(:n), f_rub(:n))
+      if (.not. allocated(self%laws%friction)) return
       if (self%grip%memory == memory_none) then
-         call rub_by_law(n, self%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)
+         call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)
       else  ! of the last evaluation: it is no function of the motion alone
          f_t = merge(self%grip%tangent(first + 1:first + n)%f_t, 0.0_wp, self%contact(first + 1:first + n)%is_touching)
       end if
@@ -137,9 +140,9 @@ contains
 
       energy = 0.0_wp
       do k = 1, self%n_contact
-         if (.not. (self%contact(k)%is_touching .or. self%law%acts_apart)) cycle
+         if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) cycle
          call self%measure(k, .false., motion, contact)
-         energy = energy + self%law%potential(contact%delta, self%parameters(:, k))
+         energy = energy + self%laws%normal%potential(contact%delta, self%laws%parameters(:, k))
       end do
    end procedure point_elastic_energy
 

@@ -65,8 +65,9 @@ contains
       class(round_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion            !! positions and velocities
 
-      call measure_journals(self%n, self%law%acts_apart, self%contact, self%body, self%s_i, self%s_j, self%journal, &
-                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, allocated(self%friction), &
+      call measure_journals(self%n, self%laws%normal%acts_apart, self%contact, self%items%body, self%items%s_i, self%items%s_j, &
+                            self%journal, &
+                            ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, allocated(self%laws%friction), &
                             self%work%contacts)
    end subroutine measure_touching
 
@@ -107,10 +108,12 @@ contains
 
       real(wp) :: distance
 
-      call measure_journal(self%body(:, k), self%s_i(:, k), self%s_j(:, k), self%journal(k), ubound(motion%angle, 1), motion%r, &
+      call measure_journal(self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), self%journal(k), &
+                           ubound(motion%angle, 1), motion%r, &
                            motion%rot, motion%v, motion%omega, contact, distance)
       if (with_sliding) then
-         call measure_sliding(self%journal(k), distance, self%body(:, k), ubound(motion%angle, 1), motion%v, motion%omega, contact)
+         call measure_sliding(self%journal(k), distance, self%items%body(:, k), ubound(motion%angle, 1), motion%v, motion%omega, &
+                              contact)
       end if
    end subroutine measure_one
 
@@ -190,8 +193,8 @@ contains
       real(wp) :: a(2), distance, e_dot(2), s_i(2), s_j(2)
       integer :: i, j
 
-      i = self%body(1, k)
-      j = self%body(2, k)
+      i = self%items%body(1, k)
+      j = self%items%body(2, k)
       call find_centres(self, k, motion, s_i, s_j, distance)
       e_dot = motion%v(1:2, j) - motion%v(1:2, i) + motion%omega(3, j)*[-s_j(2), s_j(1)] - motion%omega(3, i)*[-s_i(2), s_i(1)]
       a = motion%a(1:2, j) - motion%a(1:2, i) &
@@ -215,8 +218,8 @@ contains
       real(wp) :: distance, longer, p_i(2), p_j(2), s_i(2), s_j(2)
       integer :: i, j
 
-      i = self%body(1, k)
-      j = self%body(2, k)
+      i = self%items%body(1, k)
+      j = self%items%body(2, k)
       call find_centres(self, k, motion, s_i, s_j, distance)
       longer = merge(0.0_wp, 0.5_wp*contact%rate, self%journal(k)%is_book)  ! rate of the distance from the bearing's centre
       p_i = motion%omega(3, i)*[-s_i(2), s_i(1)]  ! of the centres, from those of mass
@@ -239,10 +242,10 @@ contains
       real(wp) :: e(2)
       integer :: i, j
 
-      i = self%body(1, k)
-      j = self%body(2, k)
-      s_i = motion%rot(1:2, 1, i)*self%s_i(1, k) + motion%rot(1:2, 2, i)*self%s_i(2, k)
-      s_j = motion%rot(1:2, 1, j)*self%s_j(1, k) + motion%rot(1:2, 2, j)*self%s_j(2, k)
+      i = self%items%body(1, k)
+      j = self%items%body(2, k)
+      s_i = motion%rot(1:2, 1, i)*self%items%s_i(1, k) + motion%rot(1:2, 2, i)*self%items%s_i(2, k)
+      s_j = motion%rot(1:2, 1, j)*self%items%s_j(1, k) + motion%rot(1:2, 2, j)*self%items%s_j(2, k)
       e = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
       distance = sqrt(e(1)**2 + e(2)**2)
    end subroutine find_centres
@@ -262,7 +265,7 @@ contains
 
       if (channel /= "eccentricity") return
       call find_centres(self, item, motion, s_i, s_j, distance)
-      associate (i => self%body(1, item), j => self%body(2, item))
+      associate (i => self%items%body(1, item), j => self%items%body(2, item))
          value = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
       end associate
    end subroutine round_report_item

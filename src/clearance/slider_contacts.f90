@@ -42,12 +42,17 @@ module slider_contacts
    integer, parameter :: faces_blend = 2       !! the same
    integer, parameter :: faces_foundation = 3  !! the same
 
-   !> Sliders between surfaces.
-   type, abstract, extends(faced_contacts_t) :: slider_contacts_t
+   !> Guides of sliders.
+   type :: guides_t
       real(wp), allocatable :: axis(:, :)              !! (2, n) unit axis of the guide, frame of i [1]
       real(wp), allocatable :: ends(:, :)              !! (2, n) ends of the guide along it, from P [m]
       integer, allocatable :: faces(:)                 !! (n) way of treating faces
       real(wp), allocatable :: face_parameters(:, :)   !! (n_law_parameter, n) of the face law [any]
+   end type guides_t
+
+   !> Sliders between surfaces.
+   type, abstract, extends(faced_contacts_t) :: slider_contacts_t
+      type(guides_t) :: guide   !! the guides
    contains
       procedure, nopass :: contact_labels => slider_contact_labels
       procedure :: gaps => slider_gaps
@@ -84,23 +89,23 @@ contains
 
       call point_gaps(self, motion, delta, rate)
       do k = 1, self%n
-         if (self%ends(2, k) >= huge(1.0_wp)) cycle
-         i = self%body(1, k)
-         j = self%body(2, k)
-         s = motion%rot(1:2, 1, i)*self%axis(1, k) + motion%rot(1:2, 2, i)*self%axis(2, k)
+         if (self%guide%ends(2, k) >= huge(1.0_wp)) cycle
+         i = self%items%body(1, k)
+         j = self%items%body(2, k)
+         s = motion%rot(1:2, 1, i)*self%guide%axis(1, k) + motion%rot(1:2, 2, i)*self%guide%axis(2, k)
          do c = 1, self%n_contact_item
             m = (k - 1)*self%n_contact_item + c
             call self%measure(m, .false., motion, contact)
             arm_i = contact%arm_i(1:2)
             arm_j = contact%arm_j(1:2)
-            d = arm_i - motion%rot(1:2, 1, i)*self%s_i(1, k) - motion%rot(1:2, 2, i)*self%s_i(2, k)
+            d = arm_i - motion%rot(1:2, 1, i)*self%items%s_i(1, k) - motion%rot(1:2, 2, i)*self%items%s_i(2, k)
             v = motion%v(1:2, j) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
                 - motion%v(1:2, i) - motion%omega(3, i)*[-arm_i(2), arm_i(1)]
             speed = dot_product(s, v)
-            inside = [dot_product(s, d) - self%ends(1, k), self%ends(2, k) - dot_product(s, d)]
-            if (minval(inside) >= delta(self%first_contact + m)) cycle
-            delta(self%first_contact + m) = minval(inside)
-            rate(self%first_contact + m) = merge(speed, -speed, inside(1) < inside(2))
+            inside = [dot_product(s, d) - self%guide%ends(1, k), self%guide%ends(2, k) - dot_product(s, d)]
+            if (minval(inside) >= delta(self%before%contacts + m)) cycle
+            delta(self%before%contacts + m) = minval(inside)
+            rate(self%before%contacts + m) = merge(speed, -speed, inside(1) < inside(2))
          end do
       end do
    end subroutine slider_gaps
@@ -119,13 +124,13 @@ contains
       real(wp) :: across(2), arm(2), centre(2), f(3)
       integer :: c, i, j
 
-      i = self%body(1, item)
-      j = self%body(2, item)
-      centre = matmul(motion%rot(1:2, 1:2, j), self%s_j(1:2, item))
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      centre = matmul(motion%rot(1:2, 1:2, j), self%items%s_j(1:2, item))
       select case (channel)
       case ("eccentricity")
-         across = motion%rot(1:2, 2, i)*self%axis(1, item) - motion%rot(1:2, 1, i)*self%axis(2, item)
-         arm = motion%r(1:2, j) + centre - motion%r(1:2, i) - matmul(motion%rot(1:2, 1:2, i), self%s_i(1:2, item))
+         across = motion%rot(1:2, 2, i)*self%guide%axis(1, item) - motion%rot(1:2, 1, i)*self%guide%axis(2, item)
+         arm = motion%r(1:2, j) + centre - motion%r(1:2, i) - matmul(motion%rot(1:2, 1:2, i), self%items%s_i(1:2, item))
          value = dot_product(across, arm)*across
       case ("moment")
          value = 0.0_wp
@@ -162,24 +167,25 @@ contains
       logical :: is_touching(2)
 
       f_rub = f_n
-      if (self%faces(item) == faces_corners) return
+      if (self%guide%faces(item) == faces_corners) return
       do q = 1, n_corner
          c = corners_of(q)
          associate (memory => self%contact((item - 1)*self%n_contact_item + c))
             is_touching = memory%is_touching
             impact_speed = merge(memory%impact_speed, 0.0_wp, is_touching)
          end associate
-         if (.not. any(is_touching) .or. (self%faces(item) /= faces_foundation .and. .not. all(is_touching))) cycle
+         if (.not. any(is_touching) .or. (self%guide%faces(item) /= faces_foundation .and. .not. all(is_touching))) cycle
          if (.not. all(is_touching)) impact_speed = sum(impact_speed)
          d = contacts(c)%delta
          rate = contacts(c)%rate
          f = f_n(c)
          f_d = f_elastic(c)
-         if (self%faces(item) == faces_blend) then
-            call find_blend(self%face_law, self%face_parameters(:, item), d, rate, impact_speed, corner_energy(self, item, c, d), &
+         if (self%guide%faces(item) == faces_blend) then
+            call find_blend(self%laws%face, self%guide%face_parameters(:, item), d, rate, impact_speed, corner_energy(self, item, &
+                            c, d), &
                             f, f_d)
          else
-            call find_face(self%face_law, self%face_parameters(:, item), d, rate, impact_speed, f, f_d)
+            call find_face(self%laws%face, self%guide%face_parameters(:, item), d, rate, impact_speed, f, f_d)
          end if
          f_n(c) = f
          f_elastic(c) = f_d
@@ -200,7 +206,7 @@ contains
       energy = 0.0_wp
       do k = 1, 2
          m = (item - 1)*self%n_contact_item + c(k)
-         if (self%contact(m)%is_touching) energy = energy + self%law%potential(d(k), self%parameters(:, m))
+         if (self%contact(m)%is_touching) energy = energy + self%laws%normal%potential(d(k), self%laws%parameters(:, m))
       end do
    end function corner_energy
 
@@ -222,14 +228,14 @@ contains
          if (.not. any(is_touching)) cycle
          d = contacts(c)%delta
          of_corners = corner_energy(self, item, c, d)
-         if (self%faces(item) == faces_foundation) then
-            energy = energy + bedding_energy(self%face_law, self%face_parameters(:, item), d)
-         else if (self%faces(item) == faces_corners .or. .not. all(is_touching)) then
+         if (self%guide%faces(item) == faces_foundation) then
+            energy = energy + bedding_energy(self%laws%face, self%guide%face_parameters(:, item), d)
+         else if (self%guide%faces(item) == faces_corners .or. .not. all(is_touching)) then
             energy = energy + of_corners
-         else if (self%faces(item) == faces_blend) then
-            energy = energy + blend_energy(self%face_law, self%face_parameters(:, item), d, of_corners)
+         else if (self%guide%faces(item) == faces_blend) then
+            energy = energy + blend_energy(self%laws%face, self%guide%face_parameters(:, item), d, of_corners)
          else
-            energy = energy + bedding_energy(self%face_law, self%face_parameters(:, item), d)
+            energy = energy + bedding_energy(self%laws%face, self%guide%face_parameters(:, item), d)
          end if
       end do
    end function slider_face_energy

@@ -41,7 +41,7 @@ contains
       do k = 1, size(scene%materials)
          if (.not. is_used(k)) call drop("material '"//scene%materials(k)%name%s//"': used by no joint")
       end do
-      if (.not. system%with_ledger) call drop("energy ledger: off")
+      if (.not. system%ledger%is_kept) call drop("energy ledger: off")
       if (scene%analysis == analysis_kinematic .and. size(system%linkage%ideal) > 0) then
          call drop("clearances: joints are ideal in a kinematic analysis")
       end if
@@ -67,8 +67,8 @@ contains
       integer :: k
 
       is_used = .false.
-      do k = 1, size(scene%base)
-         call look(scene%base(k))
+      do k = 1, size(scene%tables%base)
+         call look(scene%tables%base(k))
       end do
       do k = 1, size(scene%joints)
          call look(scene%joints(k))

@@ -34,7 +34,7 @@ contains
       call say("guards")
       associate (guards => limits%guards)
          call say_contacts(loaded%scene, loaded%system, guards)
-         if (loaded%system%with_ledger .and. guards%energy > 0.0_wp) then
+         if (loaded%system%ledger%is_kept .and. guards%energy > 0.0_wp) then
             call say("ends where "//real_text(guards%energy, 3)//" of the largest energy is made of nothing (energy)", 2)
          end if
          if (guards%speed < huge(1.0_wp)) call say("ends where a body is faster than "//real_text(guards%speed, 3)// &
@@ -58,10 +58,10 @@ contains
 
       integer :: i, k, m
 
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n
-               m = set%first_contact + (i - 1)*set%n_contact_item + 1
+               m = set%before%contacts + (i - 1)*set%n_contact_item + 1
                associate (limit => guards%limit(:, m), name => set%names(i)%s)
                   if (limit(guard_penetration) < huge(1.0_wp)) then
                      call say(name//": ends at a penetration of "//real_text(1.0e3_wp*limit(guard_penetration), 3)//" mm, "// &
@@ -79,7 +79,7 @@ contains
             end do
          end associate
       end do
-      if (system%n_contact == 0) return
+      if (system%loose%n_contact == 0) return
       call say(verb_of(scene, "law_range")//" where a penetration leaves the range of its law (law_range)", 2)
       call say(verb_of(scene, "impact_speed")//" where an impact is too fast for a quasi-static law (impact_speed)", 2)
    end subroutine say_contacts
@@ -90,7 +90,7 @@ contains
       character(*), intent(in) :: key       !! key of [guards]
       character(:), allocatable :: verb     !! warns, ends, or says nothing
 
-      select case (scene%guards%word(key))
+      select case (scene%settings%guards%word(key))
       case ("stop"); verb = "ends"
       case ("warn"); verb = "warns"
       case default; verb = "says nothing"

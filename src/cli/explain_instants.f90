@@ -27,7 +27,7 @@ contains
       integer :: k
 
       if (loaded%scene%analysis /= analysis_dynamic) return
-      associate (settings => loaded%scene%dynamic)
+      associate (settings => loaded%scene%settings%dynamic)
          fixed = settings%number("step")
          greatest = settings%number("maximum_step")
       end associate
@@ -52,7 +52,7 @@ contains
          call say("no step is longer than "//real_text(greatest, 6)//" s (maximum_step): what is shorter may be passed over", 2)
       else
          if (loaded%plan%instants%paces) call say("no step is longer than what a function of time does, as said above", 2)
-         if (loaded%system%n_loose > 0) then
+         if (loaded%system%loose%n > 0) then
             call say("no step is longer than a quarter of a turn of a body that may touch another", 2)
          end if
          call say("the length of a step is else what the error allows; contacts are looked for at 8 places of it, and at least "// &

@@ -24,22 +24,22 @@ contains
       real(wp) :: step
       integer :: c, i, k, last, v
 
-      if (loaded%system%n_loose == 0) return
-      step = loaded%scene%dynamic%number("step")
+      if (loaded%system%loose%n == 0) return
+      step = loaded%scene%settings%dynamic%number("step")
       call say("")
       call say("loose joints")
-      allocate (delta(loaded%system%n_contact), rate(loaded%system%n_contact), source=0.0_wp)
+      allocate (delta(loaded%system%loose%n_contact), rate(loaded%system%loose%n_contact), source=0.0_wp)
       if (allocated(y)) call loaded%system%events(0.0_wp, y, delta, rate)
-      do k = 1, size(loaded%system%clearances)
-         associate (set => loaded%system%clearances(k)%set)
-            law = set%law%name
-            if (allocated(set%friction)) law = law//", friction "//set%friction%name
+      do k = 1, size(loaded%system%loose%sets)
+         associate (set => loaded%system%loose%sets(k)%set)
+            law = set%laws%normal%name
+            if (allocated(set%laws%friction)) law = law//", friction "//set%laws%friction%name
             do i = 1, set%n
                c = (i - 1)*set%n_contact_item + 1
                words = ""
-               if (set%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%clearance(i))//" mm, "
-               call say(set%names(i)%s//": "//words//"law "//law//", "//set%law%story(set%parameters(:, c)), 2)
-               last = set%first_contact + i*set%n_contact_item
+               if (set%traits%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%items%clearance(i))//" mm, "
+               call say(set%names(i)%s//": "//words//"law "//law//", "//set%laws%normal%story(set%laws%parameters(:, c)), 2)
+               last = set%before%contacts + i*set%n_contact_item
                if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
                if (loaded%scene%analysis /= analysis_dynamic) cycle
@@ -53,7 +53,7 @@ contains
                            real_text(contact_time(loaded%system, set, c, speeds(v))/loaded%plan%every, 2)// &
                            " output intervals"//steps_of(contact_time(loaded%system, set, c, speeds(v)), step), 4)
                end do
-               call explain_validity(set%pairs(i)%speed_limit)
+               call explain_validity(set%items%pairs(i)%speed_limit)
             end do
          end associate
       end do

@@ -29,11 +29,11 @@ contains
          call explain_times(loaded)
          return
       case (analysis_static)
-         call say("descent, then KINSOL, to "//to_text(loaded%scene%static%number("tolerance"))// &
+         call say("descent, then KINSOL, to "//to_text(loaded%scene%settings%static%number("tolerance"))// &
                   " of the largest load", 2)
          return
       end select
-      associate (settings => loaded%scene%dynamic)
+      associate (settings => loaded%scene%settings%dynamic)
          solver = settings%word("solver")
          if (solver == "auto") then
             solver = loaded%system%linkage%solution%solver%name()//" (auto: "//reason_of_solver(loaded%system)//")"

@@ -47,8 +47,8 @@ contains
       do k = 1, size(scene%forces)
          call count_kind(scene%forces(k)%info, scene%forces(k)%items)
       end do
-      do k = 1, size(scene%functions)
-         call count_kind(scene%functions(k)%info, scene%functions(k)%items)
+      do k = 1, size(scene%tables%functions)
+         call count_kind(scene%tables%functions(k)%info, scene%tables%functions(k)%items)
       end do
       if (size(system%linkage%ideal) > 0) then
          call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &

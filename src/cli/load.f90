@@ -63,7 +63,7 @@ contains
       end if
       loaded%path = options%operands(1)%s
       call memory_is_for("the deck "//loaded%path)
-      call read_deck(loaded%path, options%overrides, loaded%deck, mistakes)
+      call read_deck(loaded%path, options%change%overrides, loaded%deck, mistakes)
       loaded%is_stream = loaded%deck%sources(1)%is_stream
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
       if (mistakes%count() == 0) call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
@@ -92,8 +92,10 @@ contains
       type(options_t), intent(in) :: options  !! the command line
       type(scene_t), intent(in) :: scene      !! the scene of the deck
 
-      runs_as_written = .not. (options%is_ideal .or. scene%analysis == analysis_kinematic .or. has_ideal(scene))
-      if (allocated(options%analysis)) runs_as_written = runs_as_written .and. options%analysis == analysis_names(scene%analysis)
+      runs_as_written = .not. (options%change%is_ideal .or. scene%analysis == analysis_kinematic .or. has_ideal(scene))
+      if (allocated(options%change%analysis)) then
+         runs_as_written = runs_as_written .and. options%change%analysis == analysis_names(scene%analysis)
+      end if
    end function runs_as_written
 
    !> What a deck can have words for: channels and figures of loose joints and of its first analysis, whatever a run has of them.
@@ -122,7 +124,7 @@ contains
             if (parameter%unit /= "") cycle
             do i = 1, size(parameter%texts)
                case = options
-               call append_text(case%overrides, parameter%name//"="//parameter%texts(i)%s)
+               call append_text(case%change%overrides, parameter%name//"="//parameter%texts(i)%s)
                call load_deck(case, other, error)
                if (allocated(error)) return
             end do
@@ -139,16 +141,16 @@ contains
       character(:), allocatable :: known
       integer :: k
 
-      if (.not. allocated(options%analysis)) return
+      if (.not. allocated(options%change%analysis)) return
       known = ""
       do k = 1, n_analysis
-         if (.not. scene%has_analysis(k)) cycle
+         if (.not. scene%settings%has_analysis(k)) cycle
          known = known//" "//trim(analysis_names(k))
-         if (analysis_names(k) /= options%analysis) cycle
+         if (analysis_names(k) /= options%change%analysis) cycle
          scene%analysis = k
          return
       end do
-      call set_error(error, exit_usage, "the deck has no section [analysis."//options%analysis//"]"//new_line("a")// &
+      call set_error(error, exit_usage, "the deck has no section [analysis."//options%change%analysis//"]"//new_line("a")// &
                      "  = analyses of the deck:"//known)
    end subroutine choose_analysis
 
@@ -161,7 +163,7 @@ contains
       character(:), allocatable :: known
       integer :: c, i, k
 
-      if (options%is_ideal) then
+      if (options%change%is_ideal) then
          do k = 1, size(scene%clearances)
             c = find_column(scene%clearances(k)%info, "level")
             if (c == 0) cycle  ! a geometry without an ideal joint keeps its contacts
@@ -171,31 +173,31 @@ contains
             end do
          end do
       end if
-      if (options%tolerance > 0.0_wp) then
+      if (options%change%tolerance > 0.0_wp) then
          select case (scene%analysis)
          case (analysis_dynamic)
-            call set_tolerance(scene%dynamic_kind, scene%dynamic)
+            call set_tolerance(scene%settings%dynamic%info, scene%settings%dynamic%item_t)
          case (analysis_kinematic)
-            call set_tolerance(scene%kinematic_kind, scene%kinematic)
+            call set_tolerance(scene%settings%kinematic%info, scene%settings%kinematic%item_t)
          case default
-            call set_tolerance(scene%static_kind, scene%static)
+            call set_tolerance(scene%settings%static%info, scene%settings%static%item_t)
          end select
          if (allocated(error)) return
       end if
-      if (allocated(options%method) .and. scene%analysis /= analysis_dynamic) then
+      if (allocated(options%change%method) .and. scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --method is for [analysis.dynamic], not for [analysis."// &
                         trim(analysis_names(scene%analysis))//"]")
          return
       end if
-      if (allocated(options%method)) then
-         c = column_of(scene%dynamic_kind, "method")
-         known = scene%dynamic_kind%columns(c)%choices
-         if (index(" "//known//" ", " "//options%method//" ") == 0) then
-            call set_error(error, exit_usage, "unknown method '"//options%method//"'"//new_line("a")//"  = methods: "//known)
+      if (allocated(options%change%method)) then
+         c = column_of(scene%settings%dynamic%info, "method")
+         known = scene%settings%dynamic%info%columns(c)%choices
+         if (index(" "//known//" ", " "//options%change%method//" ") == 0) then
+            call set_error(error, exit_usage, "unknown method '"//options%change%method//"'"//new_line("a")//"  = methods: "//known)
             return
          end if
-         scene%dynamic%values(c)%text = options%method
-         scene%dynamic%values(c)%location = location_t()
+         scene%settings%dynamic%values(c)%text = options%change%method
+         scene%settings%dynamic%values(c)%location = location_t()
       end if
 
    contains
@@ -206,13 +208,13 @@ contains
          type(item_t), intent(inout) :: settings    !! settings
 
          associate (value => settings%values(place_of(settings, "tolerance")))
-            value%number = options%tolerance
+            value%number = options%change%tolerance
             value%given = .true.
          end associate
          associate (column => kind%columns(column_of(kind, "tolerance")))
-            if (options%tolerance >= column%lower .and. options%tolerance <= column%upper) return
-            call set_error(error, exit_usage, "option --tolerance needs a number from "//to_text(column%lower)//" to "// &
-                           to_text(column%upper)//" for ["//kind%name//"], not "//to_text(options%tolerance))
+            if (options%change%tolerance >= column%bounds%lower .and. options%change%tolerance <= column%bounds%upper) return
+            call set_error(error, exit_usage, "option --tolerance needs a number from "//to_text(column%bounds%lower)//" to "// &
+                           to_text(column%bounds%upper)//" for ["//kind%name//"], not "//to_text(options%change%tolerance))
          end associate
       end subroutine set_tolerance
 
@@ -228,18 +230,18 @@ contains
       character(:), allocatable :: hint, message
       integer :: bad, k
 
-      associate (value => scene%output%values(place_of(scene%output, "channels")))
+      associate (value => scene%settings%output%values(place_of(scene%settings%output, "channels")))
          call select_channels(value%words, catalogue, selection, bad, message, hint)
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
       end associate
-      associate (value => scene%output%values(place_of(scene%output, "figures")))
+      associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
          call check_figures(value%words, catalogue, bad, message, hint)
          if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no figure of this deck", hint)
       end associate
-      if (.not. scene%has_statistics) return
-      do k = 1, size(scene%statistics%values)
-         associate (value => scene%statistics%values(k))
+      if (.not. scene%settings%statistics%is_present) return
+      do k = 1, size(scene%settings%statistics%values)
+         associate (value => scene%settings%statistics%values(k))
             if (size(value%words) == 0) cycle
             call select_channels(value%words, catalogue, selection, bad, message, hint)
             if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
@@ -261,16 +263,16 @@ contains
 
       message = ""
       hint = ""
-      associate (words => scene%output%values(place_of(scene%output, "figures"))%words)
+      associate (words => scene%settings%output%values(place_of(scene%settings%output, "figures"))%words)
          do bad = 1, size(words)
             call new_figure(words(bad)%s, catalogue, figure, message, hint)
             if (figure%kind <= figure_portrait) cycle
-            if (.not. scene%has_statistics) then
+            if (.not. scene%settings%statistics%is_present) then
                message = "'"//words(bad)%s//"' needs a section [statistics]"
                hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
                return
             end if
-            if (.not. scene%statistics%is_given("period") .and. &
+            if (.not. scene%settings%statistics%is_given("period") .and. &
                 (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
                message = "'"//words(bad)%s//"' needs the period of the drive"
                hint = "in section [statistics]: period = 1 turns of motor, or a time"
@@ -302,7 +304,7 @@ contains
       character(:), allocatable :: hint, message
       integer :: bad, k
 
-      associate (words => scene%statistics%values(place_of(scene%statistics, "channels"))%words)
+      associate (words => scene%settings%statistics%values(place_of(scene%settings%statistics, "channels"))%words)
          call selection%clear(catalogue)
          if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
          call names_of_numbers(list_scalars(selection), catalogue, list)

@@ -12,28 +12,38 @@ module options
    private
    public :: options_t, read_options, usage_error
 
+   !> What is set beside the deck.
+   type :: changes_t
+      type(text_t), allocatable :: overrides(:)      !! (n) `--set NAME=VALUE`
+      character(:), allocatable :: method            !! `--method M`; unallocated: as the deck says
+      character(:), allocatable :: analysis          !! `--analysis A`; unallocated: the first that the deck has
+      integer :: member = 0                          !! `--member K`: run K of the ensemble; 0: the start as it is
+      real(wp) :: tolerance = 0.0_wp                 !! `--tolerance X`; 0: as the deck says [1]
+      logical :: is_ideal = .false.                  !! `--ideal`
+   end type changes_t
+
+   !> Help in other forms.
+   type :: help_options_t
+      logical :: is_manual = .false.                 !! `--manual`
+      logical :: is_man = .false.                    !! `--man`
+      character(:), allocatable :: completion        !! `--completion SHELL`; unallocated: not asked for
+   end type help_options_t
+
    !> What the user asked for.
    type :: options_t
       character(:), allocatable :: verb              !! one of `known_verbs`
       type(text_t), allocatable :: operands(:)       !! (n) words that are no options
-      type(text_t), allocatable :: overrides(:)      !! (n) `--set NAME=VALUE`
+      type(changes_t) :: change                      !! what is set beside the deck
       character(:), allocatable :: directory         !! `--out DIR`; unallocated: outputs/NAME
-      character(:), allocatable :: method            !! `--method M`; unallocated: as the deck says
-      character(:), allocatable :: analysis          !! `--analysis A`; unallocated: the first that the deck has
       character(:), allocatable :: write             !! `--write W`: numbers, channels or all
-      integer :: member = 0                          !! `--member K`: run K of the ensemble; 0: the start as it is
       integer :: jobs = 0                            !! `--jobs N`: runs at once; 0: as many as there are processors
       character(:), allocatable :: methods           !! `--methods LIST`; unallocated: as the deck says
       real(wp) :: accuracy = 0.0_wp                  !! `--accuracy X`; 0: as the deck says [1]
       real(wp) :: budget = 0.0_wp                    !! `--budget TIME`; 0: as the deck says [s]
       character(:), allocatable :: command           !! the whole command line
-      real(wp) :: tolerance = 0.0_wp                 !! `--tolerance X`; 0: as the deck says [1]
-      logical :: is_ideal = .false.                  !! `--ideal`
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
-      logical :: is_manual = .false.                 !! `--manual`
-      logical :: is_man = .false.                    !! `--man`
-      character(:), allocatable :: completion        !! `--completion SHELL`; unallocated: not asked for
+      type(help_options_t) :: help                   !! what help is asked for
    end type options_t
 
 contains
@@ -46,7 +56,7 @@ contains
       character(:), allocatable :: known, value, word
       integer :: k, sign
 
-      allocate (options%operands(0), options%overrides(0))
+      allocate (options%operands(0), options%change%overrides(0))
       options%command = "gudgeon"
       do k = 1, command_argument_count()
          options%command = options%command//" "//argument(k)
@@ -108,11 +118,11 @@ contains
          return
       end if
       select case (word)
-      case ("--ideal"); options%is_ideal = .true.
+      case ("--ideal"); options%change%is_ideal = .true.
       case ("--quiet"); options%is_quiet = .true.
       case ("--json"); options%is_json = .true.
-      case ("--manual"); options%is_manual = .true.
-      case ("--man"); options%is_man = .true.
+      case ("--manual"); options%help%is_manual = .true.
+      case ("--man"); options%help%is_man = .true.
       case default
          if (allocated(glued)) then
             value = glued
@@ -130,20 +140,20 @@ contains
             options%write = value
             call check_word(word, value, error)
          case ("--completion")
-            options%completion = value
+            options%help%completion = value
             call check_word(word, value, error)
-         case ("--member"); call take_count(word, value, options%member, error)
+         case ("--member"); call take_count(word, value, options%change%member, error)
          case ("--jobs"); call take_count(word, value, options%jobs, error)
-         case ("--method"); options%method = value
-         case ("--analysis"); options%analysis = value
-         case ("--set"); call append_text(options%overrides, value)
+         case ("--method"); options%change%method = value
+         case ("--analysis"); options%change%analysis = value
+         case ("--set"); call append_text(options%change%overrides, value)
          case ("--methods"); options%methods = value
          case ("--accuracy"); call take_accuracy(word, value, options%accuracy, error)
          case ("--budget"); call take_time(word, value, options%budget, error)
          case ("--tolerance")
             is_finite = number_length(value) == len(value) .and. len(value) > 0
-            if (is_finite) call read_number(value, 0, options%tolerance, is_finite)
-            if (.not. is_finite .or. options%tolerance <= 0.0_wp .or. options%tolerance > 0.01_wp) then
+            if (is_finite) call read_number(value, 0, options%change%tolerance, is_finite)
+            if (.not. is_finite .or. options%change%tolerance <= 0.0_wp .or. options%change%tolerance > 0.01_wp) then
                call set_error(error, exit_usage, "option --tolerance needs a number above 0 and up to 0.01, not '"//value//"'")
             end if
          end select

@@ -32,11 +32,11 @@ contains
       character(:), allocatable :: hint, message
       integer :: k
 
-      limits%energy = scene%dynamic%number("energy_limit")
-      limits%violation = scene%dynamic%number("violation_limit")
-      limits%cpu = scene%dynamic%number("limit_cpu")
+      limits%energy = scene%settings%dynamic%number("energy_limit")
+      limits%violation = scene%settings%dynamic%number("violation_limit")
+      limits%cpu = scene%settings%dynamic%number("limit_cpu")
       call new_guards(scene, system, limits%guards)
-      associate (conditions => scene%guards%values(place_of(scene%guards, "stop"))%conditions)
+      associate (conditions => scene%settings%guards%values(place_of(scene%settings%guards, "stop"))%conditions)
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then
@@ -57,7 +57,7 @@ contains
       type(mechanism_t), intent(in) :: system     !! the twin's system
       type(limits_t) :: limits                        !! limits
 
-      limits%cpu = scene%dynamic%number("limit_cpu")
+      limits%cpu = scene%settings%dynamic%number("limit_cpu")
       call new_guards(scene, system, limits%guards)
    end function twin_limits
 
@@ -72,7 +72,7 @@ contains
       character(:), allocatable :: hint, message
       integer :: k
 
-      associate (conditions => scene%guards%values(place_of(scene%guards, "stop"))%conditions)
+      associate (conditions => scene%settings%guards%values(place_of(scene%settings%guards, "stop"))%conditions)
          do k = 1, size(conditions)
             call find_scalars(conditions(k), catalogue, scalars, message, hint)
             if (message /= "") then

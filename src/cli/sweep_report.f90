@@ -47,7 +47,7 @@ contains
       call build_catalogue(loaded%system, catalogue)
       folder = work%plan%directory//"/figures"
       allocate (names(0))
-      associate (words => loaded%scene%output%values(place_of(loaded%scene%output, "figures"))%words)
+      associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, "figures"))%words)
          do k = 1, size(words)
             call new_figure(words(k)%s, catalogue, figure, message, hint)
             if (len(message) > 0) cycle

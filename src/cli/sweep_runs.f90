@@ -85,12 +85,12 @@ contains
       call add("--out", work%directories(number)%s)
       call add("--write", trim(merge("channels", "numbers ", sweep%keeps_channels)))
       call append_text(arguments, "--quiet")
-      do k = 1, size(case%overrides)
-         call add("--set", case%overrides(k)%s)
+      do k = 1, size(case%change%overrides)
+         call add("--set", case%change%overrides(k)%s)
       end do
-      if (case%is_ideal) call append_text(arguments, "--ideal")
-      if (allocated(case%method)) call add("--method", case%method)
-      if (case%tolerance > 0.0_wp) call add("--tolerance", to_exact(case%tolerance))
+      if (case%change%is_ideal) call append_text(arguments, "--ideal")
+      if (allocated(case%change%method)) call add("--method", case%change%method)
+      if (case%change%tolerance > 0.0_wp) call add("--tolerance", to_exact(case%change%tolerance))
       if (work%results%is_ensemble) call add("--member", to_text(mod(number - 1, work%results%n_member) + 1))
       associate (directory => work%directories(number)%s)
          code = enter_file(directory//".log")
@@ -181,7 +181,7 @@ contains
       case = options
       do k = 1, size(sweep%parameters)
          associate (parameter => sweep%parameters(k))
-            call append_text(case%overrides, parameter%name//"="//parameter%texts(sweep%value_number(k, case_number))%s)
+            call append_text(case%change%overrides, parameter%name//"="//parameter%texts(sweep%value_number(k, case_number))%s)
          end associate
       end do
    end function case_options

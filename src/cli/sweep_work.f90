@@ -45,20 +45,20 @@ contains
       integer :: code, k
 
       work%plan%directory = path
-      work%plan%deck_name = loaded%path
-      work%plan%deck_text = deck_text(loaded%deck)
+      work%plan%origin%deck_name = loaded%path
+      work%plan%origin%deck_text = deck_text(loaded%deck)
       work%plan%title = loaded%scene%title
-      work%plan%program_version = program_version
-      work%plan%git_sha1 = git_sha1
-      work%plan%compiler = compiler
-      work%plan%libraries = library_versions()
-      work%plan%command = options%command
-      call get_includes(loaded%deck, work%plan%include_names, work%plan%include_texts)
+      work%plan%origin%program_version = program_version
+      work%plan%origin%git_sha1 = git_sha1
+      work%plan%origin%compiler = compiler
+      work%plan%origin%libraries = library_versions()
+      work%plan%origin%command = options%command
+      call get_includes(loaded%deck, work%plan%origin%include_names, work%plan%origin%include_texts)
       call work%plan%complete()
       work%results%sweep = loaded%sweep
-      work%results%is_ensemble = loaded%scene%has_ensemble
-      if (loaded%scene%has_ensemble) then
-         work%results%n_member = nint(loaded%scene%ensemble%number("runs"))
+      work%results%is_ensemble = loaded%scene%settings%ensemble%is_present
+      if (loaded%scene%settings%ensemble%is_present) then
+         work%results%n_member = nint(loaded%scene%settings%ensemble%number("runs"))
       end if
       call work%results%start()
       work%program = own_path()

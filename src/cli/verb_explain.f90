@@ -7,6 +7,7 @@ module verb_explain
    use errors, only: error_t
    use explain_dropped, only: say_dropped
    use explain_floors, only: floors_of_scene
+   use explain_friction, only: explain_rubbing_joints
    use explain_guards, only: say_guards
    use explain_instants, only: explain_instants_of
    use explain_loose, only: explain_loose_joints
@@ -46,7 +47,7 @@ contains
       if (allocated(error)) return
       call say(loaded%path//": no mistakes; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
                counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
-               counted(loaded%system%n_loose, "loose joint", "loose joints")//"; assembled to "// &
+               counted(loaded%system%loose%n, "loose joint", "loose joints")//"; assembled to "// &
                real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded)//comparison_text(loaded))
    end subroutine check_deck
 
@@ -57,9 +58,9 @@ contains
 
       words = ""
       if (loaded%sweep%is_present) words = "; a sweep of "//counted(loaded%sweep%n_cases(), "case", "cases")
-      if (.not. loaded%scene%has_ensemble) return
+      if (.not. loaded%scene%settings%ensemble%is_present) return
       if (words == "") words = "; an ensemble"
-      associate (n => nint(loaded%scene%ensemble%number("runs")))
+      associate (n => nint(loaded%scene%settings%ensemble%number("runs")))
          words = words//", "//counted(n, "run", "runs")//" each"
       end associate
    end function sweep_text
@@ -72,8 +73,8 @@ contains
       type(setting_t), allocatable :: settings(:)
 
       words = ""
-      if (.not. loaded%scene%has_precision) return
-      associate (asked => loaded%scene%precision)
+      if (.not. loaded%scene%settings%precision%is_present) return
+      associate (asked => loaded%scene%settings%precision)
          call settings_of(asked%values(place_of(asked, "methods"))%words, settings)
       end associate
       words = "; a comparison of "//counted(size(settings), "setting", "settings")
@@ -124,6 +125,7 @@ contains
       call explain_size(loaded%scene, loaded%system, twin)
       call explain_start(loaded, assembly, allocated(start_error))
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
+      call explain_rubbing_joints(loaded%scene, loaded%system)
       call explain_loose_joints(loaded, y)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method_and_times(loaded)
@@ -131,7 +133,9 @@ contains
       call say_guards(loaded)
       if (allocated(y) .and. loaded%scene%analysis == analysis_dynamic) call floors_of_scene(loaded%system, y, loaded%plan%end)
       if (len(sweep_text(loaded)) > 0) call say("'gudgeon sweep' runs"//replace(sweep_text(loaded), ";", ""))
-      if (loaded%scene%has_precision) call say("'gudgeon precision' makes"//replace(comparison_text(loaded), ";", ""))
+      if (loaded%scene%settings%precision%is_present) then
+         call say("'gudgeon precision' makes"//replace(comparison_text(loaded), ";", ""))
+      end if
       defaults = all_defaults(loaded%deck)
       call say("")
       call say("defaults taken")
@@ -149,18 +153,18 @@ contains
 
       integer :: k
 
-      is_worth = scene%has_precision .or. index(line, scene%precision_kind%name//" ") /= 1
+      is_worth = scene%settings%precision%is_present .or. index(line, scene%settings%precision%info%name//" ") /= 1
       if (.not. is_worth) return
       do k = 1, n_analysis
          if (index(line, "analysis."//trim(analysis_names(k))//" ") == 0) cycle
          is_worth = k == scene%analysis .or. (k == analysis_static .and. scene%analysis == analysis_dynamic .and. &
-                                              scene%dynamic%word("start") == "static")
+                                              scene%settings%dynamic%word("start") == "static")
       end do
       if (.not. is_worth) return
-      do k = 1, size(scene%dynamic_kind%columns)
-         associate (name => scene%dynamic_kind%columns(k)%name)
+      do k = 1, size(scene%settings%dynamic%info%columns)
+         associate (name => scene%settings%dynamic%info%columns(k)%name)
             if (index(line, "analysis.dynamic "//name//" = ") == 0) cycle
-            is_worth = .not. (is_imsl_name(name) .or. scene%dynamic%values(k)%given)
+            is_worth = .not. (is_imsl_name(name) .or. scene%settings%dynamic%values(k)%given)
          end associate
       end do
    end function is_worth

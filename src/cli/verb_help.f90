@@ -101,16 +101,16 @@ contains
       logical :: is_found
 
       call known_kinds(kinds)
-      if (options%is_manual) then
+      if (options%help%is_manual) then
          call write_manual(kinds)
          return
       end if
-      if (options%is_man) then
+      if (options%help%is_man) then
          call write_man_page(kinds)
          return
       end if
-      if (allocated(options%completion)) then
-         call write_completion(options%completion, kinds)
+      if (allocated(options%help%completion)) then
+         call write_completion(options%help%completion, kinds)
          return
       end if
       if (.not. allocated(options%operands)) then
@@ -274,8 +274,10 @@ contains
          if (allocated(column%choices)) words = words//" ("//column%choices//")"
       end select
       if (allocated(column%options)) words = words//"; options "//column%options
-      if (column%lower > -no_bound) words = words//"; "//merge("> ", ">=", column%open_lower)//" "//to_text(column%lower)
-      if (column%upper < no_bound) words = words//"; "//merge("< ", "<=", column%open_upper)//" "//to_text(column%upper)
+      associate (bounds => column%bounds)
+         if (bounds%lower > -no_bound) words = words//"; "//merge("> ", ">=", bounds%open_lower)//" "//to_text(bounds%lower)
+         if (bounds%upper < no_bound) words = words//"; "//merge("< ", "<=", bounds%open_upper)//" "//to_text(bounds%upper)
+      end associate
       if (.not. allocated(column%default)) then
          words = words//"; required"
       else if (column%default /= "") then

@@ -92,7 +92,7 @@ contains
          call set_error(error, exit_usage, "a comparison runs the section [analysis.dynamic], which the deck does not begin with")
          return
       end if
-      words = loaded%scene%precision%values(place_of(loaded%scene%precision, "methods"))%words
+      words = loaded%scene%settings%precision%values(place_of(loaded%scene%settings%precision, "methods"))%words
       if (allocated(options%methods)) words = split_blank(replace(options%methods, ",", " "))
       if (size(words) == 0) call set_error(error, exit_usage, "option --methods needs settings, as ""verner rk4""")
       do k = 1, size(words)
@@ -121,7 +121,7 @@ contains
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(precision_t), intent(out) :: study              !! asked, not begun
 
-      associate (asked => loaded%scene%precision)
+      associate (asked => loaded%scene%settings%precision)
          study%budget = asked%number("budget")
          if (options%budget > 0.0_wp) study%budget = options%budget
          study%accuracy = asked%number("accuracy")
@@ -141,15 +141,15 @@ contains
       type(output_plan_t), intent(out) :: plan             !! the plan
 
       plan%directory = path
-      plan%deck_name = loaded%path
-      plan%deck_text = deck_text(loaded%deck)
+      plan%origin%deck_name = loaded%path
+      plan%origin%deck_text = deck_text(loaded%deck)
       plan%title = loaded%scene%title
-      plan%program_version = program_version
-      plan%git_sha1 = git_sha1
-      plan%compiler = compiler
-      plan%libraries = library_versions()
-      plan%command = options%command
-      call get_includes(loaded%deck, plan%include_names, plan%include_texts)
+      plan%origin%program_version = program_version
+      plan%origin%git_sha1 = git_sha1
+      plan%origin%compiler = compiler
+      plan%origin%libraries = library_versions()
+      plan%origin%command = options%command
+      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
       call plan%complete()
    end subroutine make_plan
 

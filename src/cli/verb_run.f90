@@ -89,11 +89,11 @@ contains
       real(wp), allocatable :: y(:)
 
       call new_method(loaded%scene, method)
-      if (options%member > 0) then
+      if (options%change%member > 0) then
          call check_member(options, loaded, error)
          if (allocated(error)) return
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
-                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%member), ideal=ideal)
+                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%change%member), ideal=ideal)
       else
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, ideal=ideal)
       end if
@@ -101,7 +101,7 @@ contains
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, plan)
-      if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%n_loose > 0) then
+      if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%loose%n > 0) then
          call run_twin(loaded, plan, ideal, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))
@@ -123,13 +123,13 @@ contains
 
       integer :: n
 
-      if (.not. loaded%scene%has_ensemble) then
+      if (.not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
          return
       end if
-      n = nint(loaded%scene%ensemble%number("runs"))
-      if (options%member > n) then
-         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%member))
+      n = nint(loaded%scene%settings%ensemble%number("runs"))
+      if (options%change%member > n) then
+         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%change%member))
       end if
    end subroutine check_member
 
@@ -148,7 +148,7 @@ contains
       real(wp), allocatable :: q(:)
       real(wp) :: limit_cpu
 
-      associate (settings => loaded%scene%kinematic)
+      associate (settings => loaded%scene%settings%kinematic)
          newton%tolerance = settings%number("tolerance")
          newton%most = nint(settings%number("maximum_iterations"))
       end associate
@@ -157,7 +157,7 @@ contains
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, keeper%plan)
-      limit_cpu = loaded%scene%kinematic%number("limit_cpu")
+      limit_cpu = loaded%scene%settings%kinematic%number("limit_cpu")
       call run_kinematic(loaded%system, q, loaded%plan, newton, limit_cpu, keeper, summary, error)
       call directory%close()
    end subroutine run_prescribed
@@ -183,7 +183,7 @@ contains
       call make_plan(options, loaded, directory, assembly, keeper%plan)
       if (size(keeper%plan%figures) > 0) then
          call append_text(keeper%plan%warnings, "figures left out: an equilibrium is one instant")
-         keeper%plan%with_figures = .false.
+         keeper%plan%with%figures = .false.
          deallocate (keeper%plan%figures)
          allocate (keeper%plan%figures(0))
       end if
@@ -196,8 +196,8 @@ contains
       type(scene_t), intent(in) :: scene                                !! the scene
       class(integrator_t), allocatable, intent(out) :: method           !! the integrator, not started
 
-      call find_integrator(scene%dynamic%word("method"), method)
-      call read_controls(scene%dynamic, method%controls)
+      call find_integrator(scene%settings%dynamic%word("method"), method)
+      call read_controls(scene%settings%dynamic%item_t, method%controls)
    end subroutine new_method
 
    !> The mechanism with ideal joints, text files only, for the figures.
@@ -222,10 +222,10 @@ contains
       call new_method(loaded%scene, method)
       keeper%plan = plan
       keeper%plan%suffix = ".ideal"
-      keeper%plan%with_hdf5 = .false.
-      keeper%plan%with_summary = .false.
-      keeper%plan%with_figures = .false.
-      keeper%plan%with_progress = .false.
+      keeper%plan%with%hdf5 = .false.
+      keeper%plan%with%summary = .false.
+      keeper%plan%with%figures = .false.
+      keeper%plan%with%progress = .false.
       keeper%plan%show = show_nothing
       call new_subsystems(loaded%scene, levels_ideal, system, method, loaded%plan%end, subsystems)
       call run_dynamic(system, method, subsystems, y, loaded%plan, twin_limits(loaded%scene, system), keeper, summary, &
@@ -242,16 +242,16 @@ contains
 
       plan%warnings = directory%warnings
       plan%directory = directory%path
-      plan%deck_name = loaded%path
-      plan%deck_text = deck_text(loaded%deck)
-      plan%deck_echo = echo_scene(loaded%deck, loaded%scene)
+      plan%origin%deck_name = loaded%path
+      plan%origin%deck_text = deck_text(loaded%deck)
+      plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
       plan%title = loaded%scene%title
-      plan%program_version = program_version
-      plan%git_sha1 = git_sha1
-      plan%compiler = compiler
-      plan%libraries = library_versions()
-      plan%command = options%command
-      call get_includes(loaded%deck, plan%include_names, plan%include_texts)
+      plan%origin%program_version = program_version
+      plan%origin%git_sha1 = git_sha1
+      plan%origin%compiler = compiler
+      plan%origin%libraries = library_versions()
+      plan%origin%command = options%command
+      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
       call plan_statistics(loaded, plan%statistics)
       call known_words(loaded, plan)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
@@ -260,19 +260,19 @@ contains
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
       if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
-      plan%with_contact_rows = has_contact_rows(loaded%scene, loaded%system)
+      plan%with%contact_rows = has_contact_rows(loaded%scene, loaded%system)
       plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
-      plan%with_histories = options%write /= "numbers"
-      plan%with_texts = options%write == "all"
-      plan%with_figures = options%write == "all"
+      plan%with%histories = options%write /= "numbers"
+      plan%with%texts = options%write == "all"
+      plan%with%figures = options%write == "all"
       if (loaded%sweep%is_present .and. options%write == "all") then
          call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
                           " cases; this is the deck's own case ('gudgeon sweep' runs them)")
       end if
       if (options%is_json) plan%show = show_json
       if (options%is_quiet) then
-         plan%with_progress = .false.
-         plan%with_warnings = .false.
+         plan%with%progress = .false.
+         plan%with%warnings = .false.
          if (.not. options%is_json) plan%show = show_nothing
       end if
    end subroutine make_plan
@@ -282,12 +282,12 @@ contains
       type(loaded_t), intent(in) :: loaded            !! the deck
       type(statistics_plan_t), intent(out) :: plan    !! what is asked for
 
-      plan%is_wanted = loaded%scene%has_statistics .and. loaded%scene%analysis == analysis_dynamic
+      plan%is_wanted = loaded%scene%settings%statistics%is_present .and. loaded%scene%analysis == analysis_dynamic
       if (.not. plan%is_wanted) return
       plan%after = loaded%plan%after
       plan%end = loaded%plan%end
       plan%period = loaded%plan%period
-      associate (settings => loaded%scene%statistics)
+      associate (settings => loaded%scene%settings%statistics)
          plan%channels = settings%values(place_of(settings, "channels"))%words
          plan%spectra = settings%values(place_of(settings, "spectra"))%words
          plan%bins = nint(settings%number("bins"))
@@ -325,7 +325,7 @@ contains
          type(text_list_t) :: list
          integer :: bad, k
 
-         associate (words => loaded%scene%output%values(place_of(loaded%scene%output, key))%words)
+         associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
             do k = 1, size(words)
                if (one == "figure") then
                   call check_figures(words(k:k), catalogue, bad, message, hint)

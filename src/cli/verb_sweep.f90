@@ -56,7 +56,7 @@ contains
 
       integer :: i, k
 
-      if (.not. loaded%sweep%is_present .and. .not. loaded%scene%has_ensemble) then
+      if (.not. loaded%sweep%is_present .and. .not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "the deck has neither a section [sweep] nor [ensemble]"//new_line("a")// &
                         "  = 'gudgeon help sweep' tells how to write one; 'gudgeon run' runs the deck as it is")
       else if (loaded%is_stream) then
@@ -67,8 +67,8 @@ contains
       end if
       if (allocated(error)) return
       do k = 1, size(loaded%sweep%parameters)
-         do i = 1, size(options%overrides)
-            associate (word => options%overrides(i)%s)
+         do i = 1, size(options%change%overrides)
+            associate (word => options%change%overrides(i)%s)
                if (trim(adjustl(word(1:max(index(word, "=") - 1, 0)))) /= loaded%sweep%parameters(k)%name) cycle
                call set_error(error, exit_usage, "parameter '"//loaded%sweep%parameters(k)%name// &
                               "' is swept by the deck, so it cannot be set")

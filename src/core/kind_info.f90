@@ -82,6 +82,14 @@ module kind_info
    integer, parameter :: longest_column = 24  !! characters of the name of a column or key, at most
    integer, parameter :: longest_list = 20  !! characters of the names of an expression's variables
 
+   !> Bounds of a number.
+   type :: bounds_t
+      real(wp) :: lower = -no_bound           !! least value allowed, SI [any]
+      real(wp) :: upper = no_bound            !! greatest value allowed, SI [any]
+      logical :: open_lower = .false.         !! the least value itself is not allowed
+      logical :: open_upper = .false.         !! the greatest value itself is not allowed
+   end type bounds_t
+
    !> One column of a table, or one key of a section of settings.
    type :: column_t
       character(:), allocatable :: name       !! as written in the deck
@@ -94,10 +102,7 @@ module kind_info
       character(:), allocatable :: refers_to  !! of a reference: blank-separated prefixes of kinds
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
       character(:), allocatable :: default    !! as in a deck; blank: may be left open; unallocated: required
-      real(wp) :: lower = -no_bound           !! least value allowed, SI [any]
-      real(wp) :: upper = no_bound            !! greatest value allowed, SI [any]
-      logical :: open_lower = .false.         !! the least value itself is not allowed
-      logical :: open_upper = .false.         !! the greatest value itself is not allowed
+      type(bounds_t) :: bounds                !! of a number
       logical :: is_free = .false.            !! left out means free, not the default: the echo leaves it out too
       character(:), allocatable :: options    !! of a word: blank-separated option names (`key=value`)
       character(:), allocatable :: help       !! one line
@@ -145,10 +150,10 @@ contains
 
       column = column_t(name=name, cell=cell_number, dimension=dimension, help=help)
       if (present(default)) column%default = default
-      if (present(lower)) column%lower = lower
-      if (present(upper)) column%upper = upper
-      if (present(open_lower)) column%open_lower = open_lower
-      if (present(open_upper)) column%open_upper = open_upper
+      if (present(lower)) column%bounds%lower = lower
+      if (present(upper)) column%bounds%upper = upper
+      if (present(open_lower)) column%bounds%open_lower = open_lower
+      if (present(open_upper)) column%bounds%open_upper = open_upper
       if (present(is_free)) column%is_free = is_free
       call add_column(info, column)
    end subroutine add_number
@@ -313,8 +318,8 @@ contains
 
       column = column_t(name=name, cell=cell_duration, dimension=dim_time, help=help)
       if (present(default)) column%default = default
-      if (present(lower)) column%lower = lower
-      if (present(open_lower)) column%open_lower = open_lower
+      if (present(lower)) column%bounds%lower = lower
+      if (present(open_lower)) column%bounds%open_lower = open_lower
       call add_column(info, column)
    end subroutine add_duration
 

@@ -70,10 +70,10 @@ contains
       character(:), allocatable :: lower, suffix, upper
       logical :: is_high, is_low
 
-      is_low = x < column%lower .or. (column%open_lower .and. .not. x > column%lower)
-      is_high = x > column%upper .or. (column%open_upper .and. .not. x < column%upper)
-      if (column%lower <= -no_bound) is_low = .false.
-      if (column%upper >= no_bound) is_high = .false.
+      is_low = x < column%bounds%lower .or. (column%bounds%open_lower .and. .not. x > column%bounds%lower)
+      is_high = x > column%bounds%upper .or. (column%bounds%open_upper .and. .not. x < column%bounds%upper)
+      if (column%bounds%lower <= -no_bound) is_low = .false.
+      if (column%bounds%upper >= no_bound) is_high = .false.
       if (.not. is_low .and. .not. is_high) then
          if (abs(x) > most_angle .and. same_dimension(column%dimension, dim_angle)) then
             call mistakes%add(location, to_text(x)//" rad is out of range "//place, "at most "//to_text(most_angle)// &
@@ -89,13 +89,13 @@ contains
       if (unit /= "1") suffix = " "//unit
       lower = ""
       upper = ""
-      if (column%lower > -no_bound) then
-         lower = "at least "//to_text(column%lower)//suffix
-         if (column%open_lower) lower = "greater than "//to_text(column%lower)//suffix
+      if (column%bounds%lower > -no_bound) then
+         lower = "at least "//to_text(column%bounds%lower)//suffix
+         if (column%bounds%open_lower) lower = "greater than "//to_text(column%bounds%lower)//suffix
       end if
-      if (column%upper < no_bound) then
-         upper = "at most "//to_text(column%upper)//suffix
-         if (column%open_upper) upper = "less than "//to_text(column%upper)//suffix
+      if (column%bounds%upper < no_bound) then
+         upper = "at most "//to_text(column%bounds%upper)//suffix
+         if (column%bounds%open_upper) upper = "less than "//to_text(column%bounds%upper)//suffix
       end if
       if (len(lower) > 0 .and. len(upper) > 0) lower = lower//" and "
       call mistakes%add(location, to_text(x)//suffix//" is out of range "//place, "must be "//lower//upper)

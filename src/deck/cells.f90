@@ -179,10 +179,10 @@ contains
          end if
          call report_dimension(quantity, column%dimension, list(k)%location, place, mistakes)
          if (.not. quantity%is_good) cycle
-         value%vector(k) = quantity%x
+         value%vector%x(k) = quantity%x
          call check_range(column, quantity%x, unit_text(column%dimension), list(k)%location, place, mistakes)
       end do
-      value%n_vector = n
+      value%vector%n = n
    end subroutine read_vector
 
    !> A time, or a number of turns of a driver.

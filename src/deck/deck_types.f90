@@ -4,6 +4,7 @@ module deck_types
    use item, only: location_t
    use source_text, only: n_line_of, source_t
    use text, only: text_t
+   use text_list, only: text_list_t
    use tokens, only: token_list_t, token_t, token_text
    implicit none (type, external)
    private
@@ -36,8 +37,7 @@ module deck_types
       type(symbols_t) :: symbols                   !! parameters, and named functions once they are known
       type(text_t), allocatable :: parameter_text(:) !! (n_parameter) values of the parameters as written
       type(location_t), allocatable :: parameter_change(:) !! (n_parameter) where `--set` changed the deck; else nowhere
-      type(text_t), allocatable :: defaults(:)     !! (n_default or more) `kind item key = default`
-      integer :: n_default = 0                     !! defaults in use
+      type(text_list_t) :: defaults                !! `kind item key = default`
       logical :: is_readable = .true.              !! .false.: it is not a deck at all; that was reported
    end type deck_t
 
@@ -125,19 +125,7 @@ contains
       type(deck_t), intent(inout) :: deck  !! the deck
       character(*), intent(in) :: line     !! `kind item key = default`
 
-      type(text_t), allocatable :: larger(:)
-      integer :: i
-
-      if (.not. allocated(deck%defaults)) allocate (deck%defaults(32))
-      if (deck%n_default == size(deck%defaults)) then
-         allocate (larger(2*deck%n_default))
-         do i = 1, deck%n_default
-            call move_alloc(deck%defaults(i)%s, larger(i)%s)
-         end do
-         call move_alloc(larger, deck%defaults)
-      end if
-      deck%n_default = deck%n_default + 1
-      deck%defaults(deck%n_default)%s = line
+      call deck%defaults%add(line)
    end subroutine add_default
 
    !> Number of the first section of some name from `start` on, 0 if there is none.

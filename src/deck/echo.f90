@@ -13,7 +13,7 @@ module echo
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters
+   public :: all_defaults, echo_items, echo_settings, echo_start, get_parameters, item_words
 
 contains
 
@@ -127,6 +127,25 @@ contains
       s = buffer%get()
    end function echo_settings
 
+   !> The values of a row in words, as `coefficient 0.1, speed 0.01 m/s`.
+   function item_words(info, item) result(words)
+      type(kind_info_t), intent(in) :: info   !! the kind
+      type(item_t), intent(in) :: item        !! its row
+      character(:), allocatable :: words      !! columns, values and units; what is left open is not told
+
+      integer :: k
+
+      words = ""
+      do k = 1, size(item%values)
+         associate (column => info%columns(k), value => item%values(k))
+            if (is_empty(column, value)) cycle
+            if (len(words) > 0) words = words//", "
+            words = words//column%name//" "//value_text(column, value)
+            if (has_unit(column) .and. .not. has_own_unit(column, value)) words = words//" "//unit_text(column%dimension)
+         end associate
+      end do
+   end function item_words
+
    !> Whether a column has a unit.
    pure logical function has_unit(column)
       type(column_t), intent(in) :: column  !! the column
@@ -180,9 +199,9 @@ contains
          s = exact_text(value%number)
          if (.not. value%expression%is_constant) s = "{"//value%expression%source//"}"
       case (cell_vector)
-         s = exact_text(value%vector(1))
-         do i = 2, value%n_vector
-            s = s//" "//exact_text(value%vector(i))
+         s = exact_text(value%vector%x(1))
+         do i = 2, value%vector%n
+            s = s//" "//exact_text(value%vector%x(i))
          end do
       case (cell_duration)
          s = exact_text(value%number)
@@ -241,12 +260,7 @@ contains
       type(deck_t), intent(in) :: deck       !! the deck, after items and settings were read
       type(text_t), allocatable :: lines(:)  !! (n) in the order of reading
 
-      integer :: k
-
-      allocate (lines(deck%n_default))
-      do k = 1, deck%n_default
-         lines(k)%s = deck%defaults(k)%s
-      end do
+      lines = deck%defaults%get()
    end function all_defaults
 
    !> The parameters as they were used.

@@ -42,6 +42,12 @@ module item
       type(location_t) :: limit_location    !! of the limit
    end type condition_t
 
+   !> A vector.
+   type :: vector_t
+      real(wp) :: x(3) = 0.0_wp   !! (3) its components, SI [any]
+      integer :: n = 0            !! numbers given
+   end type vector_t
+
    !> One cell, or the right-hand side of one setting.
    type :: value_t
       character(longest_column) :: column = ""       !! name of the column or key
@@ -49,8 +55,7 @@ module item
       real(wp) :: number = 0.0_wp                    !! of a number; of an expression its value at t = 0, SI [any]
       type(dim_t) :: dimensions(2) = dim_none        !! (2) of a number of any dimension, a list, the columns of a file
       real(wp), allocatable :: table(:, :)           !! (rows, 1 or 2) numbers of a list, or of a file, SI [any]
-      real(wp) :: vector(3) = 0.0_wp                 !! (3) of a vector, SI [any]
-      integer :: n_vector = 0                        !! numbers given of a vector
+      type(vector_t) :: vector                       !! of a vector
       logical :: flag = .false.                      !! of an on/off cell
       character(:), allocatable :: text              !! the word, the name referred to, or the cell as written
       type(text_t), allocatable :: words(:)          !! of a list of words
@@ -80,7 +85,7 @@ contains
 
    !> Place of a column among the values of a row by its name; 0 if the kind has none of that name.
    pure integer function find_place(item, name) result(place)
-      type(item_t), intent(in) :: item   !! the row, or the section
+      class(item_t), intent(in) :: item  !! the row, or the section
       character(*), intent(in) :: name   !! the column, or the key
 
       do place = 1, size(item%values)
@@ -91,7 +96,7 @@ contains
 
    !> Place of a column that the kind must have: if it has not, the program is wrong, and ends.
    pure integer function place_of(item, name) result(place)
-      type(item_t), intent(in) :: item   !! the row, or the section
+      class(item_t), intent(in) :: item  !! the row, or the section
       character(*), intent(in) :: name   !! the column, or the key
 
       place = find_place(item, name)

@@ -41,7 +41,7 @@ contains
       event = 0
       low = 0.0_wp
       high = 1.0_wp
-      method%threshold = 0.0_wp
+      method%events%threshold = 0.0_wp
       if (.not. is_worth_a_search(system, method)) return
       call set_thresholds(system, method)
       if (is_worth_a_search(system, method)) call search(system, method, event, low, high)
@@ -55,7 +55,7 @@ contains
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place in the step after it [1]
 
-      method%threshold(event) = huge(1.0_wp)
+      method%events%threshold(event) = huge(1.0_wp)
       event = 0
       low = 0.0_wp
       high = 1.0_wp
@@ -67,8 +67,8 @@ contains
       class(ode_system_t), intent(in) :: system     !! the system
       class(integrator_t), intent(inout) :: method  !! the integrator, after a step
 
-      call system%event_noise(method%noise)
-      where (method%noise > 0.0_wp) method%threshold = max(method%g0 + method%noise, 0.0_wp)
+      call system%event_noise(method%events%noise)
+      where (method%events%noise > 0.0_wp) method%events%threshold = max(method%events%g0 + method%events%noise, 0.0_wp)
    end subroutine set_thresholds
 
    !> Whether any function may become positive within the last step.
@@ -78,11 +78,11 @@ contains
 
       integer :: k
 
-      is_worth = system%n_event > 0 .and. method%step%h > method%look
+      is_worth = system%n_event > 0 .and. method%step%h > method%events%look
       if (is_worth) return
       do k = 1, system%n_event
-         is_worth = may_happen(method%g0(k) - method%threshold(k), method%step%h*method%rate0(k), &
-                               method%g1(k) - method%threshold(k), method%step%h*method%rate1(k))
+         is_worth = may_happen(method%events%g0(k) - method%events%threshold(k), method%step%h*method%events%rate0(k), &
+                               method%events%g1(k) - method%events%threshold(k), method%step%h*method%events%rate1(k))
          if (is_worth) return
       end do
    end function is_worth_a_search
@@ -105,11 +105,13 @@ contains
 
       event = 0
       longest = at_least
-      do k = 1, size(method%g)
-         if (method%rate(k) <= 0.0_wp .or. method%g(k) - method%noise(k) <= longest*method%rate(k)) cycle
-         longest = (method%g(k) - method%noise(k))/method%rate(k)
-         event = k
-      end do
+      associate (events => method%events)
+         do k = 1, size(events%g)
+            if (events%rate(k) <= 0.0_wp .or. events%g(k) - events%noise(k) <= longest*events%rate(k)) cycle
+            longest = (events%g(k) - events%noise(k))/events%rate(k)
+            event = k
+         end do
+      end associate
    end function first_of
 
    !> Events of the last step: the one that it was ended for, and all that come with it. They are one
@@ -124,15 +126,17 @@ contains
       integer :: k
 
       time = time_resolution(method, h)
-      method%n_happened = 1
-      method%happened(1) = event
-      do k = 1, size(method%g)
-         if (k == event .or. method%rate(k) <= 0.0_wp .or. method%threshold(k) >= huge(1.0_wp)) cycle
-         reach = method%noise(k) + method%threshold(k) + time*method%rate(k)
-         if (abs(method%g(k) + method%threshold(k)) > reach) cycle
-         method%n_happened = method%n_happened + 1
-         method%happened(method%n_happened) = k
-      end do
+      associate (events => method%events)
+         events%n_happened = 1
+         events%happened(1) = event
+         do k = 1, size(events%g)
+            if (k == event .or. events%rate(k) <= 0.0_wp .or. events%threshold(k) >= huge(1.0_wp)) cycle
+            reach = events%noise(k) + events%threshold(k) + time*events%rate(k)
+            if (abs(events%g(k) + events%threshold(k)) > reach) cycle
+            events%n_happened = events%n_happened + 1
+            events%happened(events%n_happened) = k
+         end do
+      end associate
    end subroutine note_events
 
    !> The search itself, at places of the step and between them.
@@ -150,13 +154,13 @@ contains
 
       ! the room of the integrator, while it itself is asked for states
       call move_alloc(method%scratch, y)
-      call move_alloc(method%g, g)
-      call move_alloc(method%rate, rate)
+      call move_alloc(method%events%g, g)
+      call move_alloc(method%events%rate, rate)
       event = 0
       low = 0.0_wp
       high = 1.0_wp
       a = 0.0_wp
-      n_inner = ceiling(method%step%h/n_sample/method%look, i8)
+      n_inner = ceiling(method%step%h/n_sample/method%events%look, i8)
       do i = 1, n_sample
          b = real(i, wp)/n_sample
          call look_at(b)
@@ -171,8 +175,8 @@ contains
          call narrow(low, high)
       end if
       call move_alloc(y, method%scratch)
-      call move_alloc(g, method%g)
-      call move_alloc(rate, method%rate)
+      call move_alloc(g, method%events%g)
+      call move_alloc(rate, method%events%rate)
 
    contains
 
@@ -208,8 +212,8 @@ contains
          if (s < 1.0_wp) then
             call values_at(s)
          else
-            g = method%g1 - method%threshold
-            rate = method%rate1
+            g = method%events%g1 - method%events%threshold
+            rate = method%events%rate1
          end if
       end subroutine values_at_place
 

@@ -32,31 +32,46 @@ module integrator
 
    integer, parameter :: base_version = 1     !! of the form of what every integrator saves
 
-   !> An integrator with its state.
-   type, abstract :: integrator_t
-      type(controls_t) :: controls              !! what the user set
-      type(step_t) :: step                      !! the last step; its end is the present state
-      real(wp) :: t = 0.0_wp                    !! present time [s]
+   !> Event functions along a step.
+   type :: event_values_t
       real(wp) :: look = huge(1.0_wp)           !! farthest that places of a step are apart at which events are looked for [s]
-      real(wp), allocatable :: trial(:)         !! (n) state at the end of a trial step [any]
-      real(wp), allocatable :: scale(:)         !! (n) error scales [any]
-      real(wp), allocatable :: scratch(:)       !! (n) room for one state [any]
       real(wp), allocatable :: g0(:), rate0(:)  !! (n_event) event functions and rates at the start of the last step [any]
       real(wp), allocatable :: g1(:), rate1(:)  !! (n_event) at the present state [any]
       real(wp), allocatable :: g(:), rate(:)    !! (n_event) elsewhere [any]
       real(wp), allocatable :: noise(:)         !! (n_event) their round-off in the last step that was searched [any]
       real(wp), allocatable :: threshold(:)     !! (n_event) what they must exceed in that step to be at their event [any]
       logical, allocatable :: is_hidden(:)      !! (n_event) event functions that are not searched for now
-      real(wp), allocatable :: gap(:)           !! (n_event) with onsets not located: event functions, none hidden [any]
-      real(wp), allocatable :: end_gap(:)       !! (n_event) with onsets not located: at the end of the step in hand [any]
-      real(wp), allocatable :: end_rate(:)      !! (n_event) with onsets not located: their rates there [any]
-      logical, allocatable :: is_waiting(:)     !! (n_event) with onsets not located: began above zero, no event before below
       integer, allocatable :: happened(:)       !! (n_event) event functions that made the last step end
       integer :: n_happened = 0                 !! how many
+   end type event_values_t
+
+   !> Event functions of onsets that are not located.
+   type :: onset_values_t
+      real(wp), allocatable :: gap(:)           !! (n_event) event functions, none hidden [any]
+      real(wp), allocatable :: end_gap(:)       !! (n_event) at the end of the step in hand [any]
+      real(wp), allocatable :: end_rate(:)      !! (n_event) their rates there [any]
+      logical, allocatable :: is_waiting(:)     !! (n_event) began above zero, no event before below
+   end type onset_values_t
+
+   !> What an integration took.
+   type :: step_count_t
       integer(i8) :: n_steps = 0                !! accepted steps
       integer(i8) :: n_rejected = 0             !! rejected steps
       integer(i8) :: n_evaluations = 0          !! evaluations of the right-hand side
       integer(i8) :: n_output_evaluations = 0   !! those of them for interpolation only
+   end type step_count_t
+
+   !> An integrator with its state.
+   type, abstract :: integrator_t
+      type(controls_t) :: controls              !! what the user set
+      type(step_t) :: step                      !! the last step; its end is the present state
+      real(wp) :: t = 0.0_wp                    !! present time [s]
+      real(wp), allocatable :: trial(:)         !! (n) state at the end of a trial step [any]
+      real(wp), allocatable :: scale(:)         !! (n) error scales [any]
+      real(wp), allocatable :: scratch(:)       !! (n) room for one state [any]
+      type(event_values_t) :: events            !! event functions
+      type(onset_values_t) :: onset             !! those of onsets, if they are not located
+      type(step_count_t) :: count               !! steps and evaluations
    contains
       procedure(info_interface), nopass, deferred :: info
       procedure(start_interface), deferred :: start
@@ -150,8 +165,8 @@ contains
       do k = 1, size(inner_places)
          call interpolate(self%step, system%n_position, inner_places(k), self%scratch)
          call system%evaluate(self%step%t0 + inner_places(k)*self%step%h, self%scratch, self%step%inner(:, k), status)
-         self%n_evaluations = self%n_evaluations + 1
-         self%n_output_evaluations = self%n_output_evaluations + 1
+         self%count%n_evaluations = self%count%n_evaluations + 1
+         self%count%n_output_evaluations = self%count%n_output_evaluations + 1
          if (status /= 0) return
       end do
       self%step%has_inner = .true.
@@ -198,22 +213,24 @@ contains
       m = system%n_event
       allocate (self%step%y0(n), self%step%y1(n), self%step%f0(n), self%step%f1(n), self%step%inner(n, 2), source=0.0_wp)
       allocate (self%trial(n), self%scale(n), self%scratch(n), source=0.0_wp)
-      allocate (self%g0(m), self%rate0(m), self%g1(m), self%rate1(m), self%g(m), self%rate(m), source=0.0_wp)
-      allocate (self%noise(m), self%threshold(m), self%gap(m), self%end_gap(m), self%end_rate(m), source=0.0_wp)
-      allocate (self%is_hidden(m), self%is_waiting(m), source=.false.)
-      allocate (self%happened(m), source=0)
+      associate (events => self%events, onset => self%onset)
+         allocate (events%g0(m), events%rate0(m), events%g1(m), events%rate1(m), events%g(m), events%rate(m), source=0.0_wp)
+         allocate (events%noise(m), events%threshold(m), onset%gap(m), onset%end_gap(m), onset%end_rate(m), source=0.0_wp)
+         allocate (events%is_hidden(m), onset%is_waiting(m), source=.false.)
+         allocate (events%happened(m), source=0)
+      end associate
    end subroutine make_room
 
    !> The present state becomes the start of the next step.
    subroutine begin_step(self)
       class(integrator_t), intent(inout) :: self  !! the integrator
 
-      self%n_happened = 0
+      self%events%n_happened = 0
       self%step%t0 = self%t
       self%step%y0 = self%step%y1
       self%step%f0 = self%step%f1
-      self%g0 = self%g1
-      self%rate0 = self%rate1
+      self%events%g0 = self%events%g1
+      self%events%rate0 = self%events%rate1
       self%step%has_inner = .false.
    end subroutine begin_step
 
@@ -228,7 +245,7 @@ contains
 
       call system%events(t, y, g, rate)
       call self%hide_events(g, rate)
-      g = g - self%threshold
+      g = g - self%events%threshold
    end subroutine look_at_events
 
    !> Functions that are not searched for look as if they were far from their event, and stayed there.
@@ -238,7 +255,7 @@ contains
       real(wp), intent(inout) :: rate(:)            !! (n_event) their rates [any]
 
       if (self%controls%onset == onset_located) return
-      where (self%is_hidden)
+      where (self%events%is_hidden)
          g = -1.0_wp
          rate = 0.0_wp
       end where
@@ -311,7 +328,7 @@ contains
    integer function base_memory_size(self) result(n)
       class(integrator_t), intent(in) :: self  !! the integrator
 
-      n = 5 + 2*size(self%step%y1) + 5*size(self%g1)
+      n = 5 + 2*size(self%step%y1) + 5*size(self%events%g1)
    end function base_memory_size
 
    !> Write what every integrator keeps.
@@ -323,18 +340,18 @@ contains
       integer :: k
 
       call put(row, place, self%t)
-      call put(row, place, self%n_steps)
-      call put(row, place, self%n_rejected)
-      call put(row, place, self%n_evaluations)
-      call put(row, place, self%n_output_evaluations)
+      call put(row, place, self%count%n_steps)
+      call put(row, place, self%count%n_rejected)
+      call put(row, place, self%count%n_evaluations)
+      call put(row, place, self%count%n_output_evaluations)
       call put(row, place, self%step%y1)
       call put(row, place, self%step%f1)
-      call put(row, place, self%g1)
-      call put(row, place, self%rate1)
-      call put(row, place, self%gap)
-      do k = 1, size(self%g1)
-         call put(row, place, self%is_hidden(k))
-         call put(row, place, self%is_waiting(k))
+      call put(row, place, self%events%g1)
+      call put(row, place, self%events%rate1)
+      call put(row, place, self%onset%gap)
+      do k = 1, size(self%events%g1)
+         call put(row, place, self%events%is_hidden(k))
+         call put(row, place, self%onset%is_waiting(k))
       end do
    end subroutine save_base
 
@@ -347,23 +364,23 @@ contains
       integer :: k
 
       call get(row, place, self%t)
-      call get(row, place, self%n_steps)
-      call get(row, place, self%n_rejected)
-      call get(row, place, self%n_evaluations)
-      call get(row, place, self%n_output_evaluations)
+      call get(row, place, self%count%n_steps)
+      call get(row, place, self%count%n_rejected)
+      call get(row, place, self%count%n_evaluations)
+      call get(row, place, self%count%n_output_evaluations)
       call get(row, place, self%step%y1)
       call get(row, place, self%step%f1)
-      call get(row, place, self%g1)
-      call get(row, place, self%rate1)
-      call get(row, place, self%gap)
-      do k = 1, size(self%g1)
-         call get(row, place, self%is_hidden(k))
-         call get(row, place, self%is_waiting(k))
+      call get(row, place, self%events%g1)
+      call get(row, place, self%events%rate1)
+      call get(row, place, self%onset%gap)
+      do k = 1, size(self%events%g1)
+         call get(row, place, self%events%is_hidden(k))
+         call get(row, place, self%onset%is_waiting(k))
       end do
       self%step%t0 = self%t
       self%step%h = 0.0_wp
       self%step%has_inner = .false.
-      self%n_happened = 0
+      self%events%n_happened = 0
    end subroutine load_base
 
 end module integrator

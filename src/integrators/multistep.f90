@@ -27,17 +27,22 @@ module multistep
    integer, parameter :: n_halving = 60           !! halvings of the bracket of an event
    real(wp), parameter :: tiny_step = 200.0_wp    !! of the spacing of time: too short a stretch for a library to begin on [1]
 
+   !> The last step that a library made.
+   type :: library_step_t
+      logical :: has_polynomial = .false.   !! whether it is the last step of all, so that its polynomial is one of that
+      real(wp) :: h_whole = 0.0_wp          !! its length, before an event cut it short [s]
+      real(wp), allocatable :: gap_0(:)     !! (n) state given out less polynomial, at its start [any]
+      real(wp), allocatable :: gap_1(:)     !! (n) the same at its end [any]
+   end type library_step_t
+
    !> A multistep method.
    type, abstract, extends(integrator_t) :: multistep_t
       class(library_t), allocatable :: library   !! makes the steps
       logical :: is_fresh = .true.               !! the library must begin anew
-      logical :: has_polynomial = .false.        !! the last step is the library's
       real(wp) :: first_step = 0.0_wp            !! first step to try when it does, 0: it chooses [s]
-      real(wp) :: h_whole = 0.0_wp               !! length of the library's last step, before an event cut it short [s]
       integer :: n_rejected_before = 0           !! steps rejected before the library began anew
       logical :: mends = .false.                 !! the library cannot begin off the constraints: states between steps are mended
-      real(wp), allocatable :: gap_0(:)          !! (n) state given out less polynomial, at the start of the step [any]
-      real(wp), allocatable :: gap_1(:)          !! (n) the same at its end [any]
+      type(library_step_t) :: last               !! the library's last step
    contains
       procedure(make_library_interface), deferred :: make_library
       procedure, nopass :: steps => multistep_steps
@@ -79,7 +84,7 @@ contains
       if (.not. allocated(self%library)) then
          call self%make_library()
          call self%library%open(system%n)
-         allocate (self%gap_0(system%n), self%gap_1(system%n), source=0.0_wp)
+         allocate (self%last%gap_0(system%n), self%last%gap_1(system%n), source=0.0_wp)
       end if
       self%t = t
       self%step%t0 = t
@@ -110,8 +115,8 @@ contains
       integer, intent(out) :: status                !! of the evaluation
 
       call system%evaluate(self%t, self%step%y1, self%step%f1, status)
-      self%n_evaluations = self%n_evaluations + 1
-      if (status == 0 .and. system%n_event > 0) call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      self%count%n_evaluations = self%count%n_evaluations + 1
+      if (status == 0 .and. system%n_event > 0) call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
    end subroutine evaluate_end
 
    !> One accepted step, to an event if there is one on the way.
@@ -126,15 +131,15 @@ contains
       call self%begin_step()
       status = advance_step
       associate (controls => self%controls)
-         if (controls%maximum_steps > 0 .and. self%n_steps >= controls%maximum_steps) status = advance_too_many_steps
-         if (controls%maximum_evaluations > 0 .and. self%n_evaluations + 1 >= controls%maximum_evaluations) then
+         if (controls%maximum_steps > 0 .and. self%count%n_steps >= controls%maximum_steps) status = advance_too_many_steps
+         if (controls%maximum_evaluations > 0 .and. self%count%n_evaluations + 1 >= controls%maximum_evaluations) then
             status = advance_too_many_evaluations
          end if
       end associate
       if (status /= advance_step) return
       if (self%is_fresh .and. t_stop - self%t <= tiny_step*eps*max(abs(self%t), abs(t_stop))) then
          ! nothing to be gained by a method: the tangent is exact to round-off
-         self%has_polynomial = .false.
+         self%last%has_polynomial = .false.
          self%trial = self%step%y0 + (t_stop - self%t)*self%step%f0
          t = t_stop
       else
@@ -166,7 +171,7 @@ contains
       self%library%problem%method => self
       status = advance_step
       if (self%is_fresh) then
-         self%n_rejected_before = int(self%n_rejected)
+         self%n_rejected_before = int(self%count%n_rejected)
          self%library%problem%is_fatal = .false.
          call self%library%begin(min(self%first_step, t_stop - self%t), is_good)
          if (.not. is_good) status = merge(advance_no_memory, advance_too_small, self%library%problem%lacks_memory)
@@ -177,9 +182,9 @@ contains
          call self%library%step(t_stop, t, self%trial, status)
          ! the libraries go on without moving, and may try again what failed for good
          if (status == advance_step .and. (t <= self%t .or. self%library%problem%is_fatal)) status = self%library%failure()
-         self%n_rejected = self%n_rejected_before + self%library%n_rejected()
+         self%count%n_rejected = self%n_rejected_before + self%library%n_rejected()
       end if
-      self%has_polynomial = status == advance_step
+      self%last%has_polynomial = status == advance_step
       nullify (self%library%problem%system, self%library%problem%method)
    end subroutine step_by_library
 
@@ -195,15 +200,15 @@ contains
 
       self%t = t
       self%step%h = t - self%step%t0
-      self%h_whole = self%step%h
+      self%last%h_whole = self%step%h
       self%step%y1 = self%trial
-      if (self%has_polynomial) then
-         call self%library%look_back(self%step%t0, self%gap_0)
-         call self%library%look_back(t, self%gap_1)
-         self%gap_0 = self%step%y0 - self%gap_0
-         self%gap_1 = self%step%y1 - self%gap_1
+      if (self%last%has_polynomial) then
+         call self%library%look_back(self%step%t0, self%last%gap_0)
+         call self%library%look_back(t, self%last%gap_1)
+         self%last%gap_0 = self%step%y0 - self%last%gap_0
+         self%last%gap_1 = self%step%y1 - self%last%gap_1
       end if
-      self%n_steps = self%n_steps + 1
+      self%count%n_steps = self%count%n_steps + 1
       call evaluate_end(self, system, status)
       if (status /= 0) then
          ! the last good state stands
@@ -237,10 +242,10 @@ contains
          call dismiss_event(system, self, event, low, high)
       end do
       if (status == 0 .and. is_found) then
-         self%step%h = high*self%h_whole
+         self%step%h = high*self%last%h_whole
          self%t = self%step%t0 + self%step%h
          self%step%y1 = self%trial
-         call note_events(self, event, self%h_whole)
+         call note_events(self, event, self%last%h_whole)
       end if
       if (status == 0) call evaluate_end(self, system, status)  ! without an event the whole step stands
       status = merge(merge(advance_event, advance_step, is_found), advance_failed_evaluation, status == 0)
@@ -261,17 +266,17 @@ contains
 
       is_found = .false.
       call look(high)
-      if (status == 0 .and. all(self%g <= 0.0_wp)) then
+      if (status == 0 .and. all(self%events%g <= 0.0_wp)) then
          ! on held states it is not there, or later
          low = high
          high = 1.0_wp
-         if (all(self%g1 <= self%threshold)) return
+         if (all(self%events%g1 <= self%events%threshold)) return
       end if
       do i = 1, n_halving
-         if (status /= 0 .or. (high - low)*self%h_whole <= eps*abs(self%step%t0 + high*self%h_whole)) exit
+         if (status /= 0 .or. (high - low)*self%last%h_whole <= eps*abs(self%step%t0 + high*self%last%h_whole)) exit
          middle = 0.5_wp*(low + high)
          call look(middle)
-         if (any(self%g > 0.0_wp)) then
+         if (any(self%events%g > 0.0_wp)) then
             high = middle
          else
             low = middle
@@ -279,9 +284,9 @@ contains
       end do
       if (status == 0) call look(high)
       if (status /= 0) return
-      event = maxloc(self%g, dim=1, mask=self%rate > 0.0_wp .and. self%g > 0.0_wp)
+      event = maxloc(self%events%g, dim=1, mask=self%events%rate > 0.0_wp .and. self%events%g > 0.0_wp)
       is_found = event > 0
-      if (.not. is_found) event = maxloc(self%g, dim=1)
+      if (.not. is_found) event = maxloc(self%events%g, dim=1)
 
    contains
 
@@ -290,7 +295,8 @@ contains
          real(wp), intent(in) :: s  !! place in the whole step [1]
 
          call held_state(self, system, s, self%trial, status)
-         if (status == 0) call self%look_at_events(system, self%step%t0 + s*self%h_whole, self%trial, self%g, self%rate)
+         if (status /= 0) return
+         call self%look_at_events(system, self%step%t0 + s*self%last%h_whole, self%trial, self%events%g, self%events%rate)
       end subroutine look
 
    end subroutine halve
@@ -321,13 +327,13 @@ contains
 
       real(wp) :: part
 
-      if (.not. self%has_polynomial) then
+      if (.not. self%last%has_polynomial) then
          call interpolate(self%step, system%n_position, s, y)
          return
       end if
-      part = s*self%step%h/self%h_whole
+      part = s*self%step%h/self%last%h_whole
       call self%library%look_back(self%step%t0 + s*self%step%h, y)
-      y = y + (1.0_wp - part)*self%gap_0 + part*self%gap_1
+      y = y + (1.0_wp - part)*self%last%gap_0 + part*self%last%gap_1
    end subroutine multistep_within
 
    !> The polynomial of the method needs no further evaluations.
@@ -360,7 +366,7 @@ contains
       call self%load_base(row, place)
       self%is_fresh = .true.
       self%first_step = 0.0_wp
-      self%has_polynomial = .false.
+      self%last%has_polynomial = .false.
    end subroutine multistep_load
 
 end module multistep

@@ -139,13 +139,13 @@ contains
       integer, intent(out) :: status                !! advance_step, or a failure
 
       call system%evaluate(self%t, self%step%y1, self%step%f1, status)
-      self%n_evaluations = self%n_evaluations + 1
+      self%count%n_evaluations = self%count%n_evaluations + 1
       if (status /= 0) then
          status = advance_failed_evaluation
          return
       end if
       status = advance_step
-      if (system%n_event > 0) call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      if (system%n_event > 0) call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call begin_control(system, self)
       if (step_hint > 0.0_wp) then
          self%h_before = max(self%h_before, self%h_next)
@@ -191,7 +191,7 @@ contains
             status = advance_failed_evaluation
             return
          end if
-         self%n_rejected = self%n_rejected + 1
+         self%count%n_rejected = self%count%n_rejected + 1
          was_rejected = .true.
          if (h <= least) then
             status = advance_too_small
@@ -213,10 +213,10 @@ contains
 
       status = advance_step
       associate (controls => self%controls)
-         if (controls%maximum_steps > 0 .and. self%n_steps >= controls%maximum_steps) then
+         if (controls%maximum_steps > 0 .and. self%count%n_steps >= controls%maximum_steps) then
             status = advance_too_many_steps
          else if (controls%maximum_evaluations > 0 &
-                  .and. self%n_evaluations + self%n_new_stage + 1 > controls%maximum_evaluations) then
+                  .and. self%count%n_evaluations + self%n_new_stage + 1 > controls%maximum_evaluations) then
             status = advance_too_many_evaluations
          end if
       end associate
@@ -244,7 +244,7 @@ contains
       if (status == 0 .and. system%holds) call system%hold(t_new, self%trial, status)
       if (status == 0) then
          call system%evaluate(t_new, self%trial, self%step%f1, status)
-         self%n_evaluations = self%n_evaluations + 1
+         self%count%n_evaluations = self%count%n_evaluations + 1
       end if
       if (status /= 0) norm = huge(1.0_wp)
       if (status == 0 .and. self%controls%onset == onset_reject) then
@@ -265,7 +265,7 @@ contains
       call system%set_step(h)
       if (status /= 0 .or. .not. system%follows_step) return
       call system%evaluate(self%step%t0, self%step%y0, self%step%f0, status)
-      self%n_evaluations = self%n_evaluations + 2
+      self%count%n_evaluations = self%count%n_evaluations + 2
    end subroutine tell_step
 
    !> Length of the next step. A step cut short by the end of a stretch says little about it.
@@ -295,10 +295,10 @@ contains
       real(wp) :: high, low
       integer :: event
 
-      self%n_steps = self%n_steps + 1
+      self%count%n_steps = self%count%n_steps + 1
       status = advance_step
       if (system%n_event == 0) return
-      call system%last_events(self%t, self%step%y1, self%g1, self%rate1)
+      call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call end_controlled_step(self)
       call find_first_event(system, self, event, low, high)
       if (event > 0) call go_to_event(self, system, low, high, event, status)

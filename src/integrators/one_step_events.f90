@@ -28,7 +28,7 @@ contains
       end if
       if (status == 0) then  ! without an event the whole step stands
          call system%evaluate(self%t, self%step%y1, self%step%f1, status)
-         self%n_evaluations = self%n_evaluations + 1
+         self%count%n_evaluations = self%count%n_evaluations + 1
       end if
       status = merge(merge(advance_event, advance_step, is_found), advance_failed_evaluation, status == 0)
    end procedure go_to_event
@@ -41,7 +41,7 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       call self%make_part(system, h, status)
-      if (status == 0) call self%look_at_events(system, self%step%t0 + h, self%trial, self%g, self%rate)
+      if (status == 0) call self%look_at_events(system, self%step%t0 + h, self%trial, self%events%g, self%events%rate)
    end subroutine step_by
 
    !> Newton's iteration on the length of the step towards an event. Where another function has clearly been above its threshold
@@ -73,24 +73,25 @@ contains
             event = earlier
             before = huge(1.0_wp)
          end if
-         if (self%rate(event) <= 0.0_wp) exit
-         h_new = h - self%g(event)/self%rate(event)
+         if (self%events%rate(event) <= 0.0_wp) exit
+         h_new = h - self%events%g(event)/self%events%rate(event)
          ! at round-off the function no longer falls
-         is_found = abs(h_new - h) <= near*full .and. abs(self%g(event)) >= 0.25_wp*before
+         is_found = abs(h_new - h) <= near*full .and. abs(self%events%g(event)) >= 0.25_wp*before
          is_found = is_found .or. abs(h_new - h) <= eps*h
          if (is_found .or. h_new <= 0.0_wp .or. h_new > 1.5_wp*full) exit
-         before = abs(self%g(event))
+         before = abs(self%events%g(event))
          h_before = h
          h = h_new
       end do
-      if (is_found .and. abs(self%g(event)) > before) then
+      if (is_found .and. abs(self%events%g(event)) > before) then
          h = h_before  ! the last correction was noise
          call step_by(self, system, h, status)
          is_found = status == 0
       end if
       ! it must rise, and no other one may have come and gone before
-      if (is_found) is_found = self%rate(event) > 0.0_wp
-      if (is_found) is_found = .not. any(self%g - self%noise > near*full*abs(self%rate) .and. [(i /= event, i=1, size(self%g))])
+      if (is_found) is_found = self%events%rate(event) > 0.0_wp
+      if (is_found) is_found = .not. any(self%events%g - self%events%noise > near*full*abs(self%events%rate) .and. &
+                                                [(i /= event, i=1, size(self%events%g))])
    end subroutine close_in
 
    !> A grazing contact, or a function that came and went before: halve between "none positive" and "one positive".
@@ -110,16 +111,16 @@ contains
       h_low = 0.0_wp
       h_high = high*self%step%h
       call step_by(self, system, h_high, status)
-      if (status == 0 .and. all(self%g <= 0.0_wp)) then
+      if (status == 0 .and. all(self%events%g <= 0.0_wp)) then
          h_high = self%step%h  ! the interpolant's maximum was not there
-         if (all(self%g1 <= self%threshold)) return
+         if (all(self%events%g1 <= self%events%threshold)) return
       end if
       do i = 1, n_halving
          h = 0.5_wp*(h_low + h_high)
          if (h_high - h_low <= eps*abs(self%step%t0 + h)) exit
          call step_by(self, system, h, status)
          if (status /= 0) exit
-         if (any(self%g > 0.0_wp)) then
+         if (any(self%events%g > 0.0_wp)) then
             h_high = h
          else
             h_low = h
@@ -128,11 +129,11 @@ contains
       h = h_high
       if (status == 0) call step_by(self, system, h, status)
       if (status /= 0) return
-      event = maxloc(self%g, dim=1, mask=self%rate > 0.0_wp .and. self%g > 0.0_wp)
+      event = maxloc(self%events%g, dim=1, mask=self%events%rate > 0.0_wp .and. self%events%g > 0.0_wp)
       is_found = event > 0
       if (is_found) return
-      event = maxloc(self%g, dim=1)
-      is_found = self%noise(event) <= 0.0_wp  ! its rate may be poorer than the place
+      event = maxloc(self%events%g, dim=1)
+      is_found = self%events%noise(event) <= 0.0_wp  ! its rate may be poorer than the place
    end subroutine halve
 
 end submodule one_step_events

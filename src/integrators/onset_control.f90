@@ -33,8 +33,8 @@ contains
       class(ode_system_t), intent(in) :: system      !! the system
       class(integrator_t), intent(inout) :: method   !! the integrator
 
-      method%gap = method%g1
-      method%is_waiting = method%g1 > 0.0_wp .and. method%rate1 < 0.0_wp
+      method%onset%gap = method%events%g1
+      method%onset%is_waiting = method%events%g1 > 0.0_wp .and. method%events%rate1 < 0.0_wp
       call hide(system, method)
    end subroutine begin_control
 
@@ -46,9 +46,9 @@ contains
       integer :: k
 
       do k = 1, system%n_event
-         method%is_hidden(k) = system%is_onset(k) .or. method%is_waiting(k)
+         method%events%is_hidden(k) = system%is_onset(k) .or. method%onset%is_waiting(k)
       end do
-      call method%hide_events(method%g1, method%rate1)
+      call method%hide_events(method%events%g1, method%events%rate1)
    end subroutine hide
 
    !> Whether a trial step ends with a contact that has just begun deeper than the limit.
@@ -60,11 +60,11 @@ contains
 
       integer :: k
 
-      call system%last_events(t, y, method%end_gap, method%end_rate)
+      call system%last_events(t, y, method%onset%end_gap, method%onset%end_rate)
       is_too_deep = .false.
       do k = 1, system%n_event
-         if (.not. system%is_onset(k) .or. method%gap(k) > method%controls%onset_limit) cycle
-         is_too_deep = is_too_deep .or. method%end_gap(k) > method%controls%onset_limit
+         if (.not. system%is_onset(k) .or. method%onset%gap(k) > method%controls%onset_limit) cycle
+         is_too_deep = is_too_deep .or. method%onset%end_gap(k) > method%controls%onset_limit
       end do
    end function is_too_deep
 
@@ -72,9 +72,9 @@ contains
    subroutine end_controlled_step(method)
       class(integrator_t), intent(inout) :: method   !! the integrator, g1 and rate1 as the system has them
 
-      method%end_gap = method%g1
-      method%end_rate = method%rate1
-      call method%hide_events(method%g1, method%rate1)
+      method%onset%end_gap = method%events%g1
+      method%onset%end_rate = method%events%rate1
+      call method%hide_events(method%events%g1, method%events%rate1)
    end subroutine end_controlled_step
 
    !> After the search for located events: onsets at the end of the step, which a located event may have made shorter.
@@ -86,17 +86,17 @@ contains
       integer :: k
       logical :: has_begun(system%n_event)
 
-      if (status == advance_event) call system%last_events(method%t, method%step%y1, method%end_gap, method%end_rate)
+      if (status == advance_event) call system%last_events(method%t, method%step%y1, method%onset%end_gap, method%onset%end_rate)
       do k = 1, system%n_event
-         has_begun(k) = system%is_onset(k) .and. method%end_gap(k) > 0.0_wp .and. method%end_rate(k) > 0.0_wp &
-                        .and. .not. method%is_waiting(k)
+         has_begun(k) = system%is_onset(k) .and. method%onset%end_gap(k) > 0.0_wp .and. method%onset%end_rate(k) > 0.0_wp &
+                        .and. .not. method%onset%is_waiting(k)
       end do
       if (.not. any(has_begun)) then
          if (status == advance_event) return  ! the integrator begins anew
-         method%gap = method%end_gap
-         method%is_waiting = method%is_waiting .and. method%end_gap > 0.0_wp .and. method%end_rate < 0.0_wp
-         method%g1 = method%end_gap
-         method%rate1 = method%end_rate
+         method%onset%gap = method%onset%end_gap
+         method%onset%is_waiting = method%onset%is_waiting .and. method%onset%end_gap > 0.0_wp .and. method%onset%end_rate < 0.0_wp
+         method%events%g1 = method%onset%end_gap
+         method%events%rate1 = method%onset%end_rate
          call hide(system, method)
          return
       end if
@@ -104,8 +104,8 @@ contains
       if (method%controls%onset == onset_interpolate) call go_back(system, method, has_begun, status)
       do k = 1, system%n_event
          if (.not. has_begun(k)) cycle
-         method%n_happened = method%n_happened + 1
-         method%happened(method%n_happened) = k
+         method%events%n_happened = method%events%n_happened + 1
+         method%events%happened(method%events%n_happened) = k
       end do
    end subroutine meet_onsets
 
@@ -119,10 +119,10 @@ contains
       real(wp) :: first, place(size(has_begun))
 
       place = 2.0_wp
-      where (has_begun) place = max(-method%gap, 0.0_wp)/(method%end_gap - min(method%gap, 0.0_wp))
+      where (has_begun) place = max(-method%onset%gap, 0.0_wp)/(method%onset%end_gap - min(method%onset%gap, 0.0_wp))
       first = minval(place)
       has_begun = place <= first + near
-      method%n_happened = 0  ! a located event at the end of the step comes again, after the onset
+      method%events%n_happened = 0  ! a located event at the end of the step comes again, after the onset
       associate (step => method%step)
          step%h = first*step%h
          step%y1 = step%y0 + first*(step%y1 - step%y0)
@@ -130,7 +130,7 @@ contains
          call system%mend(method%t, step%y1, status)
          if (status == 0) call system%evaluate(method%t, step%y1, step%f1, status)
       end associate
-      method%n_evaluations = method%n_evaluations + 1
+      method%count%n_evaluations = method%count%n_evaluations + 1
       status = merge(advance_event, advance_failed_evaluation, status == 0)
    end subroutine go_back
 

@@ -137,10 +137,10 @@ contains
       integer, intent(out) :: status           !! 0, or -1 if none is left
 
       associate (most => self%method%controls%maximum_evaluations)
-         self%is_used_up = most > 0 .and. self%method%n_evaluations + 1 >= most
+         self%is_used_up = most > 0 .and. self%method%count%n_evaluations + 1 >= most
       end associate
       status = merge(-1, 0, self%is_used_up)
-      if (status == 0) self%method%n_evaluations = self%method%n_evaluations + 1
+      if (status == 0) self%method%count%n_evaluations = self%method%count%n_evaluations + 1
    end subroutine count_evaluation
 
    !> Whether the matrix of Newton's equations is kept sparse.

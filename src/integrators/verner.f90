@@ -79,7 +79,7 @@ contains
       n = size(self%y)
       t = self%step%t0
       associate (y0 => self%step%y0, k1 => self%step%f0, k => self%k, y => self%y)
-         self%n_evaluations = self%n_evaluations + 7
+         self%count%n_evaluations = self%count%n_evaluations + 7
          do concurrent(i=1:n)
             y(i) = y0(i) + h*a21*k1(i)
          end do

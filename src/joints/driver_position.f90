@@ -63,7 +63,7 @@ contains
       allocate (self%f(self%n))
       do k = 1, self%n
          self%f(k) = items(k)%values(place_of(items(k), "position"))%expression
-         self%axis(:, k) = [self%axis(2, k), -self%axis(1, k)]
+         self%guide%axis(:, k) = [self%guide%axis(2, k), -self%guide%axis(1, k)]
       end do
    end subroutine position_prepare
 
@@ -98,7 +98,7 @@ contains
       real(wp) :: p_i(3), p_j(3), s(3)
 
       associate (i => self%body(1, k), j => self%body(2, k))
-         s = motion%rot(:, 2, i)*self%axis(1, k) - motion%rot(:, 1, i)*self%axis(2, k)
+         s = motion%rot(:, 2, i)*self%guide%axis(1, k) - motion%rot(:, 1, i)*self%guide%axis(2, k)
          p_i = point_position(motion, i, self%s_i(:, k))
          p_j = point_position(motion, j, self%s_j(:, k))
          value = dot_product(s, p_j - p_i)

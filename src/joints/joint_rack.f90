@@ -23,10 +23,15 @@ module joint_rack
    private
    public :: joint_rack_t
 
-   !> All racks with their pinions of a planar scene.
-   type, extends(joint_translational_t) :: joint_rack_t
+   !> Pinions on racks.
+   type :: pinions_t
       real(wp), allocatable :: radius(:)  !! (n) radius of the pinion's pitch circle, negative to the right of the axis [m]
       real(wp), allocatable :: start(:)   !! (n) s . d + R (angle_j - angle_i) at the start [m]
+   end type pinions_t
+
+   !> All racks with their pinions of a planar scene.
+   type, extends(joint_translational_t) :: joint_rack_t
+      type(pinions_t) :: pinion  !! the pinions
    contains
       procedure, nopass :: info => rack_info
       procedure :: prepare => rack_prepare
@@ -61,9 +66,9 @@ contains
       integer :: k
 
       call self%set_axes(items, angle)
-      allocate (self%radius(self%n), self%start(self%n), source=0.0_wp)
+      allocate (self%pinion%radius(self%n), self%pinion%start(self%n), source=0.0_wp)
       do k = 1, self%n
-         self%radius(k) = items(k)%number("radius")
+         self%pinion%radius(k) = items(k)%number("radius")
       end do
    end subroutine rack_prepare
 
@@ -75,7 +80,7 @@ contains
       integer :: k
 
       do k = 1, self%n
-         self%start(k) = rolled(self, k, motion)
+         self%pinion%start(k) = rolled(self, k, motion)
       end do
    end subroutine rack_set_start
 
@@ -87,7 +92,7 @@ contains
 
       rolled = dot_product(axis_of(self, k, motion), point_position(motion, self%body(2, k), self%s_j(:, k)) &
                            - point_position(motion, self%body(1, k), self%s_i(:, k))) &
-               + self%radius(k)*(motion%angle(self%body(2, k)) - motion%angle(self%body(1, k)))
+               + self%pinion%radius(k)*(motion%angle(self%body(2, k)) - motion%angle(self%body(1, k)))
    end function rolled
 
    !> The axis in the world frame.
@@ -97,7 +102,7 @@ contains
       type(motion_t), intent(in) :: motion     !! positions
       real(wp) :: s(3)                         !! (3) unit vector [1]
 
-      s = motion%rot(:, 1, self%body(1, k))*self%axis(1, k) + motion%rot(:, 2, self%body(1, k))*self%axis(2, k)
+      s = motion%rot(:, 1, self%body(1, k))*self%guide%axis(1, k) + motion%rot(:, 2, self%body(1, k))*self%guide%axis(2, k)
    end function axis_of
 
    !> Fill the rows of all items.
@@ -122,10 +127,10 @@ contains
          v = point_velocity(motion, j, p_j) - point_velocity(motion, i, p_i)
          s = axis_of(self, k, motion)
          n = [-s(2), s(1), 0.0_wp]
-         rows%phi(row) = rolled(self, k, motion) - self%start(k)
+         rows%phi(row) = rolled(self, k, motion) - self%pinion%start(k)
          rows%phi_t(row) = 0.0_wp
-         rows%jac(:, row) = [-s(1), -s(2), dot_product(n, d + s_i) - self%radius(k), &
-                             s(1), s(2), -dot_product(n, s_j) + self%radius(k)]
+         rows%jac(:, row) = [-s(1), -s(2), dot_product(n, d + s_i) - self%pinion%radius(k), &
+                             s(1), s(2), -dot_product(n, s_j) + self%pinion%radius(k)]
          rows%gam(row) = dot_product(s, s_j)*motion%omega(3, j)**2 - dot_product(s, s_i)*motion%omega(3, i)**2 &
                          - 2.0_wp*motion%omega(3, i)*dot_product(n, v) + motion%omega(3, i)**2*dot_product(s, d)
       end do
@@ -141,7 +146,7 @@ contains
       real(wp) :: s(3)
 
       s = axis_of(self, k, motion)
-      p = point_position(motion, self%body(2, k), self%s_j(:, k)) - self%radius(k)*[-s(2), s(1), 0.0_wp]
+      p = point_position(motion, self%body(2, k), self%s_j(:, k)) - self%pinion%radius(k)*[-s(2), s(1), 0.0_wp]
    end function rack_reaction_point
 
 end module joint_rack

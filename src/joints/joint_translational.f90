@@ -24,10 +24,15 @@ module joint_translational
    private
    public :: add_axis_columns, joint_translational_t
 
+   !> Ways of sliders.
+   type :: slideways_t
+      real(wp), allocatable :: axis(:, :)      !! (2, n) unit axis in the frame of body i [1]
+      real(wp), allocatable :: difference(:)   !! (n) angle of i less that of j [rad]
+   end type slideways_t
+
    !> All translational joints of a planar scene.
    type, extends(joint_set_t) :: joint_translational_t
-      real(wp), allocatable :: axis(:, :)       !! (2, n) unit axis in the frame of body i [1]
-      real(wp), allocatable :: difference(:)    !! (n) angle of i less that of j [rad]
+      type(slideways_t) :: guide   !! their ways
    contains
       procedure, nopass :: info => translational_info
       procedure :: prepare => translational_prepare
@@ -89,12 +94,12 @@ contains
       real(wp) :: c, s
       integer :: k
 
-      allocate (self%axis(2, self%n), self%difference(self%n))
+      allocate (self%guide%axis(2, self%n), self%guide%difference(self%n))
       do k = 1, self%n
          c = cos(items(k)%number("axis_angle"))
          s = sin(items(k)%number("axis_angle"))
-         self%axis(:, k) = merge([c, s], [-s, c], items(k)%word("axis") == "x")
-         self%difference(k) = angle(self%body(1, k)) - angle(self%body(2, k))
+         self%guide%axis(:, k) = merge([c, s], [-s, c], items(k)%word("axis") == "x")
+         self%guide%difference(k) = angle(self%body(1, k)) - angle(self%body(2, k))
       end do
    end subroutine set_axes
 
@@ -114,7 +119,7 @@ contains
       integer, intent(in) :: k                          !! item
       real(wp) :: axis(2)                               !! (2) unit vector, frame of body i [1]
 
-      axis = self%axis(:, k)
+      axis = self%guide%axis(:, k)
    end function translational_way_of
 
    !> Column of the slider's length.
@@ -135,7 +140,7 @@ contains
       do m = 1, self%friction%n
          associate (k => self%friction%item(m), row => self%friction%row(:, m))
             associate (i => self%body(1, k), j => self%body(2, k))
-               s = motion%rot(1:2, 1, i)*self%axis(1, k) + motion%rot(1:2, 2, i)*self%axis(2, k)
+               s = motion%rot(1:2, 1, i)*self%guide%axis(1, k) + motion%rot(1:2, 2, i)*self%guide%axis(2, k)
                p = point_position(motion, j, self%s_j(:, k))
                d = p(1:2) - motion%r(1:2, i)
                row(1:3) = -[s(1), s(2), s(2)*d(1) - s(1)*d(2)]
@@ -184,7 +189,7 @@ contains
       type(motion_t), intent(in) :: motion              !! positions and velocities
       type(rows_t), intent(inout) :: rows               !! rows, those of the set are filled
 
-      call translational_rows(self%n, self%n_row_item, self%body, self%s_i, self%s_j, self%axis, self%difference, &
+      call translational_rows(self%n, self%n_row_item, self%body, self%s_i, self%s_j, self%guide%axis, self%guide%difference, &
                               ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, &
                               self%first_row, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
    end subroutine fill_rows

@@ -15,6 +15,7 @@ module klu
    integer(c_int), parameter :: no_scaling = -1_c_int  !! KLU's number for none: the caller scales
 
    !> KLU's `klu_common`, version 1 of SuiteSparse 4 to 7.
+   !> Components: the library's.
    type, bind(C) :: klu_common_t
       real(c_double) :: tol = 0.0_c_double          !! pivot tolerance [1]
       real(c_double) :: memgrow = 0.0_c_double      !! growth of memory [1]

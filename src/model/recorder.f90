@@ -9,7 +9,7 @@ module recorder
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: event_t, recorder_t, summary_t
+   public :: event_t, recorder_t, run_quality_t, summary_t
    public :: n_row_kind, row_end, row_instant, row_jump, row_kinds, row_onset, row_peak, row_stop
    public :: status_complete, status_failed, status_running, status_stopped
 
@@ -44,19 +44,16 @@ module recorder
       character(:), allocatable :: state_after          !! contact state after the event
    end type event_t
 
-   !> What a run cost and how right it is.
-   type :: summary_t
-      character(:), allocatable :: status          !! complete, stopped or failed
-      character(:), allocatable :: message         !! why, if not complete; else blank
-      type(text_t), allocatable :: warnings(:)     !! (any) what a careful reader should know
-      character(:), allocatable :: method          !! integrator
+   !> How a run was made.
+   type :: run_method_t
+      character(:), allocatable :: integrator      !! integrator
       character(:), allocatable :: solver          !! way of solving the augmented system
       character(:), allocatable :: stabilisation   !! way of holding the constraints
-      character(:), allocatable :: equilibrium     !! of a static analysis: stable, unstable or indifferent, and why; else blank
       real(wp) :: tolerance = 0.0_wp               !! local error tolerance, 0 with fixed steps [1]
-      real(wp) :: time_start = 0.0_wp              !! first instant [s]
-      real(wp) :: time_end = 0.0_wp                !! last instant reached [s]
-      integer :: groups = 1                        !! groups of bodies integrated apart; 1: all together
+   end type run_method_t
+
+   !> How often what was done.
+   type :: run_count_t
       integer(i8) :: steps = 0                     !! accepted steps
       integer(i8) :: rejected_steps = 0            !! rejected steps
       integer(i8) :: rhs_evaluations = 0           !! evaluations of the right-hand side, all of them
@@ -66,11 +63,29 @@ module recorder
       integer :: contacts = 0                      !! contacts that began
       integer :: samples = 0                       !! output instants
       integer :: rows(n_row_kind) = 0              !! (n_row_kind) rows beside those of output instants, by kind
-      logical :: ledger = .true.                   !! whether the ledger was kept
+   end type run_count_t
+
+   !> How right a run is.
+   type :: run_quality_t
+      logical :: has_ledger = .true.               !! whether the ledger was kept
       real(wp) :: energy_max = 0.0_wp              !! greatest kinetic + elastic energy + |change of potential| [J]
       real(wp) :: energy_residual_max = 0.0_wp     !! greatest |residual| of the ledger; NaN without ledger [J]
       real(wp) :: violation_max = 0.0_wp           !! greatest |Phi| over the run; rotations times 1 m [m]
       real(wp) :: violation_rate_max = 0.0_wp      !! greatest |dPhi/dt| over the run [m/s]
+   end type run_quality_t
+
+   !> What a run cost and how right it is.
+   type :: summary_t
+      character(:), allocatable :: status          !! complete, stopped or failed
+      character(:), allocatable :: message         !! why, if not complete; else blank
+      type(text_t), allocatable :: warnings(:)     !! (any) what a careful reader should know
+      character(:), allocatable :: equilibrium     !! of a static analysis: stable, unstable or indifferent, and why; else blank
+      real(wp) :: time_start = 0.0_wp              !! first instant [s]
+      real(wp) :: time_end = 0.0_wp                !! last instant reached [s]
+      integer :: groups = 1                        !! groups of bodies integrated apart; 1: all together
+      type(run_method_t) :: method                 !! how it was made
+      type(run_count_t) :: count                   !! how often what was done
+      type(run_quality_t) :: quality               !! how right it is
       real(wp) :: cpu_seconds = 0.0_wp             !! of the solution, without output [s]
       real(wp) :: wall_seconds = 0.0_wp            !! of the whole analysis [s]
    end type summary_t

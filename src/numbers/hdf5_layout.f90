@@ -65,7 +65,7 @@ contains
 
       call new_group(file, "provenance", group, status)
       call text_attribute(group, "created", utc_time(), status)
-      call text_attribute(group, "command", plan%command, status)
+      call text_attribute(group, "command", plan%origin%command, status)
       call text_attribute(group, "host", host_name(), status)
       if (group >= 0) call h5gclose_f(group, closed)
    end subroutine make_provenance
@@ -90,18 +90,18 @@ contains
 
       call text_attribute(file, "filetype", "gudgeon run", status)
       call integer_attribute(file, "format_version", format_version, status)
-      call text_attribute(file, "program_version", plan%program_version, status)
-      call text_attribute(file, "git_sha1", plan%git_sha1, status)
-      call text_attribute(file, "compiler", plan%compiler, status)
-      call text_attribute(file, "libraries", plan%libraries, status)
+      call text_attribute(file, "program_version", plan%origin%program_version, status)
+      call text_attribute(file, "git_sha1", plan%origin%git_sha1, status)
+      call text_attribute(file, "compiler", plan%origin%compiler, status)
+      call text_attribute(file, "libraries", plan%origin%libraries, status)
       call text_attribute(file, "title", plan%title, status)
       call write_status(file, status_running, status)
       call text_attribute(file, "status_message", "", status)
-      text(1)%s = plan%deck_text
+      text(1)%s = plan%origin%deck_text
       call text_dataset(file, "deck", text, .true., "the deck, verbatim", status)
-      do k = 1, min(size(plan%include_names), size(plan%include_texts))
-         text(1)%s = plan%include_texts(k)%s
-         call text_dataset(file, "deck_includes/"//link_path(plan%include_names(k)%s), text, .true., &
+      do k = 1, min(size(plan%origin%include_names), size(plan%origin%include_texts))
+         text(1)%s = plan%origin%include_texts(k)%s
+         call text_dataset(file, "deck_includes/"//link_path(plan%origin%include_names(k)%s), text, .true., &
                            "an included file, verbatim", status)
       end do
    end subroutine make_root

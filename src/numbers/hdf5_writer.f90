@@ -72,7 +72,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/run.h5"
-      self%with_histories = plan%with_histories
+      self%with_histories = plan%with%histories
       block = rows_of_block(catalogue)
       allocate (self%times(block))
       status = enter_file(self%path)
@@ -83,7 +83,7 @@ contains
       call open_library(status)
       call new_file(self%path, self%file, status)
       allocate (self%datasets(0))
-      if (status >= 0) call reserve(self, len(plan%deck_text, i8) + &
+      if (status >= 0) call reserve(self, len(plan%origin%deck_text, i8) + &
                                     metadata_of_dataset*size(catalogue%groups, kind=i8), error)
       if (allocated(error)) then
          closed = remove_file(self%path)

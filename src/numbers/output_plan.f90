@@ -11,34 +11,44 @@ module output_plan
    integer, parameter :: show_summary = 1  !! summary.txt on the standard output
    integer, parameter :: show_json = 2     !! summary.json on the standard output, and nothing else
 
-   !> The plan. Strings and lists that are not allocated count as empty.
-   type :: output_plan_t
-      character(:), allocatable :: directory           !! of the run, which exists and is ours
+   !> Where a run comes from.
+   type :: origin_t
       character(:), allocatable :: deck_name           !! path of the deck as the user gave it
       character(:), allocatable :: deck_text           !! the deck, verbatim
       character(:), allocatable :: deck_echo           !! the deck as understood; unallocated: no deck.echo
-      character(:), allocatable :: title               !! of the scene
+      type(text_t), allocatable :: include_names(:)    !! (n) included files, as in the deck
+      type(text_t), allocatable :: include_texts(:)    !! (n) their contents, verbatim
       character(:), allocatable :: program_version     !! as `0.1.0`
       character(:), allocatable :: git_sha1            !! of the sources
       character(:), allocatable :: compiler            !! name and version
       character(:), allocatable :: libraries           !! names and versions
       character(:), allocatable :: command             !! the command line
+   end type origin_t
+
+   !> What is written.
+   type :: written_t
+      logical :: hdf5 = .true.              !! write run.h5
+      logical :: histories = .true.         !! write time histories to run.h5
+      logical :: contact_rows = .false.     !! write rows at the instants of contacts, besides the output instants
+      logical :: texts = .true.             !! write time histories and events as text
+      logical :: summary = .true.           !! write summary.txt and summary.json
+      logical :: figures = .true.           !! make the figures at the end
+      logical :: progress = .true.          !! show how far the run is on the standard error
+      logical :: warnings = .true.          !! print warnings on the standard error
+   end type written_t
+
+   !> The plan. Strings and lists that are not allocated count as empty.
+   type :: output_plan_t
+      character(:), allocatable :: directory           !! of the run, which exists and is ours
+      type(origin_t) :: origin                         !! where the run comes from
+      character(:), allocatable :: title               !! of the scene
       character(:), allocatable :: suffix              !! of text files' names: blank, or `.ideal` for the ideal twin
-      type(text_t), allocatable :: include_names(:)    !! (n) included files, as in the deck
-      type(text_t), allocatable :: include_texts(:)    !! (n) their contents, verbatim
       type(text_t), allocatable :: channels(:)         !! (n) words of the deck's `channels`; none: everything
       type(text_t), allocatable :: figures(:)          !! (n) words of the deck's `figures`
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
-      logical :: with_hdf5 = .true.                    !! write run.h5
-      logical :: with_histories = .true.               !! write time histories to run.h5
-      logical :: with_contact_rows = .false.           !! write rows at the instants of contacts, besides the output instants
-      character(:), allocatable :: contact_rows        !! the same in words, for the summary; blank: there are no contacts
-      logical :: with_texts = .true.                   !! write time histories and events as text
-      logical :: with_summary = .true.                 !! write summary.txt and summary.json
-      logical :: with_figures = .true.                 !! make the figures at the end
-      logical :: with_progress = .true.                !! show how far the run is on the standard error
-      logical :: with_warnings = .true.                !! print warnings on the standard error
+      type(written_t) :: with                          !! what is written
+      character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts
       integer :: show = show_summary                   !! what to print at the end, one of the above
    contains
       procedure :: complete => complete_plan
@@ -52,18 +62,18 @@ contains
       class(output_plan_t), intent(inout) :: self  !! the plan
 
       call fill(self%directory, ".")
-      call fill(self%deck_name, "")
-      call fill(self%deck_text, "")
+      call fill(self%origin%deck_name, "")
+      call fill(self%origin%deck_text, "")
       call fill(self%title, "")
-      call fill(self%program_version, "unknown")
-      call fill(self%git_sha1, "unknown")
-      call fill(self%compiler, "unknown")
-      call fill(self%libraries, "unknown")
-      call fill(self%command, "")
+      call fill(self%origin%program_version, "unknown")
+      call fill(self%origin%git_sha1, "unknown")
+      call fill(self%origin%compiler, "unknown")
+      call fill(self%origin%libraries, "unknown")
+      call fill(self%origin%command, "")
       call fill(self%suffix, "")
       call fill(self%contact_rows, "")
-      call fill_list(self%include_names)
-      call fill_list(self%include_texts)
+      call fill_list(self%origin%include_names)
+      call fill_list(self%origin%include_texts)
       call fill_list(self%channels)
       call fill_list(self%figures)
       call fill_list(self%warnings)

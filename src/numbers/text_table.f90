@@ -80,8 +80,8 @@ contains
 
       title = one_line(plan%title)
       if (plan%is_twin()) title = title//" (ideal joints)"
-      lines = "# "//title//new_line("a")//"# deck: "//one_line(plan%deck_name)//new_line("a")// &
-              "# gudgeon "//one_line(plan%program_version)//new_line("a")
+      lines = "# "//title//new_line("a")//"# deck: "//one_line(plan%origin%deck_name)//new_line("a")// &
+              "# gudgeon "//one_line(plan%origin%program_version)//new_line("a")
    end function file_heading
 
    !> A string of the deck without control characters, so that it stays on its line.

@@ -131,7 +131,7 @@ contains
       type(output_plan_t), intent(in) :: plan       !! what the files say of the run
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
 
-      with_kinds = plan%with_contact_rows .and. size(catalogue%rooms(room_contacts)%names) > 0
+      with_kinds = plan%with%contact_rows .and. size(catalogue%rooms(room_contacts)%names) > 0
    end function with_kinds
 
    !> The chosen numbers of an item and, of a clearance joint, of its contacts.

@@ -68,25 +68,25 @@ contains
       self%items = catalogue
       call choose(self, catalogue, error)
       if (allocated(error)) return
-      if (allocated(self%plan%deck_echo)) then
-         call write_file(self%plan%directory//"/deck.echo", self%plan%deck_echo, error)
+      if (allocated(self%plan%origin%deck_echo)) then
+         call write_file(self%plan%directory//"/deck.echo", self%plan%origin%deck_echo, error)
          if (allocated(error)) return
       end if
       if (self%plan%is_twin()) self%plan%statistics%is_wanted = .false.
       call self%statistics%start(self%plan%statistics, catalogue, [stroboscopic_scalars(self%figures), &
                                  stroboscopic_scalars(self%of_sweep)], &
                                  spectral_scalars(self%figures))
-      if (.not. self%plan%with_histories) call self%selection%clear(catalogue)
-      if (self%plan%with_hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
+      if (.not. self%plan%with%histories) call self%selection%clear(catalogue)
+      if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
-      if (self%plan%with_texts) then
+      if (self%plan%with%texts) then
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
       end if
       ! histories want them, and the extremes of the statistics
-      self%wants_contact_rows = self%plan%with_contact_rows .and. (self%plan%with_histories .or. self%statistics%plan%is_wanted)
+      self%wants_contact_rows = self%plan%with%contact_rows .and. (self%plan%with%histories .or. self%statistics%plan%is_wanted)
       self%has_started = .true.
-      call self%display%start(self%plan%with_progress)
+      call self%display%start(self%plan%with%progress)
       call memory_is_for("the motion")
    end subroutine start_run
 
@@ -194,8 +194,8 @@ contains
       type(error_t), allocatable :: second
 
       self%last_time = t
-      if (self%plan%with_hdf5) call self%hdf5%sample(t, kind, catalogue, self%events, error)
-      if (self%plan%with_texts) call self%texts%sample(t, kind, catalogue, self%events, second)
+      if (self%plan%with%hdf5) call self%hdf5%sample(t, kind, catalogue, self%events, error)
+      if (self%plan%with%texts) call self%texts%sample(t, kind, catalogue, self%events, second)
       call join_errors(error, second)
       if (allocated(error)) self%is_broken = .true.
    end subroutine keep_row
@@ -267,18 +267,18 @@ contains
       allocate (outcome%pictures(0), outcome%warnings(0))
       call append_all(outcome%warnings, self%plan%warnings)
       call append_all(outcome%warnings, full%warnings)
-      if (self%plan%with_hdf5) then
+      if (self%plan%with%hdf5) then
          call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, outcome%warnings, error)
       end if
       allocate (outcome%files(0))
-      if (self%plan%with_texts) then
+      if (self%plan%with%texts) then
          call self%texts%finish(self%last_time, self%events, second)
          call join_errors(error, second)
          outcome%files = self%texts%names
       end if
       outcome%numbers = numbers
       self%is_broken = self%is_broken .or. allocated(error)
-      if (self%plan%with_figures .and. .not. self%is_broken) then
+      if (self%plan%with%figures .and. .not. self%is_broken) then
          call memory_is_for("the figures")
          allocate (tables(size(self%figures)))
          do k = 1, size(tables)
@@ -320,7 +320,7 @@ contains
 
       lines = summary_lines(self%plan, summary, self%events, outcome)
       json = summary_json(self%plan, summary, self%events, outcome)
-      if (self%plan%with_summary) then
+      if (self%plan%with%summary) then
          call replace_file(self%plan%directory//"/summary.txt", lines, error)
          call replace_file(self%plan%directory//"/summary.json", json, second)
          call join_errors(error, second)
@@ -329,7 +329,7 @@ contains
       if (self%plan%show == show_json) call print_text(json, second)
       call join_errors(error, second)
       if (self%plan%show == show_summary .and. summary%status /= status_failed) return
-      if (.not. (self%plan%with_summary .and. self%plan%with_warnings)) return
+      if (.not. (self%plan%with%summary .and. self%plan%with%warnings)) return
       do k = 1, size(outcome%warnings)
          call write_error("warning: "//printable(outcome%warnings(k)%s)//new_line("a"))
       end do

@@ -38,9 +38,9 @@ contains
       if (.not. allocated(full%warnings)) allocate (full%warnings(0))
       if (.not. allocated(full%status)) full%status = status_complete
       if (.not. allocated(full%message)) full%message = ""
-      if (.not. allocated(full%method)) full%method = ""
-      if (.not. allocated(full%solver)) full%solver = ""
-      if (.not. allocated(full%stabilisation)) full%stabilisation = ""
+      if (.not. allocated(full%method%integrator)) full%method%integrator = ""
+      if (.not. allocated(full%method%solver)) full%method%solver = ""
+      if (.not. allocated(full%method%stabilisation)) full%method%stabilisation = ""
       if (.not. allocated(full%equilibrium)) full%equilibrium = ""
    end function complete_summary
 
@@ -51,7 +51,7 @@ contains
       integer(i8) :: n
 
       seconds_per_rhs = not_a_number()
-      n = summary%rhs_evaluations - summary%output_evaluations
+      n = summary%count%rhs_evaluations - summary%count%output_evaluations
       if (n > 0) seconds_per_rhs = summary%cpu_seconds/real(n, wp)
    end function seconds_per_rhs
 
@@ -60,9 +60,9 @@ contains
       type(summary_t), intent(in) :: summary  !! of the run
 
       relative_residual = not_a_number()
-      if (.not. (ieee_is_finite(summary%energy_residual_max) .and. ieee_is_finite(summary%energy_max))) return
-      if (summary%ledger .and. summary%energy_max > 0.0_wp) then
-         relative_residual = summary%energy_residual_max/summary%energy_max
+      if (.not. (ieee_is_finite(summary%quality%energy_residual_max) .and. ieee_is_finite(summary%quality%energy_max))) return
+      if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
+         relative_residual = summary%quality%energy_residual_max/summary%quality%energy_max
       end if
    end function relative_residual
 
@@ -84,20 +84,20 @@ contains
       call lines%line("")
       call cost_lines(lines, summary)
       call accuracy_lines(lines, summary)
-      call lines%line("events     "//to_text(summary%events)//" located, "//to_text(summary%contacts)// &
-                      " contacts began; "//to_text(summary%samples)//" output instants")
-      if (sum(summary%rows(row_onset:row_jump)) > 0) then
-         call lines%line("rows       "//to_text(sum(summary%rows(row_onset:row_jump)))//" more at contacts: "// &
-                         to_text(summary%rows(row_onset))//" onsets, "//to_text(summary%rows(row_peak))//" peaks, "// &
-                         to_text(summary%rows(row_end))//" ends, "//to_text(summary%rows(row_jump))//" jumps")
-      else if (len(plan%contact_rows) > 0 .and. .not. plan%with_contact_rows) then
+      call lines%line("events     "//to_text(summary%count%events)//" located, "//to_text(summary%count%contacts)// &
+                      " contacts began; "//to_text(summary%count%samples)//" output instants")
+      if (sum(summary%count%rows(row_onset:row_jump)) > 0) then
+         call lines%line("rows       "//to_text(sum(summary%count%rows(row_onset:row_jump)))//" more at contacts: "// &
+                         to_text(summary%count%rows(row_onset))//" onsets, "//to_text(summary%count%rows(row_peak))//" peaks, "// &
+                         to_text(summary%count%rows(row_end))//" ends, "//to_text(summary%count%rows(row_jump))//" jumps")
+      else if (len(plan%contact_rows) > 0 .and. .not. plan%with%contact_rows) then
          call lines%line("rows       "//plan%contact_rows)
       end if
       call impact_lines(lines, events)
       call number_lines(lines, plan, outcome%numbers)
       call lines%line("")
       call lines%line("output     "//plan%directory//"/")
-      if (plan%with_hdf5) call lines%line("           run.h5")
+      if (plan%with%hdf5) call lines%line("           run.h5")
       call lines%line("           "//to_text(size(outcome%files))//" time histories (.dat), events.dat")
       do k = 1, size(outcome%pictures)
          call lines%line("           "//outcome%pictures(k)%s)
@@ -118,10 +118,10 @@ contains
       unit = choose_unit("s", max(abs(summary%time_start), abs(summary%time_end)))
       line = summary%status//": "//to_text(unit%factor*summary%time_start)//" to "// &
              to_text(unit%factor*summary%time_end)//" "//unit%symbol
-      if (len(summary%method) > 0) line = line//", "//summary%method
-      if (summary%tolerance > 0.0_wp) line = line//" at tolerance "//to_text(summary%tolerance)
-      if (len(summary%solver) > 0) line = line//", "//summary%solver
-      if (len(summary%stabilisation) > 0) line = line//", "//summary%stabilisation
+      if (len(summary%method%integrator) > 0) line = line//", "//summary%method%integrator
+      if (summary%method%tolerance > 0.0_wp) line = line//" at tolerance "//to_text(summary%method%tolerance)
+      if (len(summary%method%solver) > 0) line = line//", "//summary%method%solver
+      if (len(summary%method%stabilisation) > 0) line = line//", "//summary%method%stabilisation
    end function headline
 
    !> What the run cost.
@@ -132,13 +132,13 @@ contains
       real(wp) :: each
 
       call lines%line("cost       "//real_text(summary%cpu_seconds, 4)//" s CPU, "// &
-                      to_text(summary%steps)//" steps, "// &
-                      to_text(summary%rejected_steps)//" rejected")
-      call lines%add("           "//to_text(summary%rhs_evaluations)//" right-hand sides")
-      if (summary%output_evaluations > 0) call lines%add(" ("//to_text(summary%output_evaluations)//" for output)")
+                      to_text(summary%count%steps)//" steps, "// &
+                      to_text(summary%count%rejected_steps)//" rejected")
+      call lines%add("           "//to_text(summary%count%rhs_evaluations)//" right-hand sides")
+      if (summary%count%output_evaluations > 0) call lines%add(" ("//to_text(summary%count%output_evaluations)//" for output)")
       each = seconds_per_rhs(summary)
       if (ieee_is_finite(each)) call lines%add(", "//real_text(1.0e9_wp*each, 3)//" ns each")
-      call lines%line(", "//to_text(summary%factorisations)//" factorisations")
+      call lines%line(", "//to_text(summary%count%factorisations)//" factorisations")
       if (summary%groups > 1) call lines%line("           "//to_text(summary%groups)//" groups of bodies integrated apart")
    end subroutine cost_lines
 
@@ -149,17 +149,17 @@ contains
 
       real(wp) :: relative
 
-      if (summary%ledger) then
-         call lines%add("accuracy   energy residual "//real_text(summary%energy_residual_max, 3)//" J")
+      if (summary%quality%has_ledger) then
+         call lines%add("accuracy   energy residual "//real_text(summary%quality%energy_residual_max, 3)//" J")
          relative = relative_residual(summary)
          if (ieee_is_finite(relative)) call lines%add(", "//real_text(relative, 3)//" of the largest energy ("// &
-                                                      real_text(summary%energy_max, 4)//" J)")
+                                                      real_text(summary%quality%energy_max, 4)//" J)")
          call lines%line("")
       else
          call lines%line("accuracy   no energy ledger was kept")
       end if
-      call lines%line("           constraint violation "//real_text(summary%violation_max, 3)//" m, its rate "// &
-                      real_text(summary%violation_rate_max, 3)//" m/s")
+      call lines%line("           constraint violation "//real_text(summary%quality%violation_max, 3)//" m, its rate "// &
+                      real_text(summary%quality%violation_rate_max, 3)//" m/s")
    end subroutine accuracy_lines
 
    !> Numbers of the first contacts, in the order of their onsets.
@@ -249,9 +249,9 @@ contains
       type(json_object_t) :: json
 
       call json%start(0)
-      call json%put_text("program", "gudgeon "//plan%program_version)
-      call json%put_text("git_sha1", plan%git_sha1)
-      call json%put_text("deck", plan%deck_name)
+      call json%put_text("program", "gudgeon "//plan%origin%program_version)
+      call json%put_text("git_sha1", plan%origin%git_sha1)
+      call json%put_text("deck", plan%origin%deck_name)
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
       call put_summary(json, summary)
@@ -270,33 +270,33 @@ contains
 
       call json%put_text("status", summary%status)
       call json%put_text("message", summary%message)
-      call json%put_text("method", summary%method)
-      call json%put_text("solver", summary%solver)
-      call json%put_text("stabilisation", summary%stabilisation)
+      call json%put_text("method", summary%method%integrator)
+      call json%put_text("solver", summary%method%solver)
+      call json%put_text("stabilisation", summary%method%stabilisation)
       call json%put_text("equilibrium", summary%equilibrium)
-      call json%put_real("tolerance", summary%tolerance)
+      call json%put_real("tolerance", summary%method%tolerance)
       call json%put_real("time_start", summary%time_start)
       call json%put_real("time_end", summary%time_end)
       call json%put_integer("groups", int(summary%groups, i8))
-      call json%put_integer("steps", summary%steps)
-      call json%put_integer("rejected_steps", summary%rejected_steps)
-      call json%put_integer("rhs_evaluations", summary%rhs_evaluations)
-      call json%put_integer("output_evaluations", summary%output_evaluations)
-      call json%put_integer("factorisations", summary%factorisations)
-      call json%put_integer("events", int(summary%events, i8))
-      call json%put_integer("contacts", int(summary%contacts, i8))
-      call json%put_integer("samples", int(summary%samples, i8))
-      call json%put_integer("onset_rows", int(summary%rows(row_onset), i8))
-      call json%put_integer("peak_rows", int(summary%rows(row_peak), i8))
-      call json%put_integer("end_rows", int(summary%rows(row_end), i8))
-      call json%put_integer("jump_rows", int(summary%rows(row_jump), i8))
-      call json%put_integer("stop_rows", int(summary%rows(row_stop), i8))
-      call json%put_logical("ledger", summary%ledger)
-      call json%put_real("energy_max", summary%energy_max)
-      call json%put_real("energy_residual_max", summary%energy_residual_max)
+      call json%put_integer("steps", summary%count%steps)
+      call json%put_integer("rejected_steps", summary%count%rejected_steps)
+      call json%put_integer("rhs_evaluations", summary%count%rhs_evaluations)
+      call json%put_integer("output_evaluations", summary%count%output_evaluations)
+      call json%put_integer("factorisations", summary%count%factorisations)
+      call json%put_integer("events", int(summary%count%events, i8))
+      call json%put_integer("contacts", int(summary%count%contacts, i8))
+      call json%put_integer("samples", int(summary%count%samples, i8))
+      call json%put_integer("onset_rows", int(summary%count%rows(row_onset), i8))
+      call json%put_integer("peak_rows", int(summary%count%rows(row_peak), i8))
+      call json%put_integer("end_rows", int(summary%count%rows(row_end), i8))
+      call json%put_integer("jump_rows", int(summary%count%rows(row_jump), i8))
+      call json%put_integer("stop_rows", int(summary%count%rows(row_stop), i8))
+      call json%put_logical("ledger", summary%quality%has_ledger)
+      call json%put_real("energy_max", summary%quality%energy_max)
+      call json%put_real("energy_residual_max", summary%quality%energy_residual_max)
       call json%put_real("energy_residual_relative", relative_residual(summary))
-      call json%put_real("violation_max", summary%violation_max)
-      call json%put_real("violation_rate_max", summary%violation_rate_max)
+      call json%put_real("violation_max", summary%quality%violation_max)
+      call json%put_real("violation_rate_max", summary%quality%violation_rate_max)
       call json%put_real("cpu_seconds", summary%cpu_seconds)
       call json%put_real("wall_seconds", summary%wall_seconds)
       call json%put_real("seconds_per_rhs", seconds_per_rhs(summary))

@@ -55,18 +55,18 @@ contains
       call budget%begin(study%budget)
       call new_job(scene, plan, stop, job)
       study%end = plan%end
-      study%instants = nint(scene%precision%number("instants")) + 1
-      study%longest_step = scene%dynamic%number("maximum_step")
+      study%instants = nint(scene%settings%precision%number("instants")) + 1
+      study%longest_step = scene%settings%dynamic%number("maximum_step")
       call settings_of(words, settings)
       call new_ladders(scene, settings, study)
       call run_ladders(job, budget, display, study, kept)
-      call find_reference(job, budget, until_reference, scene%precision%number("finest"), study, kept, reference)
+      call find_reference(job, budget, until_reference, scene%settings%precision%number("finest"), study, kept, reference)
       call display%update(0.4_wp)
       if (reference%is_there) call measure_all(study, kept, reference)
-      call run_twins(job, budget, until_twins, scene%precision%number("perturbation"), kept, reference, study)
+      call run_twins(job, budget, until_twins, scene%settings%precision%number("perturbation"), kept, reference, study)
       call raise_horizons(study)
       call display%update(0.5_wp)
-      call time_rounds(job, budget, nint(scene%precision%number("rounds")), display, study)
+      call time_rounds(job, budget, nint(scene%settings%precision%number("rounds")), display, study)
       call find_orders(study)
       call choose_best(study)
       call confirm_choice(job, budget, reference, study)
@@ -97,10 +97,10 @@ contains
       type(job_t), intent(out) :: job          !! what runs share
 
       job%scene = scene
-      job%settings = scene%dynamic
+      job%settings = scene%settings%dynamic%item_t
       job%plan = plan
       job%plan%first_output = 0.0_wp
-      job%plan%every = plan%end/scene%precision%number("instants")
+      job%plan%every = plan%end/scene%settings%precision%number("instants")
       job%plan%strobes = [real(wp) ::]
       job%stop = stop
    end subroutine new_job
@@ -114,7 +114,7 @@ contains
       real(wp) :: coarsest, finest
       integer :: i, k, n, per_decade
 
-      associate (asked => scene%precision)
+      associate (asked => scene%settings%precision)
          per_decade = nint(asked%number("per_decade"))
          coarsest = asked%number("coarsest")
          allocate (study%ladders(size(settings)))
@@ -244,13 +244,13 @@ contains
       associate (summary => outcome%summary)
          rung%cpu = summary%cpu_seconds
          rung%cpu_least = summary%cpu_seconds
-         rung%steps = summary%steps
-         rung%rejected = summary%rejected_steps
-         rung%evaluations = summary%rhs_evaluations - summary%output_evaluations
+         rung%steps = summary%count%steps
+         rung%rejected = summary%count%rejected_steps
+         rung%evaluations = summary%count%rhs_evaluations - summary%count%output_evaluations
          if (rung%state /= rung_done) return
-         rung%error(error_violation) = summary%violation_max
-         if (summary%ledger .and. summary%energy_max > 0.0_wp) then
-            rung%error(error_ledger) = summary%energy_residual_max/summary%energy_max
+         rung%error(error_violation) = summary%quality%violation_max
+         if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
+            rung%error(error_ledger) = summary%quality%energy_residual_max/summary%quality%energy_max
          end if
       end associate
    end subroutine run_rung
@@ -268,7 +268,7 @@ contains
       integer :: k
 
       if (.not. any(study%ladders%is_fixed)) return
-      longest = job%scene%precision%number("longest_step")
+      longest = job%scene%settings%precision%number("longest_step")
       if (longest <= 0.0_wp) then
          longest = study%end/100.0_wp
          do k = size(study%ladders), 1, -1
@@ -279,8 +279,8 @@ contains
          if (all(study%ladders%is_fixed)) then
             nothing%is_kept = .false.
             job%cpu = shorter(budget%cpu_left(until_ladders), job)
-            call run_setting(job, setting_t("verner", "", ""), job%scene%precision%number("coarsest"), nothing, outcome)
-            if (outcome%summary%steps > 0) longest = study%end/real(outcome%summary%steps, wp)
+            call run_setting(job, setting_t("verner", "", ""), job%scene%settings%precision%number("coarsest"), nothing, outcome)
+            if (outcome%summary%count%steps > 0) longest = study%end/real(outcome%summary%count%steps, wp)
          end if
          longest = 10.0_wp**(real(nint(4.0_wp*log10(longest)), wp)/4.0_wp)
       end if

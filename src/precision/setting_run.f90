@@ -84,7 +84,7 @@ contains
       if (.not. allocated(error)) then
          call new_system(job%scene, levels_as_written, system)
          call find_integrator(setting%method, method)
-         call read_controls(job%scene%dynamic, method%controls)
+         call read_controls(job%scene%settings%dynamic%item_t, method%controls)
          if (job%member > 0) then
             call find_start(job%scene, levels_as_written, system, y, assembly, error, &
                             random_shift(job%scene%bodies, system%linkage%coordinates, 1, job%member, job%length, &
@@ -121,7 +121,7 @@ contains
       type(diagnostics_t) :: mistakes
       type(source_t) :: none(0)
 
-      job%scene%dynamic = job%settings
+      job%scene%settings%dynamic%item_t = job%settings
       call put_word("method", setting%method)
       if (setting%way /= "") call put_word("stabilise", setting%way)
       if (setting%solver /= "") call put_word("solver", setting%solver)
@@ -131,7 +131,7 @@ contains
          call put_number("step", 0.0_wp)
          call put_number("tolerance", asked)
       end if
-      job%scene%dynamic%values(:)%location = location_t()
+      job%scene%settings%dynamic%values(:)%location = location_t()
       call check_steps(job%scene, mistakes)
       call mistakes%to_error(none, error)
 
@@ -142,7 +142,7 @@ contains
          character(*), intent(in) :: key   !! the key
          character(*), intent(in) :: word  !! its word
 
-         associate (value => job%scene%dynamic%values(place_of(job%scene%dynamic, key)))
+         associate (value => job%scene%settings%dynamic%values(place_of(job%scene%settings%dynamic, key)))
             if (value%text == word) return
             value%text = word
             value%options = [option_t ::]
@@ -154,7 +154,7 @@ contains
          character(*), intent(in) :: key   !! the key
          real(wp), intent(in) :: number    !! its number [any]
 
-         job%scene%dynamic%values(place_of(job%scene%dynamic, key))%number = number
+         job%scene%settings%dynamic%values(place_of(job%scene%settings%dynamic, key))%number = number
       end subroutine put_number
 
    end subroutine take_setting

@@ -62,8 +62,8 @@ contains
       call report_dimension(quantity, taken%columns(k)%dimension, option%location, "in option '"//option%name//"'"//place, &
                             diagnostics)
       if (.not. quantity%is_good) return
-      if (option%number > taken%columns(k)%lower) return
-      if (option%number >= taken%columns(k)%lower .and. .not. taken%columns(k)%open_lower) return
+      if (option%number > taken%columns(k)%bounds%lower) return
+      if (option%number >= taken%columns(k)%bounds%lower .and. .not. taken%columns(k)%bounds%open_lower) return
       call diagnostics%add(option%location, "option '"//option%name//"'"//place//" is "// &
                            trim(merge("negative", "zero    ", option%number < 0.0_wp)), "out of bounds")
    end subroutine check_one

@@ -27,17 +27,17 @@ contains
       n = 0
       do k = 1, n_function_kinds
          call new_function_kind(k, kind)
-         scene%functions(k)%info = kind%info()
-         call read_items(deck, scene%functions(k)%info, scene%functions(k)%items, diagnostics)
-         n = n + size(scene%functions(k)%items)
+         scene%tables%functions(k)%info = kind%info()
+         call read_items(deck, scene%tables%functions(k)%info, scene%tables%functions(k)%items, diagnostics)
+         n = n + size(scene%tables%functions(k)%items)
       end do
       call deck%symbols%start(n)
       do k = 1, n_function_kinds
          call new_function_kind(k, kind)
-         do i = 1, size(scene%functions(k)%items)
+         do i = 1, size(scene%tables%functions(k)%items)
             before = diagnostics%count()
-            call make_function(kind, scene%functions(k)%items(i), symbol, before == 0, diagnostics)
-            call check_name(deck, scene%functions(k)%items(i), diagnostics)
+            call make_function(kind, scene%tables%functions(k)%items(i), symbol, before == 0, diagnostics)
+            call check_name(deck, scene%tables%functions(k)%items(i), diagnostics)
             if (diagnostics%count() > before) symbol%kind = symbol_broken
             call deck%symbols%add(symbol)
          end do

@@ -1,6 +1,5 @@
 !> From a deck to a scene: reads every table, looks up names, checks what tables cannot say of themselves.
 module read_scene
-   use item, only: place_of
    use bodies, only: bodies_info, material_info, new_bodies, new_materials, new_points, points_info
    use clearance_registry, only: n_clearance_kinds
    use columns, only: column_of
@@ -19,7 +18,7 @@ module read_scene
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
-      scene_t, table_bodies, table_materials, table_points
+      scene_t, section_t, settings_t, table_bodies, table_materials, table_points
    use scene_checks, only: check_meaning, check_names, report_doubled
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use settings, only: check_sections, has_section, read_settings
@@ -39,94 +38,100 @@ contains
 
       type(kind_info_t), allocatable :: kinds(:)
       type(directory_t) :: directory
-      logical :: is_present
 
       call all_kinds(kinds)
       call check_sections(deck, kinds, diagnostics)
-      scene%guards_kind = guards_info()
-      scene%output_kind = output_info()
       call functions_from_deck(deck, scene, diagnostics)
-      call read_settings(deck, scene_info(), scene%header, is_present, diagnostics)
-      call read_analyses(deck, scene, diagnostics)
-      call read_settings(deck, scene%guards_kind, scene%guards, is_present, diagnostics)
-      call read_settings(deck, scene%output_kind, scene%output, is_present, diagnostics)
-      call read_studies(deck, scene, diagnostics)
+      call read_section(deck, scene_info(), scene%settings%header, diagnostics)
+      call read_analyses(deck, scene%settings, diagnostics)
+      scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
+      call read_section(deck, guards_info(), scene%settings%guards, diagnostics)
+      call read_section(deck, output_info(), scene%settings%output, diagnostics)
+      call read_studies(deck, scene%settings, diagnostics)
       call read_tables(deck, scene, diagnostics)
-      call add_names(scene%base(table_bodies)%items, directory%bodies)
-      call add_names(scene%base(table_points)%items, directory%points)
-      call add_names(scene%base(table_materials)%items, directory%materials)
+      call add_names(scene%tables%base(table_bodies)%items, directory%bodies)
+      call add_names(scene%tables%base(table_points)%items, directory%points)
+      call add_names(scene%tables%base(table_materials)%items, directory%materials)
       call add_joints(scene, directory)
       call read_laws(deck, scene, directory, diagnostics)
-      if (size(scene%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
+      if (size(scene%tables%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
          call diagnostics%add(location_of_end(deck), "no bodies", "a scene needs at least one", "add a table [bodies]")
       end if
       call resolve_tables(directory, scene, diagnostics)
       call check_names(scene, diagnostics)
       if (diagnostics%count() > 0) return
 
-      scene%title = scene%header%word("title")
-      scene%gravity(1:2) = scene%header%values(place_of(scene%header, "gravity"))%vector(1:2)
-      call new_bodies(scene%base(table_bodies)%items, scene%bodies)
-      call new_points(scene%base(table_points)%items, scene%points)
-      call new_materials(scene%base(table_materials)%items, scene%materials)
+      scene%title = scene%settings%header%word("title")
+      scene%gravity(1:2) = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x(1:2)
+      call new_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
+      call new_points(scene%tables%base(table_points)%items, scene%points)
+      call new_materials(scene%tables%base(table_materials)%items, scene%materials)
       call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck
 
+   !> One section of settings: defaults if the deck has none.
+   subroutine read_section(deck, info, section, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck
+      type(kind_info_t), intent(in) :: info               !! keys of the section
+      type(section_t), intent(out) :: section             !! what it sets
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      section%info = info
+      call read_settings(deck, section%info, section%item_t, section%is_present, diagnostics)
+   end subroutine read_section
+
    !> The sections of the analyses. The one that runs is the first that the deck has; a deck without
    !> any is a dynamic one whose section is missing.
-   subroutine read_analyses(deck, scene, diagnostics)
+   subroutine read_analyses(deck, sections, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
-      type(scene_t), intent(inout) :: scene               !! settings are set
+      type(settings_t), intent(inout) :: sections         !! those of the analyses are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
+      type(kind_info_t) :: info
       integer :: k
-      logical :: is_present
 
       do k = 1, n_analysis
-         scene%has_analysis(k) = has_section(deck, "analysis."//trim(analysis_names(k)))
+         sections%has_analysis(k) = has_section(deck, "analysis."//trim(analysis_names(k)))
       end do
-      if (.not. any(scene%has_analysis)) scene%has_analysis(analysis_dynamic) = .true.
-      scene%analysis = findloc(scene%has_analysis, .true., dim=1)
-      scene%dynamic_kind = dynamic_info()
-      scene%kinematic_kind = kinematic_info()
-      scene%static_kind = static_info()
+      if (.not. any(sections%has_analysis)) sections%has_analysis(analysis_dynamic) = .true.
+      info = dynamic_info()
       ! what the equations ask of [analysis.dynamic] has defaults in the other analyses
-      if (.not. scene%has_analysis(analysis_dynamic)) then
-         scene%dynamic_kind%columns(column_of(scene%dynamic_kind, "end"))%default = "0 s"
-      end if
-      call read_settings(deck, scene%dynamic_kind, scene%dynamic, is_present, diagnostics)
-      do k = 1, size(scene%dynamic_kind%columns)
-         associate (column => scene%dynamic_kind%columns(k))
+      if (.not. sections%has_analysis(analysis_dynamic)) info%columns(column_of(info, "end"))%default = "0 s"
+      call read_section(deck, info, sections%dynamic, diagnostics)
+      do k = 1, size(info%columns)
+         associate (column => info%columns(k))
             if (.not. allocated(column%options)) cycle
-            call check_options(column%name, scene%dynamic%values(k), column%choices, column%options, diagnostics)
+            call check_options(column%name, sections%dynamic%values(k), column%choices, column%options, diagnostics)
          end associate
       end do
-      call fold_imsl_names(scene%dynamic_kind, scene%dynamic, diagnostics)
-      call read_settings(deck, scene%static_kind, scene%static, is_present, diagnostics)
-      if (scene%has_analysis(analysis_kinematic)) then
-         call read_settings(deck, scene%kinematic_kind, scene%kinematic, is_present, diagnostics)
-      end if
+      call fold_imsl_names(sections%dynamic%info, sections%dynamic%item_t, diagnostics)
+      call read_section(deck, static_info(), sections%static, diagnostics)
+      sections%kinematic%info = kinematic_info()
+      if (sections%has_analysis(analysis_kinematic)) call read_section(deck, kinematic_info(), sections%kinematic, diagnostics)
    end subroutine read_analyses
 
-   !> The sections of statistics and of many runs, if the deck has them.
-   subroutine read_studies(deck, scene, diagnostics)
+   !> The sections of statistics and of many runs, if the deck has them; that of a comparison has defaults.
+   subroutine read_studies(deck, sections, diagnostics)
       type(deck_t), intent(inout) :: deck                 !! the deck
-      type(scene_t), intent(inout) :: scene               !! settings are set
+      type(settings_t), intent(inout) :: sections         !! those of studies are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      logical :: is_present
+      call read_if_there(statistics_info(), sections%statistics)
+      call read_if_there(ensemble_info(), sections%ensemble)
+      call read_section(deck, precision_section(), sections%precision, diagnostics)
+      if (sections%precision%is_present) call check_precision(sections%precision%item_t, diagnostics)
 
-      scene%statistics_kind = statistics_info()
-      scene%has_statistics = has_section(deck, scene%statistics_kind%name)
-      if (scene%has_statistics) then
-         call read_settings(deck, scene%statistics_kind, scene%statistics, is_present, diagnostics)
-      end if
-      scene%ensemble_kind = ensemble_info()
-      scene%has_ensemble = has_section(deck, scene%ensemble_kind%name)
-      if (scene%has_ensemble) call read_settings(deck, scene%ensemble_kind, scene%ensemble, is_present, diagnostics)
-      scene%precision_kind = precision_section()
-      call read_settings(deck, scene%precision_kind, scene%precision, scene%has_precision, diagnostics)
-      if (scene%has_precision) call check_precision(scene%precision, diagnostics)
+   contains
+
+      !> Read a section that has no values unless the deck has it.
+      subroutine read_if_there(info, section)
+         type(kind_info_t), intent(in) :: info        !! keys of the section
+         type(section_t), intent(inout) :: section    !! what it sets
+
+         section%info = info
+         if (has_section(deck, info%name)) call read_section(deck, info, section, diagnostics)
+      end subroutine read_if_there
+
    end subroutine read_studies
 
    !> The tables of joints, forces and clearances.
@@ -137,11 +142,11 @@ contains
 
       integer :: k
 
-      scene%base(table_bodies)%info = bodies_info()
-      scene%base(table_points)%info = points_info()
-      scene%base(table_materials)%info = material_info()
+      scene%tables%base(table_bodies)%info = bodies_info()
+      scene%tables%base(table_points)%info = points_info()
+      scene%tables%base(table_materials)%info = material_info()
       do k = 1, n_base
-         call read_items(deck, scene%base(k)%info, scene%base(k)%items, diagnostics)
+         call read_items(deck, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do
       do k = 1, n_joint_kinds
          scene%joints(k)%info = joint_info(k)
@@ -168,10 +173,10 @@ contains
 
       allocate (scene%laws(0), scene%frictions(0), directory%laws(0), directory%frictions(0))
       do k = 1, n_law_kinds
-         scene%law_tables(k)%info = law_info(k)
+         scene%tables%laws(k)%info = law_info(k)
          before = diagnostics%count()
-         call read_items(deck, scene%law_tables(k)%info, scene%law_tables(k)%items, diagnostics)
-         associate (items => scene%law_tables(k)%items)
+         call read_items(deck, scene%tables%laws(k)%info, scene%tables%laws(k)%items, diagnostics)
+         associate (items => scene%tables%laws(k)%items)
             n = size(scene%laws)
             call grow_laws(scene%laws, n + size(items))
             call report_doubled(items, directory%laws, diagnostics)
@@ -186,10 +191,10 @@ contains
          end associate
       end do
       do k = 1, n_friction_kinds
-         scene%friction_tables(k)%info = friction_info(k)
+         scene%tables%frictions(k)%info = friction_info(k)
          before = diagnostics%count()
-         call read_items(deck, scene%friction_tables(k)%info, scene%friction_tables(k)%items, diagnostics)
-         associate (items => scene%friction_tables(k)%items)
+         call read_items(deck, scene%tables%frictions(k)%info, scene%tables%frictions(k)%items, diagnostics)
+         associate (items => scene%tables%frictions(k)%items)
             n = size(scene%frictions)
             call grow_frictions(scene%frictions, n + size(items))
             call report_doubled(items, directory%frictions, diagnostics)
@@ -263,7 +268,7 @@ contains
       integer :: k
 
       do k = 1, n_base
-         call resolve(directory, scene%base(k)%info, scene%base(k)%items, diagnostics)
+         call resolve(directory, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do
       do k = 1, n_joint_kinds
          call resolve(directory, scene%joints(k)%info, scene%joints(k)%items, diagnostics)

@@ -14,7 +14,8 @@ module scene
    implicit none (type, external)
    private
    public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
-   public :: friction_slot_t, law_slot_t, n_base, scene_t, table_t, table_bodies, table_materials, table_points
+   public :: friction_slot_t, law_slot_t, n_base, scene_t, section_t, settings_t, table_t
+   public :: table_bodies, table_materials, table_points
 
    integer, parameter :: table_bodies = 1     !! base table: bodies
    integer, parameter :: table_points = 2     !! base table: points
@@ -40,6 +41,34 @@ module scene
       class(normal_law_t), allocatable :: law  !! the law
    end type law_slot_t
 
+   !> A section of settings: its values, defaults where the deck has none.
+   type, extends(item_t) :: section_t
+      type(kind_info_t) :: info          !! its keys
+      logical :: is_present = .false.    !! whether the deck has it
+   end type section_t
+
+   !> What a deck sets. `kinematic`, `statistics` and `ensemble` have values only if the deck has them, the others have defaults.
+   type :: settings_t
+      type(section_t) :: header                       !! of the scene itself
+      logical :: has_analysis(n_analysis) = .false.   !! (analyses) which analyses the deck has
+      type(section_t) :: dynamic                      !! [analysis.dynamic]
+      type(section_t) :: kinematic                    !! [analysis.kinematic]
+      type(section_t) :: static                       !! [analysis.static]
+      type(section_t) :: guards                       !! limits and conditions of a run
+      type(section_t) :: output                       !! what is written
+      type(section_t) :: statistics                   !! numbers of the motion after its transient
+      type(section_t) :: ensemble                     !! runs from perturbed starts
+      type(section_t) :: precision                    !! settings of an integration to be compared
+   end type settings_t
+
+   !> Tables that became something else when they were read: kept for the echo, and for what is told of them.
+   type :: tables_t
+      type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials
+      type(table_t) :: functions(n_function_kinds)     !! (kinds) named functions
+      type(table_t) :: laws(n_law_kinds)               !! (kinds) normal laws
+      type(table_t) :: frictions(n_friction_kinds)     !! (kinds) friction laws
+   end type tables_t
+
    !> What a deck means.
    type :: scene_t
       character(:), allocatable :: title                     !! one line
@@ -49,36 +78,13 @@ module scene
       type(material_t), allocatable :: materials(:)          !! (materials) elastic materials
       type(law_slot_t), allocatable :: laws(:)               !! (laws) normal laws
       type(friction_slot_t), allocatable :: frictions(:)     !! (laws) friction laws
-      type(item_t) :: header                                 !! settings of the scene itself
-      type(table_t) :: base(n_base)                          !! (kinds) bodies, points, materials
-      type(table_t) :: functions(n_function_kinds)           !! (kinds) named functions
-      type(table_t) :: law_tables(n_law_kinds)               !! (kinds) normal laws
-      type(table_t) :: friction_tables(n_friction_kinds)     !! (kinds) friction laws
       type(table_t) :: joints(n_joint_kinds)                 !! (kinds) joints and drivers
       type(table_t) :: forces(n_force_kinds)                 !! (kinds) force elements
       type(table_t) :: clearances(n_clearance_kinds)         !! (kinds) joints with clearance
+      type(tables_t) :: tables                               !! the other tables
       integer :: analysis = analysis_dynamic                 !! which analysis runs
-      logical :: has_analysis(n_analysis) = .false.          !! (analyses) which of them the deck has
-      type(kind_info_t) :: dynamic_kind                      !! keys of [analysis.dynamic]
-      type(item_t) :: dynamic                                !! its settings, defaults if the deck has none
-      type(kind_info_t) :: kinematic_kind                    !! keys of [analysis.kinematic]
-      type(item_t) :: kinematic                              !! its settings, if the deck has it
-      type(kind_info_t) :: static_kind                       !! keys of [analysis.static]
-      type(item_t) :: static                                 !! its settings, defaults if the deck has none
-      type(kind_info_t) :: guards_kind                       !! keys of the guards
-      type(item_t) :: guards                                 !! what they are set to
-      type(kind_info_t) :: output_kind                       !! keys of the output
-      type(item_t) :: output                                 !! settings of the output
-      logical :: has_statistics = .false.                    !! whether statistics are asked for
-      type(kind_info_t) :: statistics_kind                   !! keys of the statistics
-      type(item_t) :: statistics                             !! their settings
-      logical :: has_ensemble = .false.                      !! whether there are runs from perturbed starts
-      type(kind_info_t) :: ensemble_kind                     !! keys of the ensemble
-      type(item_t) :: ensemble                               !! its settings
+      type(settings_t) :: settings                           !! of it, of the output and of studies
       real(wp) :: size_of_whole = 0.0_wp                     !! size of the bodies of what this is a group of; 0: all is here [m]
-      logical :: has_precision = .false.                     !! whether the deck says what settings are compared
-      type(kind_info_t) :: precision_kind                    !! keys of that comparison
-      type(item_t) :: precision                              !! its settings, defaults if the deck has none
    end type scene_t
 
 end module scene

@@ -54,7 +54,7 @@ contains
       integer :: k
 
       allocate (names(0))
-      call look(scene%base(table_bodies)%items)
+      call look(scene%tables%base(table_bodies)%items)
       do k = 1, n_joint_kinds
          call look(scene%joints(k)%items)
       end do
@@ -64,7 +64,7 @@ contains
       do k = 1, n_clearance_kinds
          call look(scene%clearances(k)%items)
       end do
-      associate (points => scene%base(table_points)%items)
+      associate (points => scene%tables%base(table_points)%items)
          do k = 1, size(points)
             if (points(k)%name == "none") call report_reserved(points(k))
          end do

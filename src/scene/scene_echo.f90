@@ -2,8 +2,7 @@
 module scene_echo
    use deck_types, only: deck_t
    use echo, only: echo_items, echo_settings, echo_start
-   use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t, table_t
-   use section_info, only: scene_info
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t, section_t, table_t
    implicit none (type, external)
    private
    public :: echo_scene
@@ -17,21 +16,21 @@ contains
       character(:), allocatable :: text    !! a deck
 
       text = "# the deck as understood: every default written out, units in SI"//new_line("a")//echo_start(deck)//new_line("a")// &
-             echo_settings(scene_info(), scene%header)
-      call add(scene%functions)
-      call add(scene%base)
+             echo_settings(scene%settings%header%info, scene%settings%header%item_t)
+      call add(scene%tables%functions)
+      call add(scene%tables%base)
       call add(scene%joints)
       call add(scene%forces)
       call add(scene%clearances)
-      call add(scene%law_tables)
-      call add(scene%friction_tables)
-      if (scene%has_analysis(analysis_dynamic)) text = text//echo_settings(scene%dynamic_kind, scene%dynamic)
-      if (scene%has_analysis(analysis_kinematic)) text = text//echo_settings(scene%kinematic_kind, scene%kinematic)
-      if (scene%has_analysis(analysis_static)) text = text//echo_settings(scene%static_kind, scene%static)
-      text = text//echo_settings(scene%output_kind, scene%output)
-      if (scene%has_statistics) text = text//echo_settings(scene%statistics_kind, scene%statistics)
-      if (scene%has_ensemble) text = text//echo_settings(scene%ensemble_kind, scene%ensemble)
-      if (scene%has_precision) text = text//echo_settings(scene%precision_kind, scene%precision)
+      call add(scene%tables%laws)
+      call add(scene%tables%frictions)
+      call add_section(scene%settings%has_analysis(analysis_dynamic), scene%settings%dynamic)
+      call add_section(scene%settings%has_analysis(analysis_kinematic), scene%settings%kinematic)
+      call add_section(scene%settings%has_analysis(analysis_static), scene%settings%static)
+      call add_section(.true., scene%settings%output)
+      call add_section(scene%settings%statistics%is_present, scene%settings%statistics)
+      call add_section(scene%settings%ensemble%is_present, scene%settings%ensemble)
+      call add_section(scene%settings%precision%is_present, scene%settings%precision)
 
    contains
 
@@ -45,6 +44,14 @@ contains
             if (size(tables(k)%items) > 0) text = text//echo_items(tables(k)%info, tables(k)%items)
          end do
       end subroutine add
+
+      !> Add a section that is worth telling.
+      subroutine add_section(is_worth, section)
+         logical, intent(in) :: is_worth           !! whether it is
+         type(section_t), intent(in) :: section    !! the section
+
+         if (is_worth) text = text//echo_settings(section%info, section%item_t)
+      end subroutine add_section
 
    end function echo_scene
 

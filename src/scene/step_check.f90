@@ -20,8 +20,8 @@ contains
 
       class(integrator_t), allocatable :: method
 
-      associate (word => scene%dynamic%values(place_of(scene%dynamic, "method")), &
-                 step => scene%dynamic%values(place_of(scene%dynamic, "step")))
+      associate (word => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "method")), &
+                 step => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "step")))
          call find_integrator(word%text, method)
          if (method%steps() == steps_fixed .and. step%number <= 0.0_wp) then
             call diagnostics%add(word%location, "method '"//word%text//"' needs the length of its steps", &
@@ -31,15 +31,15 @@ contains
                                  "it chooses its steps", "leave 'step' out; 'maximum_step' bounds the steps")
          end if
       end associate
-      associate (onset => scene%dynamic%values(place_of(scene%dynamic, "contact_onset")))
+      associate (onset => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "contact_onset")))
          if (onset%text /= "located" .and. method%steps() == steps_variable) then
             call diagnostics%add(onset%location, "'contact_onset = "//onset%text//"' needs a one-step method", &
-                                 "steps of '"//scene%dynamic%word("method")// &
+                                 "steps of '"//scene%settings%dynamic%word("method")// &
                                  "' hang on those before", "take verner or rk4, or leave onsets located")
          end if
       end associate
-      associate (hold => scene%dynamic%values(place_of(scene%dynamic, "stabilise")), &
-                 step => scene%dynamic%values(place_of(scene%dynamic, "step")))
+      associate (hold => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "stabilise")), &
+                 step => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "step")))
          if (hold%text == "baumgarte_step" .and. step%number <= 0.0_wp) then
             call diagnostics%add(hold%location, "'baumgarte_step' needs steps of one length", &
                                  "its gains would drive the control of the step to ever smaller steps", &

@@ -5,7 +5,19 @@ module grip_forces
    use lapack, only: dsyev
    implicit none (type, external)
    private
-   public :: grip_forces_t, new_grip_forces, solve_grips
+   public :: grip_forces_t, new_grip_forces, solve_grips, unit_load_t
+
+   !> Loads of a unit force, and room for what they are solved in place of.
+   type :: unit_load_t
+      real(wp), allocatable :: unit(:, :)   !! (n_v, 0:bodies) loads of a unit force [1 or m]
+      real(wp), allocatable :: b(:)         !! (rows) right-hand side of the rows, kept [m/s^2 or rad/s^2]
+   end type unit_load_t
+
+   !> Room for a state and its derivative.
+   type :: trial_state_t
+      real(wp), allocatable :: y(:)      !! (n) state [any]
+      real(wp), allocatable :: ydot(:)   !! (n) its derivative [any]
+   end type trial_state_t
 
    !> Contacts whose friction has a memory.
    type :: grip_forces_t
@@ -22,10 +34,8 @@ module grip_forces
       real(wp), allocatable :: root(:)           !! (n_slip) roots of the normal forces [N^0.5]
       real(wp), allocatable :: eigenvalue(:)     !! (n_slip) of the scaled matrix [N/kg]
       real(wp), allocatable :: work(:)           !! (any) scratch [any]
-      real(wp), allocatable :: unit(:, :)        !! (n_v, 0:bodies) loads of a unit force [1 or m]
-      real(wp), allocatable :: b(:)              !! (rows) right-hand side of the rows, kept [m/s^2 or rad/s^2]
-      real(wp), allocatable :: ydot(:)           !! (n) scratch derivative [any]
-      real(wp), allocatable :: y(:)              !! (n) scratch state [any]
+      type(unit_load_t) :: load                  !! of a unit force
+      type(trial_state_t) :: trial               !! a state a moment later
    end type grip_forces_t
 
 contains
@@ -46,8 +56,8 @@ contains
       allocate (grips%is_fixed(n_slip), source=.false.)
       allocate (grips%matrix(n_slip, n_slip), grips%mobility(n_slip), grips%left(n_slip), grips%force(n_slip), &
                 grips%root(n_slip), grips%eigenvalue(n_slip), &
-                grips%work(34*n_slip), grips%unit(size(a, 1), 0:ubound(a, 2)), grips%b(n_row), grips%y(n), &
-                grips%ydot(n), source=0.0_wp)
+                grips%work(34*n_slip), grips%load%unit(size(a, 1), 0:ubound(a, 2)), grips%load%b(n_row), grips%trial%y(n), &
+                grips%trial%ydot(n), source=0.0_wp)
    end subroutine new_grip_forces
 
    !> Forces x with A x = r, A symmetric and positive semidefinite; where contacts share a load, the solution that uses each

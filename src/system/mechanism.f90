@@ -13,38 +13,51 @@
 !>
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module mechanism
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use checkpoint, only: piece_t
    use clearance_set, only: clearance_slot_t
    use contact_places, only: event_functions_t
    use dae_system, only: dae_system_t
    use grip_forces, only: grip_forces_t
-   use guided_motion, only: guided_rates, set_guided_acceleration
    use hold, only: hold_t
    use kinds, only: i8, wp
    use linkage, only: linkage_t
-   use loading, only: loading_t, start_loads
+   use loading, only: loading_t
    use rubbing, only: rubbing_t
    implicit none (type, external)
    private
    public :: mechanism_t
 
+   !> Loose joints.
+   type :: loose_t
+      type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
+      integer :: n = 0                                 !! loose joints in all
+      integer :: n_contact = 0                         !! contacts of all of them
+      real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
+      type(event_functions_t) :: functions             !! which event functions their contacts have
+   end type loose_t
+
+   !> Friction that is solved for.
+   type :: friction_t
+      type(grip_forces_t) :: grips    !! contacts whose friction remembers
+      type(rubbing_t) :: rubbing      !! ideal joints that rub
+   end type friction_t
+
+   !> What is told of energies.
+   type :: ledger_t
+      logical :: is_kept = .true.         !! whether the ledger is kept
+      logical :: has_energies = .true.    !! whether energies are reported, with or without a ledger
+   end type ledger_t
+
    !> A planar scene.
    type, extends(dae_system_t) :: mechanism_t
-      type(linkage_t) :: linkage                            !! bodies, ideal joints and drivers, and the solution of the equations
-      type(loading_t) :: loading                            !! gravity and force elements
-      type(clearance_slot_t), allocatable :: clearances(:)  !! loose joints, one set per combination of laws
-      integer :: n_loose = 0                                !! loose joints in all
-      integer :: n_contact = 0                              !! contacts of all loose joints
-      real(wp), allocatable :: losses(:, :)                 !! (2, contacts) power lost by contact and friction [W]
-      type(event_functions_t) :: functions                  !! which event functions there are
-      type(grip_forces_t) :: grips                          !! contacts whose friction remembers
-      type(rubbing_t) :: rubbing                            !! ideal joints that rub
-      class(hold_t), allocatable :: way                     !! way of holding the constraints
-      logical :: with_ledger = .true.                       !! whether the ledger is kept
-      logical :: with_energies = .true.                     !! whether energies are reported, with or without a ledger
-      integer(i8) :: n_evaluations = 0                      !! evaluations made
-      real(wp), allocatable, private :: held(:)             !! (positions + rates) state corrected for an evaluation [any]
+      type(linkage_t) :: linkage                  !! bodies, ideal joints and drivers, and the solution of the equations
+      type(loading_t) :: loading                  !! gravity and force elements
+      type(loose_t) :: loose                      !! loose joints
+      type(friction_t) :: friction                !! friction that is solved for
+      class(hold_t), allocatable :: way           !! way of holding the constraints
+      type(ledger_t) :: ledger                    !! what is told of energies
+      integer(i8) :: n_evaluations = 0            !! evaluations made
+      real(wp), allocatable, private :: held(:)   !! (positions + rates) state corrected for an evaluation [any]
    contains
       procedure :: evaluate => mechanism_evaluate, dae_residual => mechanism_dae_residual
       procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread, weights => mechanism_weights
@@ -65,102 +78,127 @@ module mechanism
    end type mechanism_t
 
    interface
+      !> Right-hand side. Status 1: singular or not a number, try a smaller step.
+      module subroutine mechanism_evaluate(self, t, y, ydot, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(in) :: y(self%n)          !! (n) state [any]
+         real(wp), intent(out) :: ydot(self%n)      !! (n) its derivative [any]
+         integer, intent(out) :: status             !! outcome
+      end subroutine mechanism_evaluate
+
+      !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
+      module subroutine evaluate_terms(self, t, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system, its motion set
+         real(wp), intent(in) :: t                  !! time, in the smooth stretch [s]
+         integer, intent(out) :: status             !! outcome
+      end subroutine evaluate_terms
+
+      !> Loads of gravity, force elements and touching contacts at the present motion.
+      module subroutine mechanism_evaluate_loads(self, t)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system, its motion set
+         real(wp), intent(in) :: t                  !! time [s]
+      end subroutine mechanism_evaluate_loads
+
       !> Correct a state at the end of a step; what that does to the energy is work of the stabilisation.
       module subroutine mechanism_hold(self, t, y, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(inout) :: y(:)                !! (n) state [any]
-         integer, intent(out) :: status                 !! 0: done
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(inout) :: y(:)            !! (n) state [any]
+         integer, intent(out) :: status             !! 0: done
       end subroutine mechanism_hold
 
       !> Bring a state that was made by interpolation onto the constraints, by projection.
       module subroutine mechanism_mend(self, t, y, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
-         real(wp), intent(inout) :: y(:)                !! (n) state [any]
-         integer, intent(out) :: status                 !! 0: done
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(inout) :: y(:)            !! (n) state [any]
+         integer, intent(out) :: status             !! 0: done
       end subroutine mechanism_mend
 
       !> Whether event k, as things stand, is the onset of a contact.
       module logical function mechanism_is_onset(self, k) result(is_onset)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         integer, intent(in) :: k                       !! number of the event function
+         class(mechanism_t), intent(in) :: self  !! the system
+         integer, intent(in) :: k                !! number of the event function
       end function mechanism_is_onset
 
       !> Forces of the contacts that stick, and the accelerations with them.
       module subroutine mechanism_stick(self, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system, accelerations without these forces found
-         integer, intent(out) :: status                 !! 0: found
+         integer, intent(out) :: status             !! 0: found
       end subroutine mechanism_stick
 
       !> Place of the deflection of a contact in the state; contact 0 is before the first one of its set.
       pure module integer function mechanism_bristle_place(self, slot, contact) result(place)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         integer, intent(in) :: slot, contact           !! its set, whose law has bristles, and its number there
+         class(mechanism_t), intent(in) :: self  !! the system
+         integer, intent(in) :: slot, contact    !! its set, whose law has bristles, and its number there
       end function mechanism_bristle_place
 
       !> Place of the deflection of a joint that rubs, by bristles, in the state.
       pure module integer function mechanism_rubbing_place(self, joint) result(place)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         integer, intent(in) :: joint                   !! its number among those that rub
+         class(mechanism_t), intent(in) :: self  !! the system
+         integer, intent(in) :: joint            !! its number among those that rub
       end function mechanism_rubbing_place
 
       !> Friction forces in ideal joints, those of contacts that stick, and the accelerations with them.
       module subroutine mechanism_rub(self, status)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system, accelerations without these forces found
-         integer, intent(out) :: status                 !! 0: found
+         integer, intent(out) :: status             !! 0: found
       end subroutine mechanism_rub
 
       !> Friction forces in ideal joints by the multipliers that are set, into the loads.
       module subroutine mechanism_rub_by_multipliers(self, is_steady, is_added, change)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system, its motion and multipliers set
-         logical, intent(in) :: is_steady               !! forces of steady sliding: no deflections are integrated
-         logical, intent(in) :: is_added                !! whether the loads have the last forces in them already
-         real(wp), intent(out) :: change                !! greatest change of a force, of the greatest force [1]
+         logical, intent(in) :: is_steady           !! forces of steady sliding: no deflections are integrated
+         logical, intent(in) :: is_added            !! whether the loads have the last forces in them already
+         real(wp), intent(out) :: change            !! greatest change of a force, of the greatest force [1]
       end subroutine mechanism_rub_by_multipliers
 
       !> Deflections of bristles from a state into contacts and joints.
       module subroutine mechanism_take_bristles(self, y)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: y(:)                   !! (n) state [any]
+         real(wp), intent(in) :: y(:)               !! (n) state [any]
       end subroutine mechanism_take_bristles
 
       !> Rates of these deflections, as of the last evaluation.
       module subroutine mechanism_bristle_rates(self, ydot)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         real(wp), intent(inout) :: ydot(:)             !! (n) derivative of the state [any]
+         class(mechanism_t), intent(in) :: self  !! the system
+         real(wp), intent(inout) :: ydot(:)      !! (n) derivative of the state [any]
       end subroutine mechanism_bristle_rates
 
       !> Their scales, for error norms.
       module subroutine mechanism_bristle_weights(self, scale)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         real(wp), intent(inout) :: scale(:)            !! (n) scales [any]
+         class(mechanism_t), intent(in) :: self  !! the system
+         real(wp), intent(inout) :: scale(:)     !! (n) scales [any]
       end subroutine mechanism_bristle_weights
 
       !> Event functions of friction: slip that ends, and sticking that gives way. Evaluates the system at the state.
       module subroutine mechanism_friction_events(self, t, y, g, rate)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
-         real(wp), intent(inout) :: g(:), rate(:)       !! (n_event) functions and rates, those of friction set [any]
+         real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
+         real(wp), intent(inout) :: g(:), rate(:)   !! (n_event) functions and rates, those of friction set [any]
       end subroutine mechanism_friction_events
 
       !> Rates of all penetrations and their rates, by a difference along the motion. The system is evaluated at the state.
       module subroutine mechanism_turns(self, t, y, rate, acceleration)
          implicit none (type, external)
-         class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
+         class(mechanism_t), intent(inout) :: self          !! the system
+         real(wp), intent(in) :: t, y(:)                    !! time [s] and (n) state [any]
          real(wp), intent(out) :: rate(:), acceleration(:)  !! (n_contact) rates of the penetrations, and theirs [any]
       end subroutine mechanism_turns
 
@@ -168,8 +206,8 @@ module mechanism
       module subroutine mechanism_decide_slip(self, t, y, slot, k)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
-         integer, intent(in) :: slot, k                 !! set of the contact, and its number there
+         real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
+         integer, intent(in) :: slot, k             !! set of the contact, and its number there
       end subroutine mechanism_decide_slip
 
       !> List what the system saves, in the order in which it does.
@@ -182,179 +220,128 @@ module mechanism
       !> Numbers that a checkpoint needs: those of all its pieces.
       module integer function mechanism_memory_size(self) result(n)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
+         class(mechanism_t), intent(in) :: self  !! the system
       end function mechanism_memory_size
 
       !> Write what the system remembers.
       module subroutine mechanism_save(self, row, place)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         real(wp), intent(inout) :: row(:)              !! (any) checkpoint [any]
-         integer, intent(inout) :: place                !! last place used
+         class(mechanism_t), intent(in) :: self  !! the system
+         real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
+         integer, intent(inout) :: place         !! last place used
       end subroutine mechanism_save
 
       !> Read what the system remembers.
       module subroutine mechanism_load(self, row, place)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-         integer, intent(inout) :: place                !! last place used
+         real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
+         integer, intent(inout) :: place            !! last place used
       end subroutine mechanism_load
 
       !> What is left of the equations in the stabilised form of index 2.
       module subroutine mechanism_dae_residual(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
          implicit none (type, external)
-         class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t                      !! time [s]
+         class(mechanism_t), intent(inout) :: self          !! the system
+         real(wp), intent(in) :: t                          !! time [s]
          real(wp), intent(in), contiguous :: y(:), ydot(:)  !! (n) state and its derivative [any]
-         real(wp), intent(in) :: lambda(:), mu(:)       !! (rows) multipliers of velocities and of positions [any]
-         real(wp), intent(out), contiguous :: r_y(:)    !! (n) of the differential equations [any]
-         real(wp), intent(out) :: r_lambda(:), r_mu(:)  !! (rows) rates of the violation, and violations [any]
-         integer, intent(out) :: status                 !! outcome
+         real(wp), intent(in) :: lambda(:), mu(:)           !! (rows) multipliers of velocities and of positions [any]
+         real(wp), intent(out), contiguous :: r_y(:)        !! (n) of the differential equations [any]
+         real(wp), intent(out) :: r_lambda(:), r_mu(:)      !! (rows) rates of the violation, and violations [any]
+         integer, intent(out) :: status                     !! outcome
       end subroutine mechanism_dae_residual
 
       !> Which parts of the residual depend on which unknowns.
       module subroutine mechanism_dae_pattern(self, column, row)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self        !! the system
-         integer, allocatable, intent(out) :: column(:)    !! (n + 2 rows + 1) place of the first entry of each column, from 0
-         integer, allocatable, intent(out) :: row(:)       !! (entries) rows, from 0
+         class(mechanism_t), intent(in) :: self          !! the system
+         integer, allocatable, intent(out) :: column(:)  !! (n + 2 rows + 1) place of the first entry of each column, from 0
+         integer, allocatable, intent(out) :: row(:)     !! (entries) rows, from 0
       end subroutine mechanism_dae_pattern
 
       !> Entries of the columns of the multipliers.
       module subroutine mechanism_dae_spread(self, values)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self   !! the system
-         real(wp), intent(out) :: values(:)           !! (n_v for each side of an unknown body) in the order of the pattern [any]
+         class(mechanism_t), intent(in) :: self  !! the system
+         real(wp), intent(out) :: values(:)      !! (n_v for each side of an unknown body) in the order of the pattern [any]
       end subroutine mechanism_dae_spread
 
       !> Powers of the ledger.
       pure module subroutine ledger_rates(self, power)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(out), contiguous :: power(:) !! (quadratures) powers [W]
+         class(mechanism_t), intent(in) :: self         !! the system
+         real(wp), intent(out), contiguous :: power(:)  !! (quadratures) powers [W]
       end subroutine ledger_rates
 
       !> Error scales.
       module subroutine mechanism_weights(self, y, scale)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(in) :: y(:)                !! (n) state [any]
-         real(wp), intent(out) :: scale(:)           !! (n) scales [any]
+         real(wp), intent(in) :: y(:)            !! (n) state [any]
+         real(wp), intent(out) :: scale(:)       !! (n) scales [any]
       end subroutine mechanism_weights
 
       !> The pace at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
       module subroutine mechanism_begin_pace(self, t, y, end)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t, y(:), end           !! time [s], (n) state [any], and end of the run [s]
+         real(wp), intent(in) :: t, y(:), end       !! time [s], (n) state [any], and end of the run [s]
       end subroutine mechanism_begin_pace
 
       !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
       pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: y(:)                   !! (n) state [any]
-         real(wp), intent(in), optional :: jump(:)      !! (n) jump of its derivative [any]
+         real(wp), intent(in) :: y(:)               !! (n) state [any]
+         real(wp), intent(in), optional :: jump(:)  !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
 
       !> Distance in time of differences along the motion that give rates.
       pure module real(wp) function time_of_difference(self, t)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self     !! the system
-         real(wp), intent(in) :: t                      !! time [s]
+         class(mechanism_t), intent(in) :: self  !! the system
+         real(wp), intent(in) :: t               !! time [s]
       end function time_of_difference
 
       !> Event functions: penetrations of free contacts, their negatives of touching ones.
       module subroutine mechanism_events(self, t, y, g, rate)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t, y(:)                !! time [s] and (n) state [any]
-         real(wp), intent(out) :: g(:), rate(:)         !! (n_event) event functions and their rates [m, m/s]
+         real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
+         real(wp), intent(out) :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
       end subroutine mechanism_events
 
       !> The same at the present motion.
       module subroutine mechanism_last_events(self, t, y, g, rate)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: t, y(:)                !! time of the last evaluation [s] and (n) its state [any]
-         real(wp), intent(out) :: g(:), rate(:)         !! (n_event) event functions and their rates [m, m/s]
+         real(wp), intent(in) :: t, y(:)            !! time of the last evaluation [s] and (n) its state [any]
+         real(wp), intent(out) :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
       end subroutine mechanism_last_events
 
       !> Round-off of the event functions of contacts and turns at the present motion.
       module subroutine mechanism_event_noise(self, noise)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(out) :: noise(:)           !! (n_event) bounds; zero of friction, which has no positions [m or m/s]
+         real(wp), intent(out) :: noise(:)       !! (n_event) bounds; zero of friction, which has no positions [m or m/s]
       end subroutine mechanism_event_noise
 
       !> Set of a contact and its place there by the number of any of its event functions, of which the first are as the contacts.
       module subroutine mechanism_find_contact(self, number, slot, contact)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         integer, intent(in) :: number               !! event function: a block in the order of the sets for each kind
-         integer, intent(out) :: slot, contact       !! its set, and its number there
+         integer, intent(in) :: number           !! event function: a block in the order of the sets for each kind
+         integer, intent(out) :: slot, contact   !! its set, and its number there
       end subroutine mechanism_find_contact
 
    end interface
 
 contains
 
-   !> Right-hand side. Status 1: singular or not a number, try a smaller step.
-   subroutine mechanism_evaluate(self, t, y, ydot, status)
-      class(mechanism_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in) :: y(self%n)              !! (n) state [any]
-      real(wp), intent(out) :: ydot(self%n)          !! (n) its derivative [any]
-      integer, intent(out) :: status                 !! outcome
-
-      real(wp) :: inside
-
-      ! in the smooth stretch: `smooth_piece`, without its call
-      inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
-      self%n_evaluations = self%n_evaluations + 1
-      if (self%grips%n_bristle > 0) call self%take_bristles(y)
-      if (self%way%at_stages) then
-         self%held = y(:size(self%held))
-         call self%way%correct_stage(self%linkage, t, self%held, status)
-         if (status /= 0) return
-         call self%linkage%move(inside, self%held)
-      else
-         call self%linkage%move(inside, y)
-      end if
-      call evaluate_terms(self, inside, status)
-      if (status /= 0) return
-      if (self%linkage%rows%n_unknown > 0 .or. self%grips%n_slip > 0) then
-         call self%linkage%find_accelerations(self%loading%g, .true., self%grips%n_slip > 0, status)
-         if (status == 0 .and. self%rubbing%n > 0) then
-            call self%rub(status)  ! and what sticks
-         else if (status == 0 .and. self%grips%n_slip > 0) then
-            call self%stick(status)
-         end if
-         if (status /= 0) return
-      end if
-      associate (linkage => self%linkage, n => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
-                 nq => self%linkage%n_position)
-         if (n > 0) then
-            call linkage%coordinates%rates(n, linkage%rows%unknown, linkage%motion, linkage%solution%a, ydot, ydot(nq + 1:), status)
-            if (status /= 0) return
-         end if
-         if (guided%n > 0) then
-            associate (last => nq + linkage%n_rate - guided%n)
-               call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(last + 1:), &
-                                 ydot(nq - guided%n + 1:), ydot(last + 1:), status)
-               if (self%with_ledger) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
-            end associate
-         end if
-      end associate
-      if (self%grips%n_bristle > 0) call self%bristle_rates(ydot)
-      if (self%with_ledger) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
-   end subroutine mechanism_evaluate
-
    !> Take a way of holding the constraints. The coordinates are counted.
    subroutine mechanism_take_way(self, way)
-      class(mechanism_t), intent(inout) :: self            !! the system
-      class(hold_t), allocatable, intent(inout) :: way         !! the way, configured; gone afterwards
+      class(mechanism_t), intent(inout) :: self         !! the system
+      class(hold_t), allocatable, intent(inout) :: way  !! the way, configured; gone afterwards
 
       call move_alloc(way, self%way)
       self%holds = self%way%at_steps
@@ -365,59 +352,24 @@ contains
    !> The length of the step that begins, for gains that follow it.
    subroutine mechanism_set_step(self, h)
       class(mechanism_t), intent(inout) :: self  !! the system
-      real(wp), intent(in) :: h                      !! length of the step [s]
+      real(wp), intent(in) :: h                  !! length of the step [s]
 
-      if (h < huge(1.0_wp)) self%grips%h = h
+      if (h < huge(1.0_wp)) self%friction%grips%h = h
       call self%way%begin_step(self%linkage, h)
    end subroutine mechanism_set_step
 
-   !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
-   subroutine evaluate_terms(self, t, status)
-      class(mechanism_t), intent(inout) :: self  !! the system, its motion set
-      real(wp), intent(in) :: t                      !! time, in the smooth stretch [s]
-      integer, intent(out) :: status                 !! outcome
-
-      self%linkage%solution%bad_row = 0
-      status = merge(0, 1, self%linkage%reduced%known%is_finite)
-      if (status /= 0) return
-      call mechanism_evaluate_loads(self, t)
-      if (self%linkage%rows%n_solve > 0) call self%linkage%evaluate_rows(t)
-   end subroutine evaluate_terms
-
-   !> Loads of gravity, force elements and touching contacts at the present motion.
-   subroutine mechanism_evaluate_loads(self, t)
-      class(mechanism_t), intent(inout) :: self  !! the system, its motion set
-      real(wp), intent(in) :: t                      !! time [s]
-
-      real(wp) :: inside
-      integer :: k
-
-      inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
-      associate (loading => self%loading, motion => self%linkage%motion, n_body => self%linkage%bodies%n)
-         call start_loads(n_body, loading%weight, loading%loads%force, loading%loads%moment)
-         loading%power = 0.0_wp
-         do k = 1, size(loading%forces)
-            call loading%forces(k)%set%evaluate(inside, motion, loading%loads, loading%power)
-         end do
-         do k = 1, size(self%clearances)
-            call self%clearances(k)%set%evaluate(motion, loading%loads, self%losses)
-         end do
-         call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
-      end associate
-   end subroutine mechanism_evaluate_loads
-
    !> Place in the state of a quadrature of the ledger; of number 0: entries before them.
    pure integer function in_state(self, quadrature) result(place)
-      class(mechanism_t), intent(in) :: self   !! the system, with a ledger
-      integer, intent(in) :: quadrature        !! number of the quadrature, see `contact_places`
+      class(mechanism_t), intent(in) :: self  !! the system, with a ledger
+      integer, intent(in) :: quadrature       !! number of the quadrature, see `contact_places`
 
       place = self%n - self%n_quadrature + quadrature
    end function in_state
 
    !> Multipliers of the last evaluation.
    subroutine mechanism_multipliers(self, lambda)
-      class(mechanism_t), intent(in) :: self     !! the system
-      real(wp), intent(out) :: lambda(:)             !! (m) multipliers [N or N.m]
+      class(mechanism_t), intent(in) :: self  !! the system
+      real(wp), intent(out) :: lambda(:)      !! (m) multipliers [N or N.m]
 
       lambda = self%linkage%solution%lambda(:size(lambda))
    end subroutine mechanism_multipliers

@@ -3,6 +3,7 @@
 !> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
 !> Limits: coordinates whose derivatives are the rates.
 submodule(mechanism) mechanism_dae
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use rows, only: place_in_row, rows_t
    implicit none (type, external)
 
@@ -17,15 +18,15 @@ contains
       n_state = self%n - self%n_quadrature
       m = self%n_row
       self%n_evaluations = self%n_evaluations + 1
-      if (self%grips%n_bristle > 0) call self%take_bristles(y)
+      if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
       call self%linkage%set_motion(t, y)
       call self%evaluate_terms(t, status)
       if (status /= 0) return
-      if (self%rubbing%n > 0) then  ! friction in joints, into g
+      if (self%friction%rubbing%n > 0) then  ! friction in joints, into g
          self%linkage%solution%lambda(:m) = lambda
          call self%rub_by_multipliers(.false., .false., change)
       end if
-      if (self%grips%n_slip > 0) then  ! forces of contacts that stick, into g
+      if (self%friction%grips%n_slip > 0) then  ! forces of contacts that stick, into g
          call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
          if (status == 0) call self%stick(status)
          if (status /= 0) return
@@ -36,8 +37,8 @@ contains
                       self%loading%g, a, r_y)
          call spread_rows(rows, m, linkage%inverse_mass, mu, a)
          call add_positions(rows%n_unknown, rows%unknown, linkage%bodies%n, size(a, 1), a, r_y)
-         if (self%grips%n_bristle > 0) call self%bristle_rates(r_y)
-         if (self%with_ledger) then
+         if (self%friction%grips%n_bristle > 0) call self%bristle_rates(r_y)
+         if (self%ledger%is_kept) then
             linkage%solution%lambda(:m) = lambda
             call self%ledger_rates(r_y(n_state + 1:))
          end if

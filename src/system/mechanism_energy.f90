@@ -83,8 +83,8 @@ contains
          energy%elastic = energy%elastic + system%loading%forces(k)%set%elastic_energy(system%linkage%motion)
       end do
       if (.not. any_acts(system)) return
-      do k = 1, size(system%clearances)
-         energy%elastic = energy%elastic + system%clearances(k)%set%elastic_energy(system%linkage%motion)
+      do k = 1, size(system%loose%sets)
+         energy%elastic = energy%elastic + system%loose%sets(k)%set%elastic_energy(system%linkage%motion)
       end do
    end subroutine add_mechanical
 
@@ -97,24 +97,24 @@ contains
       integer :: first, i, k, z
 
       call add_mechanical(system, energy)
-      if (.not. system%with_ledger) return
+      if (.not. system%ledger%is_kept) return
       first = system%in_state(0)
       energy%drive_work = y(first + work_drive)
       energy%load_work = y(first + work_load)
       energy%stabilisation_work = y(first + work_stabilisation)
       energy%dissipated_damper = y(first + lost_damper)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             do i = 1, set%n_contact
-               z = first + place_of_loss(set%first_contact + i, loss_contact)
+               z = first + place_of_loss(set%before%contacts + i, loss_contact)
                energy%dissipated_contact = energy%dissipated_contact + lost_by_damping(set, i, system%linkage%motion, y(z))
-               z = first + place_of_loss(set%first_contact + i, loss_friction)
+               z = first + place_of_loss(set%before%contacts + i, loss_friction)
                energy%dissipated_friction = energy%dissipated_friction + y(z)
             end do
          end associate
       end do
-      if (system%rubbing%n > 0) then
-         energy%dissipated_friction = energy%dissipated_friction + y(first + place_of_joint_loss(system%n_contact))
+      if (system%friction%rubbing%n > 0) then
+         energy%dissipated_friction = energy%dissipated_friction + y(first + place_of_joint_loss(system%loose%n_contact))
       end if
    end function energy_of
 
@@ -125,8 +125,8 @@ contains
       integer :: k
 
       any_acts = .false.
-      do k = 1, size(system%clearances)
-         any_acts = any_acts .or. system%clearances(k)%set%n_touching > 0 .or. system%clearances(k)%set%law%acts_apart
+      do k = 1, size(system%loose%sets)
+         any_acts = any_acts .or. system%loose%sets(k)%set%n_touching > 0 .or. system%loose%sets(k)%set%laws%normal%acts_apart
       end do
    end function any_acts
 

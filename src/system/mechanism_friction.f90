@@ -31,49 +31,49 @@ contains
 
       status = 0
       m = 0
-      do d = 1, size(self%clearances)
-         associate (set => self%clearances(d)%set)
+      do d = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(d)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
                m = m + 1
-               self%grips%slot(m) = d
-               self%grips%contact(m) = k
+               self%friction%grips%slot(m) = d
+               self%friction%grips%contact(m) = k
             end do
          end associate
       end do
       if (m == 0) return
-      associate (grips => self%grips, n => self%linkage%rows%n_solve)
+      associate (grips => self%friction%grips, n => self%linkage%rows%n_solve)
          do c = 1, m
-            associate (tangent => self%clearances(grips%slot(c))%set%grip%tangent(grips%contact(c)))
+            associate (tangent => self%loose%sets(grips%slot(c))%set%grip%tangent(grips%contact(c)))
                grips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
                grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift &
                                   + 2.0_wp*settling*self%linkage%scales%pace*tangent%v)
                grips%mobility(c) = mobility_of(self, c)
             end associate
          end do
-         grips%b(:n) = self%linkage%solution%b(:n)
+         grips%load%b(:n) = self%linkage%solution%b(:n)
          self%linkage%solution%b(:n) = 0.0_wp
          do d = 1, m
-            grips%unit = 0.0_wp
-            call add_pair(self, d, 1.0_wp, grips%unit)
-            call self%linkage%find_accelerations(grips%unit, .false., .true., status)
+            grips%load%unit = 0.0_wp
+            call add_pair(self, d, 1.0_wp, grips%load%unit)
+            call self%linkage%find_accelerations(grips%load%unit, .false., .true., status)
             if (status /= 0) exit
             do c = 1, m
                grips%matrix(c, d) = sliding_acceleration(self, c, .false.)
             end do
             grips%is_fixed(d) = grips%matrix(d, d) <= least_mobility*grips%mobility(d)
          end do
-         self%linkage%solution%b(:n) = grips%b(:n)
+         self%linkage%solution%b(:n) = grips%load%b(:n)
          if (status /= 0) return
          call solve_grips(m, size(grips%matrix, 1), grips%matrix(:, :m), grips%mobility(:m), grips%root(:m), &
                           grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
-            associate (set => self%clearances(grips%slot(c))%set, k => grips%contact(c))
+            associate (set => self%loose%sets(grips%slot(c))%set, k => grips%contact(c))
                call set%stick_with(k, set%grip%tangent(k)%f_t + grips%force(c), grips%is_fixed(c) &
                                    .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2)
-               self%losses(loss_friction, set%first_contact + k) = -set%grip%tangent(k)%f_t*set%grip%tangent(k)%v
+               self%loose%losses(loss_friction, set%before%contacts + k) = -set%grip%tangent(k)%f_t*set%grip%tangent(k)%v
             end associate
          end do
       end associate
@@ -86,7 +86,7 @@ contains
       integer, intent(in) :: c                     !! place on the list of contacts that stick
       logical, intent(in) :: with_known            !! with those of bodies whose motion is known
 
-      a = tangential(self, self%grips%slot(c), self%grips%contact(c), with_known)
+      a = tangential(self, self%friction%grips%slot(c), self%friction%grips%contact(c), with_known)
    end function sliding_acceleration
 
    !> The same for any contact.
@@ -100,9 +100,9 @@ contains
       integer :: body, side
 
       a = 0.0_wp
-      associate (set => self%clearances(slot)%set, linkage => self%linkage)
+      associate (set => self%loose%sets(slot)%set, linkage => self%linkage)
          do side = 1, 2
-            body = set%body(side, set%item_of(k))
+            body = set%items%body(side, set%item_of(k))
             if (body == 0) cycle
             call sliding_row(self, slot, k, side, row)
             if (.not. linkage%reduced%is_known(body)) then
@@ -124,10 +124,10 @@ contains
       integer :: body, side
 
       mobility = 0.0_wp
-      associate (slot => self%grips%slot(c), k => self%grips%contact(c))
-         associate (set => self%clearances(slot)%set)
+      associate (slot => self%friction%grips%slot(c), k => self%friction%grips%contact(c))
+         associate (set => self%loose%sets(slot)%set)
             do side = 1, 2
-               body = set%body(side, set%item_of(k))
+               body = set%items%body(side, set%item_of(k))
                call sliding_row(self, slot, k, side, row)
                mobility = mobility + sum(self%linkage%inverse_mass(:, body)*row(:self%linkage%coordinates%n_v)**2)
             end do
@@ -145,10 +145,10 @@ contains
       real(wp) :: row(most_rates)
       integer :: body, side
 
-      associate (slot => self%grips%slot(c), k => self%grips%contact(c))
-         associate (set => self%clearances(slot)%set)
+      associate (slot => self%friction%grips%slot(c), k => self%friction%grips%contact(c))
+         associate (set => self%loose%sets(slot)%set)
             do side = 1, 2
-               body = set%body(side, set%item_of(k))
+               body = set%items%body(side, set%item_of(k))
                call sliding_row(self, slot, k, side, row)
                g(:, body) = g(:, body) + force*row(:size(g, 1))
             end do
@@ -164,7 +164,7 @@ contains
       integer, intent(in) :: side                  !! 1: body i, 2: body j
       real(wp), intent(out) :: row(most_rates)     !! (most_rates) the row, its first n_v entries [1 or m]
 
-      associate (tangent => self%clearances(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates)
+      associate (tangent => self%loose%sets(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates)
          if (side == 1) then
             call coordinates%along(tangent%t, tangent%arm_i, row(:coordinates%n_v))
             row(:coordinates%n_v) = -row(:coordinates%n_v)
@@ -176,29 +176,31 @@ contains
 
    !> Place of the deflection of a contact in the state.
    module procedure mechanism_bristle_place
-      place = self%linkage%n_position + self%linkage%n_rate + self%clearances(slot)%set%grip%first_bristle + contact
+      place = self%linkage%n_position + self%linkage%n_rate + self%loose%sets(slot)%set%grip%first_bristle + contact
    end procedure mechanism_bristle_place
 
    !> Place of the deflection of a joint that rubs in the state.
    module procedure mechanism_rubbing_place
-      place = self%linkage%n_position + self%linkage%n_rate + self%rubbing%first_bristle + self%rubbing%bristle(joint)
+      associate (rubbing => self%friction%rubbing)
+         place = self%linkage%n_position + self%linkage%n_rate + rubbing%first_bristle + rubbing%bristle(joint)
+      end associate
    end procedure mechanism_rubbing_place
 
    !> Deflections of bristles from a state into contacts and joints.
    module procedure mechanism_take_bristles
       integer :: k, place
 
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 0)
             call set%bend_bristles(y(place + 1:place + set%n_contact))
          end associate
       end do
-      do k = 1, self%rubbing%n
-         if (self%rubbing%bristle(k) == 0) cycle
-         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
-            friction%z(self%rubbing%place(k)) = y(self%rubbing_place(k))
+      do k = 1, self%friction%rubbing%n
+         if (self%friction%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
+            friction%z(self%friction%rubbing%place(k)) = y(self%rubbing_place(k))
          end associate
       end do
    end procedure mechanism_take_bristles
@@ -207,17 +209,17 @@ contains
    module procedure mechanism_bristle_rates
       integer :: k, place
 
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 0)
             ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
          end associate
       end do
-      do k = 1, self%rubbing%n
-         if (self%rubbing%bristle(k) == 0) cycle
-         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
-            ydot(self%rubbing_place(k)) = friction%z_rate(self%rubbing%place(k))
+      do k = 1, self%friction%rubbing%n
+         if (self%friction%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
+            ydot(self%rubbing_place(k)) = friction%z_rate(self%friction%rubbing%place(k))
          end associate
       end do
    end procedure mechanism_bristle_rates
@@ -226,17 +228,17 @@ contains
    module procedure mechanism_bristle_weights
       integer :: k, place
 
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
             place = self%bristle_place(k, 0)
-            scale(place + 1:place + set%n_contact) = set%friction%bristle_scale()
+            scale(place + 1:place + set%n_contact) = set%laws%friction%bristle_scale()
          end associate
       end do
-      do k = 1, self%rubbing%n
-         if (self%rubbing%bristle(k) == 0) cycle
-         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
-            scale(self%rubbing_place(k)) = friction%law(self%rubbing%place(k))%law%bristle_scale()
+      do k = 1, self%friction%rubbing%n
+         if (self%friction%rubbing%bristle(k) == 0) cycle
+         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
+            scale(self%rubbing_place(k)) = friction%law(self%friction%rubbing%place(k))%law%bristle_scale()
          end associate
       end do
    end procedure mechanism_bristle_weights

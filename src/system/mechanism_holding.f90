@@ -36,7 +36,7 @@ contains
 
       call self%linkage%set_motion(t, y)
       before = 0.0_wp
-      if (self%with_ledger) before = mechanical_energy(self)
+      if (self%ledger%is_kept) before = mechanical_energy(self)
    end function energy_before
 
    !> What a correction did to the energy is work of the stabilisation.
@@ -47,7 +47,7 @@ contains
 
       integer :: z
 
-      if (.not. self%with_ledger) return
+      if (.not. self%ledger%is_kept) return
       z = self%in_state(work_stabilisation)
       y(z) = y(z) + (mechanical_energy(self) - before)
    end subroutine book

@@ -35,8 +35,8 @@ contains
             call add_set(info%name, set%names, set%memory_version(), set%memory_size(), pieces)
          end associate
       end do
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             info = set%info()
             call add_set(info%name, set%names, contact_version, set%memory_size(), pieces)
          end associate
@@ -69,7 +69,7 @@ contains
 
       call put(row, place, self%n_evaluations)
       call put(row, place, self%linkage%solution%n_damped)
-      call put(row, place, [self%linkage%scales%pace, self%linkage%scales%late_rate, self%grips%h])
+      call put(row, place, [self%linkage%scales%pace, self%linkage%scales%late_rate, self%friction%grips%h])
       call put(row, place, self%linkage%solution%solver%n_factorisations)
       call put(row, place, self%linkage%piece%low)
       call put(row, place, self%linkage%piece%high)
@@ -81,8 +81,8 @@ contains
       do k = 1, size(self%loading%forces)
          call self%loading%forces(k)%set%save(row, place)
       end do
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%save(row, place)
+      do k = 1, size(self%loose%sets)
+         call self%loose%sets(k)%set%save(row, place)
       end do
    end procedure mechanism_save
 
@@ -94,7 +94,7 @@ contains
       call get(row, place, self%linkage%solution%n_damped)
       call get(row, place, self%linkage%scales%pace)
       call get(row, place, self%linkage%scales%late_rate)
-      call get(row, place, self%grips%h)
+      call get(row, place, self%friction%grips%h)
       call get(row, place, self%linkage%solution%solver%n_factorisations)
       call get(row, place, self%linkage%piece%low)
       call get(row, place, self%linkage%piece%high)
@@ -106,8 +106,8 @@ contains
       do k = 1, size(self%loading%forces)
          call self%loading%forces(k)%set%load(row, place)
       end do
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%load(row, place)
+      do k = 1, size(self%loose%sets)
+         call self%loose%sets(k)%set%load(row, place)
       end do
    end procedure mechanism_load
 

@@ -31,12 +31,12 @@ contains
          power(lost_damper) = power(lost_damper) + self%loading%forces(k)%set%lost_power(self%linkage%motion)
       end do
       place = place_of_loss(1, 0)
-      do k = 1, self%n_contact
-         power(place + loss_contact) = self%losses(loss_contact, k)
-         power(place + loss_friction) = self%losses(loss_friction, k)
+      do k = 1, self%loose%n_contact
+         power(place + loss_contact) = self%loose%losses(loss_contact, k)
+         power(place + loss_friction) = self%loose%losses(loss_friction, k)
          place = place + n_loss
       end do
-      if (self%rubbing%n > 0) power(place_of_joint_loss(self%n_contact)) = self%rubbing%power
+      if (self%friction%rubbing%n > 0) power(place_of_joint_loss(self%loose%n_contact)) = self%friction%rubbing%power
    end procedure ledger_rates
 
 end submodule mechanism_powers

@@ -9,19 +9,19 @@ contains
 
    !> Event functions: penetrations of free contacts, their negatives of touching ones.
    module procedure mechanism_events
-      if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) then
+      if (self%friction%grips%n_slip > 0 .and. size(g) > self%loose%n_contact) then
          call self%friction_events(t, y, g, rate)
       else
          call self%linkage%set_motion(t, y)
       end if
-      if (self%functions%has_turn .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
+      if (self%loose%functions%has_turn .and. size(g) > self%loose%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
    end procedure mechanism_events
 
    !> The same at the present motion.
    module procedure mechanism_last_events
-      if (self%grips%n_slip > 0 .and. size(g) > self%n_contact) call self%friction_events(t, y, g, rate)
-      if (self%functions%has_turn .and. size(g) > self%n_contact) call turn_events(self, t, y, g, rate)
+      if (self%friction%grips%n_slip > 0 .and. size(g) > self%loose%n_contact) call self%friction_events(t, y, g, rate)
+      if (self%loose%functions%has_turn .and. size(g) > self%loose%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
    end procedure mechanism_last_events
 
@@ -34,22 +34,22 @@ contains
       real(wp), intent(inout) :: g(:)                !! (n_event) event functions, those of turns are set [m/s]
       real(wp), intent(inout) :: rate(:)             !! (n_event) their rates [m/s^2]
 
-      real(wp) :: acceleration(self%n_contact), speed(self%n_contact)
+      real(wp) :: acceleration(self%loose%n_contact), speed(self%loose%n_contact)
       integer :: i, k, number, place
 
-      place = self%functions%place(turn_function, 0)
-      g(place + 1:place + self%n_contact) = -1.0_wp
-      rate(place + 1:place + self%n_contact) = 0.0_wp
-      if (.not. any([(self%clearances(k)%set%law%jumps_at_turn .and. self%clearances(k)%set%n_touching > 0, &
-                      k=1, size(self%clearances))])) return
+      place = self%loose%functions%place(turn_function, 0)
+      g(place + 1:place + self%loose%n_contact) = -1.0_wp
+      rate(place + 1:place + self%loose%n_contact) = 0.0_wp
+      if (.not. any([(self%loose%sets(k)%set%laws%normal%jumps_at_turn .and. self%loose%sets(k)%set%n_touching > 0, &
+                      k=1, size(self%loose%sets))])) return
       call self%turns(t, y, speed, acceleration)
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
-            if (.not. set%law%jumps_at_turn .or. set%n_touching == 0) cycle
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
+            if (.not. set%laws%normal%jumps_at_turn .or. set%n_touching == 0) cycle
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
-               number = set%first_contact + i
-               place = self%functions%place(turn_function, number)
+               number = set%before%contacts + i
+               place = self%loose%functions%place(turn_function, number)
                if (set%contact(i)%course == rests) then
                   g(place) = abs(speed(number)) - set%contact(i)%rest_speed
                   rate(place) = sign(1.0_wp, speed(number))*acceleration(number)
@@ -64,18 +64,18 @@ contains
 
    !> Rates of all penetrations and their rates.
    module procedure mechanism_turns
-      real(wp) :: delta(self%n_contact), moment, ydot(size(y))
+      real(wp) :: delta(self%loose%n_contact), moment, ydot(size(y))
       integer :: k, status
 
       moment = self%time_of_difference(t)
       call self%evaluate(t, y, ydot, status)
       call self%linkage%set_motion(t + moment, y + moment*ydot)
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%gaps(self%linkage%motion, delta, acceleration)
+      do k = 1, size(self%loose%sets)
+         call self%loose%sets(k)%set%gaps(self%linkage%motion, delta, acceleration)
       end do
       call self%evaluate(t, y, ydot, status)
-      do k = 1, size(self%clearances)
-         call self%clearances(k)%set%gaps(self%linkage%motion, delta, rate)
+      do k = 1, size(self%loose%sets)
+         call self%loose%sets(k)%set%gaps(self%linkage%motion, delta, rate)
       end do
       acceleration = (acceleration - rate)/moment
    end procedure mechanism_turns
@@ -88,11 +88,11 @@ contains
 
       integer :: first, i, k
 
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             call set%gaps(self%linkage%motion, g, rate)
             if (set%n_touching == 0) cycle
-            first = set%first_contact
+            first = set%before%contacts
             do i = 1, set%n_contact
                if (.not. set%contact(i)%is_touching) cycle
                g(first + i) = -g(first + i)
@@ -104,7 +104,7 @@ contains
 
    !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
    module procedure mechanism_event_noise
-      real(wp) :: rate_noise(self%n_contact), shared
+      real(wp) :: rate_noise(self%loose%n_contact), shared
       integer :: k, turns
 
       noise = 0.0_wp
@@ -112,16 +112,16 @@ contains
       if (self%linkage%rows%n_solve > 0 .or. self%linkage%reduced%guided%n > 0) then
          shared = maxval(abs(self%linkage%motion%r(:2, :))) + maxval(abs(self%linkage%motion%angle))*self%linkage%scales%length
       end if
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
-            associate (first => set%first_contact + 1, last => set%first_contact + set%n_contact)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
+            associate (first => set%before%contacts + 1, last => set%before%contacts + set%n_contact)
                call find_gap_noise(set, self%linkage%motion, shared, noise(first:last), rate_noise(first:last))
             end associate
          end associate
       end do
-      if (self%functions%has_turn) then
-         turns = self%functions%place(turn_function, 0)
-         noise(turns + 1:turns + self%n_contact) = rate_noise
+      if (self%loose%functions%has_turn) then
+         turns = self%loose%functions%place(turn_function, 0)
+         noise(turns + 1:turns + self%loose%n_contact) = rate_noise
       end if
    end procedure mechanism_event_noise
 
@@ -130,16 +130,16 @@ contains
       integer :: item, slot
 
       is_onset = .false.
-      if (self%functions%kind_of(k) /= touch_function) return
+      if (self%loose%functions%kind_of(k) /= touch_function) return
       call self%find_contact(k, slot, item)
-      is_onset = .not. self%clearances(slot)%set%contact(item)%is_touching
+      is_onset = .not. self%loose%sets(slot)%set%contact(item)%is_touching
    end procedure mechanism_is_onset
 
    !> Set of a contact and its place there by its number.
    module procedure mechanism_find_contact
-      do slot = 1, size(self%clearances)
-         contact = self%functions%contact_of(number) - self%clearances(slot)%set%first_contact
-         if (contact <= self%clearances(slot)%set%n_contact) return
+      do slot = 1, size(self%loose%sets)
+         contact = self%loose%functions%contact_of(number) - self%loose%sets(slot)%set%before%contacts
+         if (contact <= self%loose%sets(slot)%set%n_contact) return
       end do
    end procedure mechanism_find_contact
 

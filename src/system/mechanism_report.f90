@@ -61,15 +61,15 @@ contains
       end do
       call add_joint_items(system, .false., catalogue)
       call add_joint_items(system, .true., catalogue)
-      do k = 1, size(system%clearances)
-         associate (set => system%clearances(k)%set)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
             info = set%info()
             call split_channels(info, joint_info, contact_info)
             call catalogue%add_kind(room_clearances, joint_info)
             call catalogue%add_kind(room_contacts, contact_info)
             do i = 1, set%n
                call catalogue%add_item(room_clearances, set%names(i)%s, info=joint_info, &
-                                       radius=merge(set%clearance(i), not_a_number(), set%is_round))
+                                       radius=merge(set%items%clearance(i), not_a_number(), set%traits%is_round))
                do c = 1, set%n_contact_item
                   call catalogue%add_item(room_contacts, set%names(i)%s, label=set%labels(c)%s, info=contact_info)
                end do
@@ -91,9 +91,9 @@ contains
             end do
          end associate
       end do
-      if (system%with_energies) then
+      if (system%ledger%has_energies) then
          call catalogue%add_item(room_energy, "energy")
-         call catalogue%add_kind(room_energy, energy_info(system%with_ledger))
+         call catalogue%add_kind(room_energy, energy_info(system%ledger%is_kept))
       end if
       call catalogue%allocate_data()
    end subroutine build_catalogue
@@ -197,7 +197,7 @@ contains
       type(energy_t) :: energy
       integer :: k
 
-      if (system%with_energies) energy = energy_of(system, y)
+      if (system%ledger%has_energies) energy = energy_of(system, y)
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
             select case (group%room)
@@ -251,10 +251,10 @@ contains
       real(wp) :: force(3), moment(3)
       integer :: i, k, n
 
-      do k = 1, size(system%clearances)
-         call system%clearances(k)%set%report(channel, system%linkage%motion, values)
+      do k = 1, size(system%loose%sets)
+         call system%loose%sets(k)%set%report(channel, system%linkage%motion, values)
       end do
-      n = system%n_loose
+      n = system%loose%n
       associate (linkage => system%linkage)
          do k = 1, size(linkage%ideal)
             do i = 1, linkage%ideal(k)%set%n

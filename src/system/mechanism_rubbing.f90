@@ -39,10 +39,10 @@ contains
       do turn = 1, most_turns
          call solve_rubbing(self, status)
          if (status /= 0) return
-         if (self%grips%n_slip == 0) exit
+         if (self%friction%grips%n_slip == 0) exit
          call self%stick(status)
          if (status /= 0) return
-         if (maxval(abs(self%rubbing%change)) <= tolerance*greatest(self)) exit
+         if (maxval(abs(self%friction%rubbing%change)) <= tolerance*greatest(self)) exit
       end do
       call note_power(self)
    end procedure mechanism_rub
@@ -54,7 +54,7 @@ contains
 
       call slide(self)
       change = 0.0_wp
-      associate (rubbing => self%rubbing)
+      associate (rubbing => self%friction%rubbing)
          call take_multipliers(self, rubbing%lambda)
          do k = 1, rubbing%n
             associate (set => self%linkage%joints(rubbing%slot(k))%set, m => rubbing%place(k))
@@ -99,7 +99,7 @@ contains
 
       call respond(self, status)
       if (status /= 0) return
-      associate (rubbing => self%rubbing, n => self%rubbing%n)
+      associate (rubbing => self%friction%rubbing, n => self%friction%rubbing%n)
          rubbing%change = 0.0_wp
          status = 1
          do k = 1, most_iterations
@@ -123,7 +123,7 @@ contains
             call add_friction(self, k, rubbing%change(k), self%loading%g)
          end do
       end associate
-      call self%linkage%find_accelerations(self%loading%g, .true., self%grips%n_slip > 0, status)
+      call self%linkage%find_accelerations(self%loading%g, .true., self%friction%grips%n_slip > 0, status)
    end subroutine solve_rubbing
 
    !> Multipliers of the joints that rub, and what unit forces do to them.
@@ -133,18 +133,18 @@ contains
 
       integer :: d
 
-      associate (rubbing => self%rubbing, solution => self%linkage%solution, n => self%linkage%rows%n_solve)
+      associate (rubbing => self%friction%rubbing, solution => self%linkage%solution, n => self%linkage%rows%n_solve)
          call take_multipliers(self, rubbing%lambda)
-         rubbing%b(:n) = solution%b(:n)
+         rubbing%load%b(:n) = solution%b(:n)
          solution%b(:n) = 0.0_wp
          do d = 1, rubbing%n
-            rubbing%unit = 0.0_wp
-            call add_friction(self, d, 1.0_wp, rubbing%unit)
-            call self%linkage%find_accelerations(rubbing%unit, .false., .false., status)
+            rubbing%load%unit = 0.0_wp
+            call add_friction(self, d, 1.0_wp, rubbing%load%unit)
+            call self%linkage%find_accelerations(rubbing%load%unit, .false., .false., status)
             if (status /= 0) exit
             call take_multipliers(self, rubbing%response(:, :, d))
          end do
-         solution%b(:n) = rubbing%b(:n)
+         solution%b(:n) = rubbing%load%b(:n)
       end associate
    end subroutine respond
 
@@ -157,7 +157,7 @@ contains
       integer :: d, k
 
       greatest_force = tiny(1.0_wp)
-      associate (rubbing => self%rubbing)
+      associate (rubbing => self%friction%rubbing)
          do k = 1, rubbing%n
             associate (set => self%linkage%joints(rubbing%slot(k))%set, m => rubbing%place(k))
                lambda = rubbing%lambda(:, k)
@@ -192,8 +192,8 @@ contains
       integer :: first, k
 
       lambda = 0.0_wp
-      do k = 1, self%rubbing%n
-         associate (set => self%linkage%joints(self%rubbing%slot(k))%set, m => self%rubbing%place(k))
+      do k = 1, self%friction%rubbing%n
+         associate (set => self%linkage%joints(self%friction%rubbing%slot(k))%set, m => self%friction%rubbing%place(k))
             first = set%first_row + (set%friction%item(m) - 1)*set%n_row_item
             lambda(:set%n_row_item, k) = self%linkage%solution%lambda(first + 1:first + set%n_row_item)
          end associate
@@ -207,7 +207,8 @@ contains
       real(wp), intent(in) :: force              !! on body j along its sliding velocity [N]
       real(wp), intent(inout) :: g(:, 0:)        !! (n_v, 0:bodies) loads [N or N.m]
 
-      associate (set => self%linkage%joints(self%rubbing%slot(k))%set, m => self%rubbing%place(k), n_v => size(g, 1))
+      associate (set => self%linkage%joints(self%friction%rubbing%slot(k))%set, m => self%friction%rubbing%place(k), &
+                 n_v => size(g, 1))
          associate (i => set%body(1, set%friction%item(m)), j => set%body(2, set%friction%item(m)))
             g(:, i) = g(:, i) + force*set%friction%row(:n_v, m)
             g(:, j) = g(:, j) + force*set%friction%row(n_v + 1:, m)
@@ -222,9 +223,9 @@ contains
       integer :: k
 
       greatest = 0.0_wp
-      do k = 1, self%rubbing%n
-         associate (friction => self%linkage%joints(self%rubbing%slot(k))%set%friction)
-            greatest = max(greatest, abs(friction%force(self%rubbing%place(k))))
+      do k = 1, self%friction%rubbing%n
+         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
+            greatest = max(greatest, abs(friction%force(self%friction%rubbing%place(k))))
          end associate
       end do
    end function greatest
@@ -235,10 +236,10 @@ contains
 
       integer :: k
 
-      self%rubbing%power = 0.0_wp
+      self%friction%rubbing%power = 0.0_wp
       do k = 1, self%linkage%n_solved_set
          associate (friction => self%linkage%joints(k)%set%friction)
-            if (friction%n > 0) self%rubbing%power = self%rubbing%power - dot_product(friction%force, friction%v)
+            if (friction%n > 0) self%friction%rubbing%power = self%friction%rubbing%power - dot_product(friction%force, friction%v)
          end associate
       end do
    end subroutine note_power

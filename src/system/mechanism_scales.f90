@@ -44,11 +44,11 @@ contains
             scale(nq + n - guided%n + k) = scale(nq - guided%n + k)*rate
          end do
       end associate
-      if (self%grips%n_bristle > 0) call self%bristle_weights(scale)
+      if (self%friction%grips%n_bristle > 0) call self%bristle_weights(scale)
       swing = -1.0_wp
-      do k = 1, size(self%clearances)
-         if (self%clearances(k)%set%n_touching == 0) cycle
-         swing = max(swing, maxval(self%clearances(k)%set%contact%swing, mask=self%clearances(k)%set%contact%is_touching))
+      do k = 1, size(self%loose%sets)
+         if (self%loose%sets(k)%set%n_touching == 0) cycle
+         swing = max(swing, maxval(self%loose%sets(k)%set%contact%swing, mask=self%loose%sets(k)%set%contact%is_touching))
       end do
       if (swing < 0.0_wp) return
       rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%linkage%scales%tolerance*rate))
@@ -104,7 +104,7 @@ contains
 
    !> The pace at the start.
    module procedure mechanism_begin_pace
-      real(wp) :: acceleration(most_rates), delta(self%n_contact), rate(self%n_contact), ydot(size(y))
+      real(wp) :: acceleration(most_rates), delta(self%loose%n_contact), rate(self%loose%n_contact), ydot(size(y))
       integer(i8) :: n_evaluations, n_factorisations
       integer :: i, k, status
 
@@ -113,13 +113,13 @@ contains
       n_factorisations = self%linkage%solution%solver%n_factorisations
       self%linkage%scales%pace = idle_part/end
       self%linkage%scales%late_rate = late/end
-      self%grips%h = first*end
+      self%friction%grips%h = first*end
       call self%linkage%set_motion(t, y)
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             call set%gaps(self%linkage%motion, delta, rate)
             do i = 1, set%n_contact
-               if (set%contact(i)%is_touching) call set%note_swing(i, delta(set%first_contact + i))
+               if (set%contact(i)%is_touching) call set%note_swing(i, delta(set%before%contacts + i))
             end do
          end associate
       end do
@@ -139,7 +139,7 @@ contains
 
    !> Part of the step in hand, but more than time is rounded by.
    module procedure time_of_difference
-      time_of_difference = max(part*self%grips%h, shortest_difference*epsilon(1.0_wp)*abs(t))
+      time_of_difference = max(part*self%friction%grips%h, shortest_difference*epsilon(1.0_wp)*abs(t))
    end procedure time_of_difference
 
 end submodule mechanism_scales

@@ -1,5 +1,6 @@
 !> Room for the friction of ideal joints of a mechanism: which joints rub, and the small system that their forces solve.
 module rubbing
+   use grip_forces, only: unit_load_t
    use joint_friction, only: most_rows
    use joint_set, only: joint_slot_t
    use friction_law, only: memory_bristle
@@ -22,8 +23,7 @@ module rubbing
       real(wp), allocatable :: left(:)                !! (n) what is left of the equations of the forces [N]
       real(wp), allocatable :: matrix(:, :)           !! (n, n) their derivatives [1]
       integer, allocatable :: pivot(:)                !! (n) scratch of the factorisation
-      real(wp), allocatable :: unit(:, :)             !! (n_v, 0:bodies) loads of a unit force [1 or m]
-      real(wp), allocatable :: b(:)                   !! (rows) right-hand side of the rows, kept [any]
+      type(unit_load_t) :: load                       !! of a unit force
       integer :: wedged = 0                           !! joint for which the last evaluation found no friction force, 0: none
       real(wp) :: power = 0.0_wp                      !! power that friction in joints takes [W]
    end type rubbing_t
@@ -45,7 +45,7 @@ contains
       if (n == 0) return
       allocate (rubbing%slot(n), rubbing%place(n), rubbing%bristle(n), rubbing%pivot(n), source=0)
       allocate (rubbing%lambda(most_rows, n), rubbing%response(most_rows, n, n), rubbing%change(n), rubbing%left(n), &
-                rubbing%matrix(n, n), rubbing%unit(size(a, 1), 0:ubound(a, 2)), rubbing%b(n_row), source=0.0_wp)
+                rubbing%matrix(n, n), rubbing%load%unit(size(a, 1), 0:ubound(a, 2)), rubbing%load%b(n_row), source=0.0_wp)
       n = 0
       do k = 1, n_solved_set
          associate (friction => joints(k)%set%friction)

@@ -22,26 +22,26 @@ contains
       real(wp) :: moment
       integer :: k, number, slot, status
 
-      number = self%functions%place(slip_function, 0)
-      g(number + 1:number + self%n_contact) = -1.0_wp
-      rate(number + 1:number + self%n_contact) = 0.0_wp
+      number = self%loose%functions%place(slip_function, 0)
+      g(number + 1:number + self%loose%n_contact) = -1.0_wp
+      rate(number + 1:number + self%loose%n_contact) = 0.0_wp
       moment = self%time_of_difference(t)
       if (any_sticks(self)) then
-         call self%evaluate(t, y, self%grips%ydot, status)
-         self%grips%y = y + moment*self%grips%ydot
-         call self%evaluate(t + moment, self%grips%y, self%grips%ydot, status)
+         call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
+         self%friction%grips%trial%y = y + moment*self%friction%grips%trial%ydot
+         call self%evaluate(t + moment, self%friction%grips%trial%y, self%friction%grips%trial%ydot, status)
          call note_holds(self, rate)
       end if
-      call self%evaluate(t, y, self%grips%ydot, status)
-      do slot = 1, size(self%clearances)
-         associate (set => self%clearances(slot)%set)
+      call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
+      do slot = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               number = self%functions%place(slip_function, set%first_contact + k)
+               number = self%loose%functions%place(slip_function, set%before%contacts + k)
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) == is_undecided) cycle
                associate (tangent => set%grip%tangent(k), slip => set%grip%slip(k))
                   if (slip == sticks) then
-                     g(number) = short_of(self, tangent, set%friction%stick_limit(tangent%f_n))
+                     g(number) = short_of(self, tangent, set%laws%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
                      g(number) = standstill*own_speed(self) - slip*tangent%v - set%grip%band(k)
@@ -60,13 +60,13 @@ contains
 
       integer :: k, slot
 
-      do slot = 1, size(self%clearances)
-         associate (set => self%clearances(slot)%set)
+      do slot = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               g(self%functions%place(slip_function, set%first_contact + k)) = &
-                  short_of(self, set%grip%tangent(k), set%friction%stick_limit(set%grip%tangent(k)%f_n))
+               g(self%loose%functions%place(slip_function, set%before%contacts + k)) = &
+                  short_of(self, set%grip%tangent(k), set%laws%friction%stick_limit(set%grip%tangent(k)%f_n))
             end do
          end associate
       end do
@@ -98,8 +98,8 @@ contains
       integer :: k
 
       any_sticks = .false.
-      do k = 1, size(self%clearances)
-         associate (set => self%clearances(k)%set)
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             any_sticks = any_sticks .or. any(set%contact%is_touching .and. set%grip%slip == sticks)
          end associate
@@ -110,15 +110,15 @@ contains
    !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
    !> that sticks until now. One that drivers move goes with them.
    module procedure mechanism_decide_slip
-      real(wp) :: band, delta(self%n_contact), rate(self%n_contact), speed
+      real(wp) :: band, delta(self%loose%n_contact), rate(self%loose%n_contact), speed
       integer :: before, status
 
       speed = own_speed(self)
-      associate (set => self%clearances(slot)%set)
+      associate (set => self%loose%sets(slot)%set)
          before = set%grip%slip(k)
          call set%gaps(self%linkage%motion, delta, rate)
          band = 0.0_wp
-         if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%first_contact + k))) then
+         if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
             band = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
          end if
          call set%note_decision(k, t, band)
@@ -130,7 +130,7 @@ contains
             end if
          end if
          call set%slip_as(k, sticks)
-         call self%evaluate(t, y, self%grips%ydot, status)
+         call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
          associate (tangent => set%grip%tangent(k))
             if (tangent%is_driven) then
                call set%note_decision(k, t, 0.0_wp)
@@ -141,7 +141,7 @@ contains
                call set%slip_as(k, nint(sign(1.0_wp, tangent%v)))
                return
             end if
-            if (before /= sticks .and. abs(tangent%f_t) <= set%friction%stick_limit(tangent%f_n)) return
+            if (before /= sticks .and. abs(tangent%f_t) <= set%laws%friction%stick_limit(tangent%f_n)) return
             call set%slip_as(k, nint(-sign(1.0_wp, tangent%f_t)))
          end associate
       end associate
@@ -159,16 +159,16 @@ contains
       real(wp) :: later, now, v
       integer :: status
 
-      later = max(look_ahead*self%grips%h, self%time_of_difference(t))
-      associate (set => self%clearances(slot)%set)
+      later = max(look_ahead*self%friction%grips%h, self%time_of_difference(t))
+      associate (set => self%loose%sets(slot)%set)
          now = set%grip%tangent(k)%v
          v = now
          if (abs(now) < 0.5_wp*still) then
-            self%grips%y = y + later*self%grips%ydot
-            call self%linkage%set_motion(t + later, self%grips%y)
+            self%friction%grips%trial%y = y + later*self%friction%grips%trial%ydot
+            call self%linkage%set_motion(t + later, self%friction%grips%trial%y)
             call set%lay(k, self%linkage%motion)
             v = set%grip%tangent(k)%v
-            call self%evaluate(t, y, self%grips%ydot, status)
+            call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
          end if
          slip = sticks
          if (abs(v) >= 0.5_wp*still) slip = nint(sign(1.0_wp, v))
@@ -185,9 +185,9 @@ contains
       real(wp) :: compliance
       integer :: item
 
-      associate (set => self%clearances(slot)%set)
+      associate (set => self%loose%sets(slot)%set)
          item = set%item_of(k)
-         compliance = sum(self%linkage%inverse_mass(1, set%body(:, item)))*set%grip%tangent(k)%f_n
+         compliance = sum(self%linkage%inverse_mass(1, set%items%body(:, item)))*set%grip%tangent(k)%f_n
       end associate
       time = 0.0_wp
       if (compliance > 0.0_wp .and. delta > 0.0_wp) time = sqrt(delta/compliance)

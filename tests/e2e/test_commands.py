@@ -91,6 +91,19 @@ def test_explain(gudgeon):
         assert word in text, word
 
 
+def test_explain_names_ideal_joints_that_rub(gudgeon):
+    """explain names an ideal joint that rubs with its law, and radius and preload as --set gives them; without friction it does not."""
+    hatch = DECK.parent / "hatch.deck"
+    text = call(gudgeon, "explain", hatch, "--set", "fit=450N", "--set", "radius=12mm", "--set", "friction=stribeck").stdout
+    rubs = text.split("ideal joints that rub\n")[1].split("\n\n")[0].splitlines()
+    assert [line.strip().split(":")[0] for line in rubs[::2]] == ["hinge"]
+    assert "friction stribeck (friction.stribeck): coefficient 0.3, static_coefficient 0.4" in rubs[0]
+    assert rubs[1].strip() == "radius 0.012 m, preload 450 N"
+    smooth = written(scratch(), hatch.read_text().replace("hinge.friction_moment", ""))
+    assert "ideal joints that rub" not in call(gudgeon, "explain", smooth, "--set", "friction=none").stdout
+    assert "ideal joints that rub" not in call(gudgeon, "explain", DECK).stdout
+
+
 def test_new_writes_a_template_that_checks(gudgeon):
     """new NAME writes a deck that check accepts and run runs; it does not overwrite."""
     directory = scratch()

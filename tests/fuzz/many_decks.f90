@@ -18,7 +18,7 @@ program many_decks
    integer :: code, k, status
 
    options%write = "all"
-   allocate (options%overrides(0))
+   allocate (options%change%overrides(0))
    call use_one_blas_thread(error)
    if (allocated(error)) error stop error%code
    if (ieee_support_underflow_control(1.0_wp)) call ieee_set_underflow_mode(gradual=.false.)
@@ -29,7 +29,7 @@ program many_decks
       k = k + 1
       words = split_blank(trim(line))
       options%verb = words(1)%s
-      options%is_ideal = size(words) > 2
+      options%change%is_ideal = size(words) > 2
       options%operands = [words(size(words))]
       write (output_unit, "(a, i0)") "begin ", k
       flush (output_unit)

@@ -176,15 +176,15 @@ contains
          points%s(1:2, 2*k) = random%vector(2, -0.05_wp, 0.05_wp)
       end do
       call bench%set%new(items, [(2*k - 1, k=1, n_item)], [(2*k, k=1, n_item)], points, law, friction)
-      bench%set%first = n_before
-      bench%set%first_contact = n_before
+      bench%set%before%items = n_before
+      bench%set%before%contacts = n_before
       materials%young = 207.0e9_wp
       materials%poisson = 0.3_wp
-      bench%set%leaves = [leaves_turn, leaves_way, leaves_turn]
-      bench%set%way = reshape([1.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, 0.0_wp, 1.0_wp], [2, n_item])
+      bench%set%items%leaves = [leaves_turn, leaves_way, leaves_turn]
+      bench%set%items%way = reshape([1.0_wp, 0.0_wp, 0.6_wp, 0.8_wp, 0.0_wp, 1.0_wp], [2, n_item])
       call bench%set%prepare(items)
       call bench%set%fit_law(items, materials, [(1.0_wp, k=1, n_body)], [(.false., k=1, n_body)])
-      call bench%set%law%fit(bench%set%pairs(1), parameters, message, help)
+      call bench%set%laws%normal%fit(bench%set%items%pairs(1), parameters, message, help)
       bench%has_form = message == ""
       if (.not. bench%has_form) return
       bench%first = n_before + 1
@@ -227,7 +227,7 @@ contains
       associate (grip => bench%set%grip)
          if (grip%memory == memory_slip) grip%slip(contact) = nint(sign(1.0_wp, grip%tangent(contact)%v))
          if (grip%memory == memory_bristle) then
-            grip%z(contact) = sign(0.5_wp*bench%set%friction%bristle_scale(), grip%tangent(contact)%v)
+            grip%z(contact) = sign(0.5_wp*bench%set%laws%friction%bristle_scale(), grip%tangent(contact)%v)
          end if
       end associate
    end subroutine let_slip
@@ -250,7 +250,7 @@ contains
          call fill_item(info, 1, random, item)
          call set_number(info, "stiffness", 0.0_wp, item)
          call law%prepare(item)
-         allocate (bench%set%face_law, source=law)
+         allocate (bench%set%laws%face, source=law)
          bench%has_form = .true.
       end do
    end subroutine add_face_law
@@ -265,8 +265,8 @@ contains
 
       select type (set => bench%set)
       type is (clearance_translational_t)
-         along = set%point_j(:, 8*item - 6) - set%point_j(:, 8*item - 7)
-         turn = atan2(set%axis(2, item), set%axis(1, item)) - atan2(along(2), along(1)) + tilt(item)
+         along = set%plane%point_j(:, 8*item - 6) - set%plane%point_j(:, 8*item - 7)
+         turn = atan2(set%guide%axis(2, item), set%guide%axis(1, item)) - atan2(along(2), along(1)) + tilt(item)
          angle(0) = 0.0_wp
          angle(1:) = bench%q(3, :)
          if (body_j(item) == movable(item)) then
@@ -291,8 +291,8 @@ contains
       body = movable(item)
       call move_to(bench, 0.0_wp)
       associate (set => bench%set, motion => bench%motion)
-         p_i = motion%r(1:2, body_i(item)) + matmul(motion%rot(1:2, 1:2, body_i(item)), set%s_i(1:2, item))
-         p_j = motion%r(1:2, body_j(item)) + matmul(motion%rot(1:2, 1:2, body_j(item)), set%s_j(1:2, item))
+         p_i = motion%r(1:2, body_i(item)) + matmul(motion%rot(1:2, 1:2, body_i(item)), set%items%s_i(1:2, item))
+         p_j = motion%r(1:2, body_j(item)) + matmul(motion%rot(1:2, 1:2, body_j(item)), set%items%s_j(1:2, item))
       end associate
       bench%q(1:2, body) = bench%q(1:2, body) + merge(1.0_wp, -1.0_wp, body == body_j(item))*(p_i + offset - p_j)
       do attempt = 1, 50

@@ -89,7 +89,7 @@ contains
          friction = 0.0_wp
          call bench%set%report("friction_force", bench%motion, friction)
          couple = sum(delta(n_before + 1:n_before + n_item)*friction(1, n_before + 1:n_before + n_item))
-         if (allocated(bench%set%friction)) call check_true(error, abs(couple) > 1.0e-6_wp, bench%name//": there is a couple")
+         if (allocated(bench%set%laws%friction)) call check_true(error, abs(couple) > 1.0e-6_wp, bench%name//": there is a couple")
       end if
       call check_close(error, moment, couple, 1.0e-13_wp*scale, bench%name//": moments about the origin")
    end subroutine action_and_reaction
@@ -131,7 +131,7 @@ contains
             call check_close(error, losses(loss_contact, first:last), (f - elastic)*rate(first:last), 1.0e-13_wp*scale, &
                              bench%name//": lost in contact")
          end if
-         if (allocated(set%friction)) then
+         if (allocated(set%laws%friction)) then
             call check_true(error, maxval(abs(losses(loss_friction, first:last))) > 1.0_wp, bench%name//": friction works")
             if (.not. bench%is_book) then
                call check_true(error, minval(losses(loss_friction, first:last)) >= 0.0_wp, bench%name//": friction only takes")
@@ -156,7 +156,8 @@ contains
       associate (set => bench%set)
          d = merge(delta(bench%first:bench%last), 0.0_wp, set%contact%is_touching)
          speed = merge(set%contact%impact_speed, 1.0_wp, set%contact%is_touching)
-         call set%law%force(size(f), d, rate(bench%first:bench%last), speed, set%parameters, f, by_delta, by_rate, elastic)
+         call set%laws%normal%force(size(f), d, rate(bench%first:bench%last), speed, set%laws%parameters, f, by_delta, by_rate, &
+                                    elastic)
       end associate
    end subroutine elastic_forces
 
@@ -236,7 +237,8 @@ contains
          m = bench%touching(2)
          set%contact%is_touching = .false.
          set%contact(m)%is_touching = .true.
-         call check_close(error, set%elastic_energy(bench%motion), set%law%potential(delta(n_before + m), set%parameters(:, m)), &
+         call check_close(error, set%elastic_energy(bench%motion), set%laws%normal%potential(delta(n_before + m), &
+                          set%laws%parameters(:, m)), &
                           1.0e-12_wp, bench%name//": of one contact", relative=.true.)
       end associate
    end subroutine elastic_energy
@@ -335,10 +337,10 @@ contains
       real(wp) :: delta(n_all), losses(2, n_all), rate(n_all), speed(n_item), value(2, n_all)
       integer :: attempt, k
 
-      if (.not. bench%set%is_round) return
+      if (.not. bench%set%traits%is_round) return
       bench%set%contact%is_touching = .false.
       bench%set%n_touching = 0
-      bench%set%s_j = bench%set%s_i
+      bench%set%items%s_j = bench%set%items%s_i
       bench%q = 0.0_wp
       bench%q(3, 1:2) = 1.1_wp
       info = bench%set%info()
@@ -348,7 +350,7 @@ contains
          do k = 1, n_item
             if (attempt == 1) speed(k) = speed_of_journal(bench, k)
          end do
-         call check_close(error, delta(n_before + 1:n_before + n_item), -bench%set%clearance, 0.0_wp, bench%name//": centred")
+         call check_close(error, delta(n_before + 1:n_before + n_item), -bench%set%items%clearance, 0.0_wp, bench%name//": centred")
          call check_close(error, rate(n_before + 1:n_before + n_item), speed, 1.0e-14_wp, bench%name//": rate when centred")
          call evaluate_loads(bench, loads, losses)
          call check_close(error, sum(abs(loads%force)), 0.0_wp, 0.0_wp, bench%name//": force when centred")
@@ -370,9 +372,9 @@ contains
       real(wp) :: s(2), v(2)
       integer :: i, j
 
-      i = bench%set%body(1, item)
-      j = bench%set%body(2, item)
-      s = matmul(bench%motion%rot(1:2, 1:2, i), bench%set%s_i(1:2, item))
+      i = bench%set%items%body(1, item)
+      j = bench%set%items%body(2, item)
+      s = matmul(bench%motion%rot(1:2, 1:2, i), bench%set%items%s_i(1:2, item))
       v = bench%motion%v(1:2, j) - bench%motion%v(1:2, i) &
           + (bench%motion%omega(3, j) - bench%motion%omega(3, i))*[-s(2), s(1)]
       speed = norm2(v)

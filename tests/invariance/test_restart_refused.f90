@@ -110,6 +110,20 @@ contains
       call save_part_memory(run%part, checkpoint)
    end subroutine save_after
 
+   !> A run that has made some steps, what it saved, and another one that has only begun.
+   subroutine begin_again(n_step, run, saved, fresh, error, change)
+      integer, intent(in) :: n_step                             !! steps of the first
+      type(begun_t), intent(inout), target :: run               !! the first
+      type(checkpoint_t), intent(inout) :: saved                !! its memory
+      type(begun_t), intent(inout), target :: fresh             !! the other one
+      type(error_t), allocatable, intent(inout) :: error        !! first failure
+      character(*), intent(in), optional :: change              !! of the other one's deck
+
+      call begin(run, error)
+      call save_after(n_step, run, saved, error)
+      if (.not. allocated(error)) call begin(fresh, error, change)
+   end subroutine begin_again
+
    !> The method, the way of holding the constraints and the loose joint are named as in the deck.
    subroutine test_names(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -136,9 +150,7 @@ contains
       type(begun_t), target :: fresh, run
       type(checkpoint_t) :: again, saved
 
-      call begin(run, error)
-      call save_after(7, run, saved, error)
-      if (.not. allocated(error)) call begin(fresh, error)
+      call begin_again(7, run, saved, fresh, error)
       if (allocated(error)) return
       call check_equal(error, sum(saved%pieces%size), size(saved%row), "numbers of all pieces")
       call check_true(error, all(abs(saved%row) <= huge(1.0_wp)), "all are numbers")
@@ -159,9 +171,7 @@ contains
       type(checkpoint_t) :: other, saved
       integer :: k
 
-      call begin(run, error)
-      call save_after(5, run, saved, error)
-      if (.not. allocated(error)) call begin(fresh, error)
+      call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
       do k = 1, size(saved%pieces)
          other = saved
@@ -179,9 +189,7 @@ contains
       type(checkpoint_t) :: other, saved
       integer :: k
 
-      call begin(run, error)
-      call save_after(5, run, saved, error)
-      if (.not. allocated(error)) call begin(fresh, error)
+      call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
       do k = 1, size(saved%pieces)
          other = saved
@@ -199,9 +207,7 @@ contains
       type(begun_t), target :: fresh, run
       type(checkpoint_t) :: other, saved
 
-      call begin(run, error)
-      call save_after(5, run, saved, error)
-      if (.not. allocated(error)) call begin(fresh, error)
+      call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
       associate (n => size(saved%pieces))
          other = saved
@@ -227,9 +233,7 @@ contains
       type(begun_t), target :: fresh, run
       type(checkpoint_t) :: saved
 
-      call begin(run, error)
-      call save_after(5, run, saved, error)
-      if (.not. allocated(error)) call begin(fresh, error, "c=0.4mm")
+      call begin_again(5, run, saved, fresh, error, "c=0.4mm")
       if (allocated(error)) return
       call load_part_memory(saved, fresh%part, error)
       if (allocated(error)) return
@@ -260,9 +264,7 @@ contains
       type(begun_t), target :: fresh, run
       type(checkpoint_t) :: other, saved
 
-      call begin(run, error)
-      call save_after(5, run, saved, error)
-      if (.not. allocated(error)) call begin(fresh, error)
+      call begin_again(5, run, saved, fresh, error)
       if (allocated(error)) return
       other = saved
       other%row = saved%row(:size(saved%row) - 1)

@@ -133,7 +133,7 @@ contains
       call check_close(error, rate(1), speed, 1.0e-10_wp, "impact speed")
       if (allocated(error)) return
 
-      call judge%system%clearances(1)%set%begin_contact(1, ours%method%t, rate(1), 0.0_wp)
+      call judge%system%loose%sets(1)%set%begin_contact(1, ours%method%t, rate(1), 0.0_wp)
       call begin(ours)
       call solve_by_erkstep(judge%system, ours%method%t, ours%method%t + half, judge%y, status, n_step=300)
       call check_equal(error, status, 0, "status of ERKStep within the contact")
@@ -154,7 +154,7 @@ contains
          logical :: is_over
 
          call new_contact_watch(loaded%system, watch)
-         call watch%handle_event(loaded%system, loaded%method, loaded%method%happened(1), is_over, row, step_hint)
+         call watch%handle_event(loaded%system, loaded%method, loaded%method%events%happened(1), is_over, row, step_hint)
          call check_true(error, .not. is_over, "a contact begins")
          call loaded%method%restart(loaded%system, step_hint, outcome)
       end subroutine begin

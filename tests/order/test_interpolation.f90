@@ -297,14 +297,14 @@ contains
       call new_pendulum(0.9_wp, .false., system, y)
       call method%start(system, 0.0_wp, y, 20.0_wp, status)
       call method%prepare_output(system, status)
-      call check_equal(error, int(method%n_output_evaluations), 0, "nothing to prepare before the first step")
+      call check_equal(error, int(method%count%n_output_evaluations), 0, "nothing to prepare before the first step")
       do k = 1, 3
          call method%advance(system, 20.0_wp, status)
          call check_true(error, .not. method%step%has_inner, "none yet")
          call method%prepare_output(system, status)
          call method%prepare_output(system, status)
          call check_true(error, method%step%has_inner, "there it is")
-         call check_equal(error, int(method%n_output_evaluations), 2*k, "evaluations for output")
+         call check_equal(error, int(method%count%n_output_evaluations), 2*k, "evaluations for output")
       end do
       call run_to(method, system, 20.0_wp, status)
       call method%state_at(system, 20.0_wp, y)

@@ -104,7 +104,8 @@ contains
       do i = 1, size(methods)
          call solve(methods(i), plain, y, 30.0_wp, controls_t(tolerance=1.0e-8_wp), first, status)
          call solve(methods(i), rich, z, 30.0_wp, controls_t(tolerance=1.0e-8_wp), second, status)
-         call check_true(error, abs(second%n_steps - first%n_steps) <= first%n_steps/50, methods(i)//": as many steps")
+         call check_true(error, abs(second%count%n_steps - first%count%n_steps) <= first%count%n_steps/50, &
+                         methods(i)//": as many steps")
          call check_close(error, second%step%y1(1:2), first%step%y1, 1.0e-6_wp, methods(i)//": the same motion")
       end do
    end subroutine test_quadratures
@@ -125,7 +126,7 @@ contains
       do i = 1, size(methods)
          call solve(methods(i), one, [1.0_wp, 2.0_wp], 3.0_wp, controls_t(tolerance=2.0_wp**(-20)), first, status)
          call solve(methods(i), other, [1.0_wp, 2.0_wp], 3.0_wp, controls_t(tolerance=2.0_wp**(-30)), second, status)
-         call check_equal(error, int(second%n_steps), int(first%n_steps), methods(i)//": steps")
+         call check_equal(error, int(second%count%n_steps), int(first%count%n_steps), methods(i)//": steps")
          call check_close(error, second%step%y1, first%step%y1, 1.0e-11_wp, methods(i)//": state")
       end do
    end subroutine test_scales
@@ -151,9 +152,9 @@ contains
             call solve(methods(i), one, [0.5_wp], 5.0_wp, controls_t(tolerance=1.0e-7_wp/3.0_wp, norm=norms(k)), first, status)
             call solve(methods(i), many, spread(0.5_wp, 1, 9), 5.0_wp, controls_t(tolerance=1.0e-7_wp, norm=norms(k)), second, &
                        status)
-            call check_close(error, real(second%n_steps, wp), real(first%n_steps, wp), 0.06_wp, methods(i)//": steps", &
+            call check_close(error, real(second%count%n_steps, wp), real(first%count%n_steps, wp), 0.06_wp, methods(i)//": steps", &
                              relative=.true.)
-            call check_true(error, first%n_steps > 20, methods(i)//": steps enough to compare")
+            call check_true(error, first%count%n_steps > 20, methods(i)//": steps enough to compare")
          end do
       end do
    end subroutine test_copies
@@ -171,11 +172,11 @@ contains
       system%rate = [-1.0e4_wp, -1.0_wp]
       system%scale = [1.0_wp, 1.0_wp]
       call solve("verner", system, [1.0_wp, 1.0_wp], t_end, controls_t(tolerance=1.0e-6_wp), method, status)
-      n_verner = int(method%n_steps)
+      n_verner = int(method%count%n_steps)
       call check_true(error, n_verner > 2000, "explicit steps are bound by stability")
       do i = 2, 3
          call solve(methods(i), system, [1.0_wp, 1.0_wp], t_end, controls_t(tolerance=1.0e-6_wp), method, status)
-         call check_true(error, 10*method%n_steps < n_verner, methods(i)//": a tenth of the steps at most")
+         call check_true(error, 10*method%count%n_steps < n_verner, methods(i)//": a tenth of the steps at most")
          call check_close(error, method%step%y1, [0.0_wp, exp(-t_end)], 2.0e-5_wp, methods(i)//": state")
       end do
    end subroutine test_stiff_decay
@@ -258,9 +259,10 @@ contains
          system%n_call = 0
          call solve(methods(i), system, [1.0_wp, 1.0_wp], 2.0_wp, controls_t(tolerance=1.0e-9_wp, initial_step=0.1_wp), method, &
                     status)
-         call check_equal(error, int(method%n_evaluations), system%n_call, methods(i)//": evaluations")
-         call check_true(error, method%n_rejected > 0, methods(i)//": the first step is too long")
-         call check_true(error, method%n_evaluations > 2*method%n_steps, methods(i)//": at least one beside that of the end")
+         call check_equal(error, int(method%count%n_evaluations), system%n_call, methods(i)//": evaluations")
+         call check_true(error, method%count%n_rejected > 0, methods(i)//": the first step is too long")
+         call check_true(error, method%count%n_evaluations > 2*method%count%n_steps, &
+                         methods(i)//": at least one beside that of the end")
       end do
    end subroutine test_evaluations
 

@@ -142,9 +142,9 @@ contains
       method%controls%fixed_step = 0.125_wp
       call method%start(system, 0.0_wp, y, 1.0_wp, status)
       call run_to(method, system, 1.0_wp, status)
-      call check_equal(error, int(method%n_steps), 8, "steps")
-      call check_equal(error, int(method%n_rejected), 0, "rejected steps")
-      call check_equal(error, int(method%n_evaluations), 1 + 8*4, "evaluations")
+      call check_equal(error, int(method%count%n_steps), 8, "steps")
+      call check_equal(error, int(method%count%n_rejected), 0, "rejected steps")
+      call check_equal(error, int(method%count%n_evaluations), 1 + 8*4, "evaluations")
    end subroutine test_evaluations
 
    !> The deck must give the step; without one the method itself does not go on.

@@ -127,7 +127,7 @@ contains
          if (present(floor)) method%controls%floor = floor
          call method%start(system, t, y, t + 100.0_wp*h, status)
          call method%advance(system, t + 100.0_wp*h, status)
-         if (method%n_rejected == 0 .and. method%h_next < 3.99_wp*h) then
+         if (method%count%n_rejected == 0 .and. method%h_next < 3.99_wp*h) then
             estimate = tolerance*(0.9_wp*h/method%h_next)**6
             return
          end if
@@ -198,7 +198,7 @@ contains
             call second%advance(rich, 30.0_wp, status)
             call check_close(error, [second%t, second%step%y1(1:2)], [first%t, first%step%y1], 0.0_wp, "a step")
          end do
-         call check_true(error, first%n_rejected > 0 .and. first%n_rejected == second%n_rejected, "rejections")
+         call check_true(error, first%count%n_rejected > 0 .and. first%count%n_rejected == second%count%n_rejected, "rejections")
          deallocate (first, second)
       end do
    end subroutine test_quadratures

@@ -46,8 +46,8 @@ contains
             story%overlap = max(story%overlap, maxval(g))
             cycle
          end if
-         do k = 1, method%n_happened
-            associate (number => method%happened(k))
+         do k = 1, method%events%n_happened
+            associate (number => method%events%happened(k))
                story%n_event = story%n_event + 1
                story%number(story%n_event) = number
                story%time(story%n_event) = method%t

@@ -60,8 +60,8 @@ contains
             end do
             call get_gaps(bench, 0.0_wp, delta, rate)
             reach = 2.0_wp*maxval(abs(delta(bench%first:bench%last)))
-            deallocate (set%law)
-            allocate (set%law, source=cushion(reach))
+            deallocate (set%laws%normal)
+            allocate (set%laws%normal, source=cushion(reach))
             call evaluate_loads(bench, loads, losses)
             normal = 0.0_wp
             call set%report("normal_force", bench%motion, normal)
@@ -110,8 +110,8 @@ contains
 
       call load_text(ball, loaded, error)
       if (allocated(error)) return
-      deallocate (loaded%system%clearances(1)%set%law)
-      allocate (loaded%system%clearances(1)%set%law, source=cushion(reach))
+      deallocate (loaded%system%loose%sets(1)%set%laws%normal)
+      allocate (loaded%system%loose%sets(1)%set%laws%normal, source=cushion(reach))
       call run_to_end(loaded, keeper, summary, error)
       if (allocated(error)) return
       call check_equal(error, keeper%n_event, 0, "contacts")
@@ -120,7 +120,7 @@ contains
          call check_close(error, motion%v(1, 1), -speed, 1.0e-6_wp*speed, "speed after")
          call check_close(error, motion%r(1, 1), (gap - reach) - speed*(end - before - inside), 1.0e-6_wp*gap, "where it is")
       end associate
-      call check_true(error, summary%energy_residual_max < 1.0e-6_wp*0.5_wp*mass*speed**2, "the ledger is closed")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-6_wp*0.5_wp*mass*speed**2, "the ledger is closed")
    end subroutine test_ball_that_never_touches
 
    !> A cushion.

@@ -142,7 +142,7 @@ contains
             deep = 0.5_wp*g*keeper%events(1)%time**2 - fall
             call check_true(error, deep > 0.0_wp .and. deep <= limit(k), "within the limit")
             call check_close(error, keeper%events(1)%impact_speed, g*keeper%events(1)%time, 1.0e-10_wp, "speed there")
-            call check_true(error, summary%rejected_steps < 60, "a few halvings")
+            call check_true(error, summary%count%rejected_steps < 60, "a few halvings")
          end do
       end do
       call drop("contact_onset = reject"//nl//"step = 10 us", "damped", keeper, summary, error)
@@ -182,7 +182,7 @@ contains
             gift = 0.4_wp*stiffness*(0.5_wp*g*row%time**2 - fall)**2.5_wp
             before = 0.5_wp*row%impact_speed**2 - g*(0.5_wp*g*row%time**2 - fall)
             call check_close(error, 0.5_wp*row%release_speed**2, before + gift, 1.0e-9_wp*before, "energy after the bounce")
-            call check_close(error, summary%energy_residual_max, gift, 1.0e-6_wp*gift + 1.0e-9_wp, "residual of the ledger")
+            call check_close(error, summary%quality%energy_residual_max, gift, 1.0e-6_wp*gift + 1.0e-9_wp, "residual of the ledger")
          end associate
       end do
    end subroutine test_energy

@@ -73,8 +73,8 @@ contains
          call check_equal(error, status, advance_step, "status")
          call check_close(error, method%t, min(0.3_wp*k, 1.0_wp), 1.0e-15_wp, "time")
       end do
-      call check_equal(error, int(method%n_steps), 4, "steps")
-      call check_equal(error, int(method%n_rejected), 0, "rejected steps")
+      call check_equal(error, int(method%count%n_steps), 4, "steps")
+      call check_equal(error, int(method%count%n_rejected), 0, "rejected steps")
    end subroutine test_fixed_step
 
    subroutine test_initial_step(error)
@@ -156,7 +156,7 @@ contains
       call new_orbit(controls_t(maximum_steps=7_i8), 10.0_wp, system, method)
       call run_to(method, system, 10.0_wp, status)
       call check_equal(error, status, advance_too_many_steps, "status")
-      call check_equal(error, int(method%n_steps), 7, "steps")
+      call check_equal(error, int(method%count%n_steps), 7, "steps")
       call check_close(error, method%step%y1, system%exact(method%t), 1.0e-6_wp, "state before the failure")
    end subroutine test_maximum_steps
 
@@ -170,7 +170,7 @@ contains
       call new_orbit(controls_t(maximum_evaluations=100_i8), 10.0_wp, system, method)
       call run_to(method, system, 10.0_wp, status)
       call check_equal(error, status, advance_too_many_evaluations, "status")
-      call check_true(error, method%n_evaluations <= 100 .and. method%n_evaluations > 92, "evaluations")
+      call check_true(error, method%count%n_evaluations <= 100 .and. method%count%n_evaluations > 92, "evaluations")
       call check_close(error, method%step%y1, system%exact(method%t), 1.0e-6_wp, "state before the failure")
    end subroutine test_maximum_evaluations
 
@@ -227,7 +227,7 @@ contains
       call check_equal(error, status, advance_too_small, "status")
       call check_close(error, method%t, 0.5_wp, 1.0e-13_wp, "time")
       call check_close(error, method%step%y1(1), exp(0.5_wp), 1.0e-7_wp, "state")
-      call check_true(error, method%n_rejected > 10, "rejected steps")
+      call check_true(error, method%count%n_rejected > 10, "rejected steps")
    end subroutine test_failing_evaluation
 
    !> So it is if nothing after the very start can be evaluated.
@@ -244,7 +244,7 @@ contains
       end do
       call check_equal(error, status, advance_too_small, "status")
       call check_close(error, method%t, 0.0_wp, 0.0_wp, "time")
-      call check_true(error, method%n_steps == 0, "no step was made")
+      call check_true(error, method%count%n_steps == 0, "no step was made")
    end subroutine test_failing_start
 
    !> The integrator's counter is the number of times that it called the system.
@@ -257,12 +257,13 @@ contains
 
       call new_growth(2.0_wp, 1, controls_t(tolerance=1.0e-12_wp, initial_step=1.0_wp), system, method)
       call run_to(method, system, 1.0_wp, status)
-      call check_true(error, method%n_rejected > 0, "a step was rejected")
-      call check_equal(error, int(method%n_evaluations), system%n_call, "evaluations")
-      call check_equal(error, system%n_call, 1 + 8*int(method%n_steps) + 7*int(method%n_rejected), "one, then 8 or 7 per step")
+      call check_true(error, method%count%n_rejected > 0, "a step was rejected")
+      call check_equal(error, int(method%count%n_evaluations), system%n_call, "evaluations")
+      call check_equal(error, system%n_call, 1 + 8*int(method%count%n_steps) + 7*int(method%count%n_rejected), &
+                       "one, then 8 or 7 per step")
       call method%prepare_output(system, status)
-      call check_equal(error, int(method%n_evaluations), system%n_call, "evaluations with one for output")
-      call check_equal(error, int(method%n_output_evaluations), size(inner_places), "evaluations for output")
+      call check_equal(error, int(method%count%n_evaluations), system%n_call, "evaluations with one for output")
+      call check_equal(error, int(method%count%n_output_evaluations), size(inner_places), "evaluations for output")
    end subroutine test_evaluations_are_counted
 
    !> Every control by its plain name and by IMSL's.

@@ -75,7 +75,7 @@ contains
          if (allocated(error)) return
          call check_close(error, keeper%events(1)%release_speed, e*speed, 1.0e-7_wp*speed, trim(methods(k))//": speed after")
          call check_close(error, keeper%events(1)%energy_lost, (1.0_wp - e**2)*energy, 1.0e-7_wp*energy, trim(methods(k))//": lost")
-         call check_true(error, summary%energy_residual_max < 1.0e-7_wp*energy, trim(methods(k))//": the ledger is closed")
+         call check_true(error, summary%quality%energy_residual_max < 1.0e-7_wp*energy, trim(methods(k))//": the ledger is closed")
       end do
    end subroutine test_dashpot
 
@@ -97,7 +97,7 @@ contains
                        "push centre {4000 N*step(t - "//trim(adjustl(words))//" s)}"//nl, "30 ms", keeper, summary, error)
          call check_equal(error, keeper%n_event, 1, trim(methods(k))//": impacts")
          if (allocated(error)) return
-         call check_true(error, summary%energy_residual_max < 1.0e-7_wp*energy, trim(methods(k))//": the ledger is closed")
+         call check_true(error, summary%quality%energy_residual_max < 1.0e-7_wp*energy, trim(methods(k))//": the ledger is closed")
       end do
    end subroutine test_comes_back
 
@@ -123,7 +123,7 @@ contains
          call check_close(error, keeper%events(1)%energy_lost, &
                           (1.0_wp - e**2)*energy - 0.5_wp*stiffness*(0.75_wp*delta)**2, 1.0e-7_wp*energy, &
                           trim(methods(k))//": lost")
-         call check_true(error, summary%energy_residual_max < 1.0e-7_wp*energy, trim(methods(k))//": the ledger is closed")
+         call check_true(error, summary%quality%energy_residual_max < 1.0e-7_wp*energy, trim(methods(k))//": the ledger is closed")
       end do
    end subroutine test_end
 

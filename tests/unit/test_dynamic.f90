@@ -157,7 +157,7 @@ contains
       keeper%channel = "angle"
       call run_text(wheel//settings//"end = 3 s"//nl//"[output]"//nl//"every = 7 ms"//nl, keeper, summary, error)
       if (allocated(error)) return
-      call check_true(error, keeper%n_sample > 400 .and. summary%steps < 200, "many samples within few steps")
+      call check_true(error, keeper%n_sample > 400 .and. summary%count%steps < 200, "many samples within few steps")
       associate (n => keeper%n_sample)
          call check_close(error, keeper%value(:n), 0.5_wp*(1.0_wp - cos(2.0_wp*keeper%time(:n))), 1.0e-9_wp, "angle")
       end associate
@@ -196,8 +196,8 @@ contains
             call check_equal(error, event%state_after, "free", "state after")
          end associate
       end do
-      call check_equal(error, summary%contacts, 4, "contacts in the summary")
-      call check_equal(error, summary%events, 8, "onsets and ends")
+      call check_equal(error, summary%count%contacts, 4, "contacts in the summary")
+      call check_equal(error, summary%count%events, 8, "onsets and ends")
    end subroutine test_elastic_pin
 
    !> The run ends in the middle of the second contact: a row without duration.
@@ -220,8 +220,8 @@ contains
          call check_close(error, event%impact_speed, speed, 1.0e-7_wp, "impact speed")
          call check_equal(error, event%state_after, "contact", "state after")
       end associate
-      call check_equal(error, summary%contacts, 2, "contacts in the summary")
-      call check_equal(error, summary%events, 3, "located events")
+      call check_equal(error, summary%count%contacts, 2, "contacts in the summary")
+      call check_equal(error, summary%count%events, 3, "located events")
       call check_equal(error, summary%status, status_complete, "status")
    end subroutine test_open_contact
 
@@ -234,12 +234,12 @@ contains
 
       call run_text(pin//settings//"end = 2 ms"//nl, with, summary, error)
       if (allocated(error)) return
-      call check_true(error, summary%ledger .and. .not. ieee_is_nan(summary%energy_residual_max), "a ledger")
-      call check_close(error, summary%energy_max, 0.5_wp*mass*speed**2, 1.0e-8_wp, "greatest energy", relative=.true.)
+      call check_true(error, summary%quality%has_ledger .and. .not. ieee_is_nan(summary%quality%energy_residual_max), "a ledger")
+      call check_close(error, summary%quality%energy_max, 0.5_wp*mass*speed**2, 1.0e-8_wp, "greatest energy", relative=.true.)
       call run_text(pin//settings//"end = 2 ms"//nl//"ledger = off"//nl, without, summary, error)
       if (allocated(error)) return
-      call check_true(error, .not. summary%ledger, "no ledger")
-      call check_true(error, ieee_is_nan(summary%energy_residual_max), "no residual")
+      call check_true(error, .not. summary%quality%has_ledger, "no ledger")
+      call check_true(error, ieee_is_nan(summary%quality%energy_residual_max), "no residual")
       call check_true(error, ieee_is_nan(without%events(1)%energy_lost), "no loss")
       call check_equal(error, without%n_event, with%n_event, "contacts")
       if (allocated(error)) return
@@ -256,20 +256,20 @@ contains
       if (allocated(error)) return
       call check_equal(error, summary%status, status_complete, "status")
       call check_equal(error, summary%message, "", "message")
-      call check_equal(error, summary%method, "verner", "method")
-      call check_equal(error, summary%solver, "schur", "solver")
-      call check_equal(error, summary%samples, 31, "samples")
+      call check_equal(error, summary%method%integrator, "verner", "method")
+      call check_equal(error, summary%method%solver, "schur", "solver")
+      call check_equal(error, summary%count%samples, 31, "samples")
       call check_close(error, [summary%time_start, summary%time_end], [0.0_wp, 3.0_wp], 0.0_wp, "times")
-      call check_close(error, summary%tolerance, 1.0e-10_wp, 0.0_wp, "tolerance")
-      call check_true(error, summary%steps > 10, "steps")
-      call check_equal(error, int(summary%rhs_evaluations - summary%output_evaluations), &
-                       1 + 8*int(summary%steps) + 7*int(summary%rejected_steps), "evaluations of the solution")
-      call check_true(error, summary%output_evaluations >= 31, "evaluations for output")
-      call check_equal(error, int(summary%factorisations), int(summary%rhs_evaluations), "factorisations")
-      call check_equal(error, summary%contacts + summary%events, 0, "events")
-      call check_true(error, summary%energy_residual_max < 1.0e-9_wp*summary%energy_max, "ledger")
-      call check_close(error, summary%energy_max, 0.05_wp, 1.0e-2_wp, "greatest energy", relative=.true.)
-      call check_equal(error, keeper%summary%samples, 31, "the recorder was told the same")
+      call check_close(error, summary%method%tolerance, 1.0e-10_wp, 0.0_wp, "tolerance")
+      call check_true(error, summary%count%steps > 10, "steps")
+      call check_equal(error, int(summary%count%rhs_evaluations - summary%count%output_evaluations), &
+                       1 + 8*int(summary%count%steps) + 7*int(summary%count%rejected_steps), "evaluations of the solution")
+      call check_true(error, summary%count%output_evaluations >= 31, "evaluations for output")
+      call check_equal(error, int(summary%count%factorisations), int(summary%count%rhs_evaluations), "factorisations")
+      call check_equal(error, summary%count%contacts + summary%count%events, 0, "events")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-9_wp*summary%quality%energy_max, "ledger")
+      call check_close(error, summary%quality%energy_max, 0.05_wp, 1.0e-2_wp, "greatest energy", relative=.true.)
+      call check_equal(error, keeper%summary%count%samples, 31, "the recorder was told the same")
    end subroutine test_summary
 
    subroutine test_progress(error)
@@ -280,9 +280,9 @@ contains
 
       call run_text(wheel//settings//"end = 3 s"//nl//"step = 1 ms"//nl, keeper, summary, error)
       if (allocated(error)) return
-      call check_close(error, summary%tolerance, 0.0_wp, 0.0_wp, "no tolerance with fixed steps")
-      call check_true(error, summary%steps >= 3000, "steps")
-      call check_equal(error, keeper%n_progress, int(summary%steps/256_i8), "reports, never backwards")
+      call check_close(error, summary%method%tolerance, 0.0_wp, 0.0_wp, "no tolerance with fixed steps")
+      call check_true(error, summary%count%steps >= 3000, "steps")
+      call check_equal(error, keeper%n_progress, int(summary%count%steps/256_i8), "reports, never backwards")
       call check_true(error, keeper%fraction > 0.9_wp .and. keeper%fraction <= 1.0_wp, "the last of them")
    end subroutine test_progress
 
@@ -303,7 +303,7 @@ contains
       call check_equal(error, keeper%summary%status, status_failed, "status told to the recorder")
       call check_equal(error, summary%status, status_failed, "status")
       call check_equal(error, keeper%summary%message, mistake%message, "message told to the recorder")
-      call check_equal(error, summary%samples, keeper%n_sample, "samples")
+      call check_equal(error, summary%count%samples, keeper%n_sample, "samples")
    end subroutine check_failure
 
    subroutine test_too_many_steps(error)
@@ -317,7 +317,7 @@ contains
                     keeper, summary, mistake)
       call check_failure(error, mistake, keeper, summary, exit_integration, "maximum_steps")
       if (allocated(error)) return
-      call check_equal(error, int(summary%steps), 12, "steps")
+      call check_equal(error, int(summary%count%steps), 12, "steps")
       call check_true(error, summary%time_end < 3.0_wp, "not to the end")
       call check_equal(error, keeper%n_sample, 1 + floor(summary%time_end/0.01_wp), "samples up to where it came")
       call check_true(error, keeper%n_sample > 10, "some samples")
@@ -376,7 +376,9 @@ contains
       call run_text(pendulum, strict, summary, mistake, limits_t(violation=1.0e-12_wp))
       call check_failure(error, mistake, strict, summary, exit_audit, "constraint")
       if (allocated(error)) return
-      call check_true(error, summary%violation_max > 1.0e-12_wp .and. summary%violation_max < 1.0e-2_wp, "violation")
+      associate (violation => summary%quality%violation_max)
+         call check_true(error, violation > 1.0e-12_wp .and. violation < 1.0e-2_wp, "violation")
+      end associate
       call run_text(pendulum, tolerant, summary, error, limits_t(violation=1.0e-2_wp))
    end subroutine test_violation_limit
 
@@ -420,8 +422,8 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! always advance_event
 
-      self%n_happened = 1
-      self%happened(1) = 1
+      self%events%n_happened = 1
+      self%events%happened(1) = 1
       status = advance_event
    end subroutine stuck_advance
 

@@ -92,8 +92,8 @@ contains
          if (status /= advance_event) cycle
          call system%events(method%t, method%step%y1, g, rate)
          story%n_meeting = story%n_meeting + 1
-         do k = 1, method%n_happened
-            associate (number => method%happened(k))
+         do k = 1, method%events%n_happened
+            associate (number => method%events%happened(k))
                story%n_event = story%n_event + 1
                story%count(number) = story%count(number) + 1
                story%least_rate = min(story%least_rate, rate(number))

@@ -115,7 +115,7 @@ contains
       call check_says(error, message, "maximum_steps")
       if (allocated(error)) return
       call check_true(error, summary%time_end > onset .and. summary%time_end < onset + 4.0e-5_wp, "within the contacts")
-      call check_equal(error, summary%contacts, 2, "contacts that began")
+      call check_equal(error, summary%count%contacts, 2, "contacts that began")
       call check_equal(error, keeper%n_event, 2, "rows")
       if (allocated(error)) return
       do k = 1, 2
@@ -234,7 +234,7 @@ contains
 
       call run_text(pendulum//second//"step = 1e-30 s"//nl//"maximum_steps = 1000"//nl, .true., keeper, summary, message, error)
       call check_says(error, message, "the step would be smaller than allowed")
-      if (.not. allocated(error)) call check_true(error, summary%steps < 10, "no steps in place")
+      if (.not. allocated(error)) call check_true(error, summary%count%steps < 10, "no steps in place")
    end subroutine test_tiny_step
 
    !> A jump by less than a radian: the run is complete, and a warning names the driver.
@@ -261,7 +261,7 @@ contains
 
       call run_text(pins//"tolerance = 1e-2"//nl, .false., with, summary, message, error)
       if (allocated(error)) return
-      call check_true(error, summary%energy_residual_max > 1.0e-3_wp*summary%energy_max, "the ledger is open")
+      call check_true(error, summary%quality%energy_residual_max > 1.0e-3_wp*summary%quality%energy_max, "the ledger is open")
       call check_equal(error, size(summary%warnings), 1, "warnings")
       call check_says(error, all_of(summary%warnings), "the energy ledger does not close: its residual reached 0.")
       call run_text(pins//"tolerance = 1e-2"//nl//"ledger = off"//nl, .false., without, summary, message, error)

@@ -112,7 +112,7 @@ contains
          call check_close(error, y(1), 1.0_wp/(0.6_wp*g), 1.0e-8_wp, "distance")
          call check_close(error, y(4), 0.0_wp, 1.0e-12_wp, "at rest")
       end associate
-      call check_true(error, summary%energy_residual_max < 1.0e-8_wp, "the ledger closes")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-8_wp, "the ledger closes")
    end subroutine test_stopping
 
    !> The same by the other methods that solve for accelerations.
@@ -156,7 +156,7 @@ contains
                        keeper, summary, error)
          if (allocated(error)) return
          moved(k) = loaded%method%step%y1(1)
-         call check_true(error, summary%steps < 100000, "few steps with "//laws(k))
+         call check_true(error, summary%count%steps < 100000, "few steps with "//laws(k))
          deallocate (loaded)
       end do
       call check_true(error, abs(moved(1)) < 1.0e-9_wp, "coulomb holds")
@@ -247,7 +247,7 @@ contains
       call check_close(error, keeper%events(place_of(keeper, "slip", 2))%time, start, 1.0e-6_wp, "the second")
       left = 4.5_wp - start
       call check_close(error, loaded%method%step%y1(4), 0.1_wp*g*left + 0.5_wp*left**2, 1.0e-5_wp, "speed")
-      call check_true(error, summary%steps < 100000, "few steps")
+      call check_true(error, summary%count%steps < 100000, "few steps")
    end subroutine test_two_corners
 
    !> A block on a belt that runs at V, held by a spring: it sticks until the spring has k x = mu_s m g, slips by an arc of a
@@ -281,7 +281,7 @@ contains
             call check_close(error, next - stick, sticking, 1.0e-6_wp, "time of sticking")
          end associate
       end do
-      call check_true(error, summary%energy_residual_max < 1.0e-6_wp*summary%energy_max, "the ledger closes")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-6_wp*summary%quality%energy_max, "the ledger closes")
    end subroutine test_stick_slip
 
    !> The belt of the oscillator: a body driven along x, its surface the plane; the block is tied to the ground by a spring.
@@ -330,7 +330,7 @@ contains
          call check_close(error, y(4), steady - 100.0_wp*0.3e-5_wp*g*cos(slope), 1.0e-4_wp*steady, "speed")
          call check_close(error, y(7), 0.3_wp/1.0e5_wp, 1.0e-9_wp, "deflection")
       end associate
-      call check_true(error, summary%energy_residual_max < 1.0e-7_wp*summary%energy_max, "the ledger closes")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-7_wp*summary%quality%energy_max, "the ledger closes")
    end subroutine test_steady
 
    !> On a slope that they can hold, bristles give until sigma_0 z = tan(slope): that is how far the body comes.
@@ -372,7 +372,7 @@ contains
             call check_close(error, y(7), along*(1.0_wp - exp(-s/along)), 1.0e-9_wp*along, "deflection")
          end associate
       end do
-      call check_true(error, summary%energy_residual_max < 1.0e-7_wp*summary%energy_max, "the ledger closes")
+      call check_true(error, summary%quality%energy_residual_max < 1.0e-7_wp*summary%quality%energy_max, "the ledger closes")
    end subroutine test_dahl
 
 end module test_friction_memory

@@ -174,8 +174,8 @@ contains
                            "[analysis.dynamic]"//nl//"end = 1 s", scene, error)
       if (allocated(error)) return
       do k = 1, n_function_kinds
-         if (size(scene%functions(k)%items) == 0) cycle
-         call check_true(error, same_dimension(scene%functions(k)%items(1)%values(2)%dimensions(1), dim_length), "a length")
+         if (size(scene%tables%functions(k)%items) == 0) cycle
+         call check_true(error, same_dimension(scene%tables%functions(k)%items(1)%values(2)%dimensions(1), dim_length), "a length")
       end do
    end subroutine test_lengths_as_arguments
 

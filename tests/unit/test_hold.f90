@@ -252,8 +252,8 @@ contains
             told = system%told
             if (abs(told - method%step%h) <= 1.0e-9_wp*method%step%h) n_right = n_right + 1
          end do
-         call check_true(error, system%n_set >= method%n_steps, name//": told for every step")
-         call check_true(error, n_right >= 9*method%n_steps/10, name//": told the right length")
+         call check_true(error, system%n_set >= method%count%n_steps, name//": told for every step")
+         call check_true(error, n_right >= 9*method%count%n_steps/10, name//": told the right length")
       end do
    end subroutine test_steps_are_told
 

@@ -250,12 +250,12 @@ contains
          n_way = n_way + 1
          energy = energy_of(loaded%system, loaded%method%step%y1)
          call check_close(error, loaded%method%step%y1(3), n_turn*two_pi, angle_limit, "angle of the crank with "//setting)
-         call check_true(error, summary%violation_max <= violation_limit, "violation "//to_text(summary%violation_max)//" with "// &
-                         setting//" keeps its limit")
+         call check_true(error, summary%quality%violation_max <= violation_limit, "violation "// &
+                         to_text(summary%quality%violation_max)//" with "//setting//" keeps its limit")
          call check_true(error, abs(energy%stabilisation_work) <= work_limit*energy%kinetic, "work "// &
                          to_text(energy%stabilisation_work)//" of the stabilisation with "//setting//" keeps its limit")
-         call check_true(error, summary%energy_residual_max <= 10.0_wp*work_limit*energy%kinetic, "the ledger closes with "// &
-                         setting)
+         call check_true(error, summary%quality%energy_residual_max <= 10.0_wp*work_limit*energy%kinetic, &
+                         "the ledger closes with "//setting)
       end subroutine check_way
 
    end subroutine test_four_bar
@@ -276,8 +276,9 @@ contains
          call run_to_end(loaded(k), keeper(k), summary(k), error)
          if (allocated(error)) return
       end do
-      call check_true(error, summary(1)%violation_max > 1.0e-12_wp, "there is a violation")
-      call check_true(error, summary(2)%violation_max > 4.0_wp*summary(1)%violation_max, "it grows faster than time")
+      call check_true(error, summary(1)%quality%violation_max > 1.0e-12_wp, "there is a violation")
+      call check_true(error, summary(2)%quality%violation_max > 4.0_wp*summary(1)%quality%violation_max, &
+                      "it grows faster than time")
    end subroutine test_nothing_held
 
    !> The converged iteration with penalties is Baumgarte's stabilisation with alpha = omega mu, beta = omega.
@@ -296,7 +297,7 @@ contains
       end do
       call check_close(error, loaded(1)%method%step%y1(:18), loaded(2)%method%step%y1(:18), 1.0e-8_wp, "state at the end", &
                        relative=.true.)
-      call check_close(error, summary(1)%violation_max, summary(2)%violation_max, 1.0e-10_wp, "greatest violation")
+      call check_close(error, summary(1)%quality%violation_max, summary(2)%quality%violation_max, 1.0e-10_wp, "greatest violation")
    end subroutine test_lagrangian_is_baumgarte
 
    !> Gain times step never exceeds 0.3, also where the violation asks for more; the violation goes down from 5e-4 of the size.
@@ -430,7 +431,7 @@ contains
             call go_to(second, 1.0_wp)
             if (allocated(error)) return
             call check_close(error, second%method%step%y1, first%method%step%y1, 0.0_wp, "state at the end with "//setting)
-            call check_equal(error, int(second%method%n_steps), int(first%method%n_steps), "steps with "//setting)
+            call check_equal(error, int(second%method%count%n_steps), int(first%method%count%n_steps), "steps with "//setting)
          end associate
       end subroutine check_restart
 

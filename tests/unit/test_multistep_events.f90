@@ -168,11 +168,12 @@ contains
          call begin(controls_t(maximum_steps=7_i8))
          call run_to(method, system, 10.0_wp, status)
          call check_equal(error, status, advance_too_many_steps, methods(i)//": too many steps")
-         call check_equal(error, int(method%n_steps), 7, methods(i)//": steps")
+         call check_equal(error, int(method%count%n_steps), 7, methods(i)//": steps")
          call begin(controls_t(maximum_evaluations=100_i8))
          call run_to(method, system, 10.0_wp, status)
          call check_equal(error, status, advance_too_many_evaluations, methods(i)//": too many evaluations")
-         call check_true(error, method%n_evaluations <= 100 .and. method%n_evaluations > 90, methods(i)//": evaluations")
+         call check_true(error, method%count%n_evaluations <= 100 .and. method%count%n_evaluations > 90, &
+                         methods(i)//": evaluations")
          call check_close(error, method%step%y1, system%exact(method%t), 1.0e-5_wp, methods(i)//": state before the failure")
       end do
 
@@ -216,7 +217,7 @@ contains
             if (k == 2) call run_to(other, system, 1.0_wp, status)
             place = 0
             call other%load(row, place)
-            call check_equal(error, int(other%n_steps), int(method%n_steps), methods(i)//": steps so far")
+            call check_equal(error, int(other%count%n_steps), int(method%count%n_steps), methods(i)//": steps so far")
             call check_close(error, other%t, 2.5_wp, 0.0_wp, methods(i)//": time")
             call run_to(other, system, 5.0_wp, status)
             resumed(:, k) = other%step%y1

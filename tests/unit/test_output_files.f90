@@ -50,12 +50,12 @@ contains
       call make_scene(scene)
       keeper%plan%directory = place
       keeper%plan%title = "A 'title' with `backticks`"//new_line("a")//"!and a second line"
-      keeper%plan%deck_text = "deck = 1"
+      keeper%plan%origin%deck_text = "deck = 1"
       keeper%plan%channels = split_blank(channels)
       keeper%plan%suffix = suffix
-      keeper%plan%with_hdf5 = len_trim(suffix) == 0
-      keeper%plan%with_summary = keeper%plan%with_hdf5
-      keeper%plan%with_progress = .false.
+      keeper%plan%with%hdf5 = len_trim(suffix) == 0
+      keeper%plan%with%summary = keeper%plan%with%hdf5
+      keeper%plan%with%progress = .false.
       keeper%plan%show = show_nothing
       call keeper%start(scene, error)
       if (allocated(error)) return
@@ -73,8 +73,8 @@ contains
          if (allocated(error)) return
       end do
       summary%status = status_complete
-      summary%energy_residual_max = not_a_number()
-      summary%events = 3
+      summary%quality%energy_residual_max = not_a_number()
+      summary%count%events = 3
       call keeper%finish(summary, error)
    end subroutine record
 

@@ -1,0 +1,82 @@
+!> The right-hand side: loads, rows, accelerations, and what is integrated besides.
+submodule(mechanism) mechanism_evaluation
+   use guided_motion, only: guided_rates, set_guided_acceleration
+   use loading, only: start_loads
+   implicit none (type, external)
+
+contains
+
+   !> Right-hand side. Status 1: singular or not a number, try a smaller step.
+   module procedure mechanism_evaluate
+      real(wp) :: inside
+
+      ! in the smooth stretch: `smooth_piece`, without its call
+      inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
+      self%n_evaluations = self%n_evaluations + 1
+      if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
+      if (self%way%at_stages) then
+         self%held = y(:size(self%held))
+         call self%way%correct_stage(self%linkage, t, self%held, status)
+         if (status /= 0) return
+         call self%linkage%move(inside, self%held)
+      else
+         call self%linkage%move(inside, y)
+      end if
+      call evaluate_terms(self, inside, status)
+      if (status /= 0) return
+      if (self%linkage%rows%n_unknown > 0 .or. self%friction%grips%n_slip > 0) then
+         call self%linkage%find_accelerations(self%loading%g, .true., self%friction%grips%n_slip > 0, status)
+         if (status == 0 .and. self%friction%rubbing%n > 0) then
+            call self%rub(status)  ! and what sticks
+         else if (status == 0 .and. self%friction%grips%n_slip > 0) then
+            call self%stick(status)
+         end if
+         if (status /= 0) return
+      end if
+      associate (linkage => self%linkage, n => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
+                 nq => self%linkage%n_position)
+         if (n > 0) then
+            call linkage%coordinates%rates(n, linkage%rows%unknown, linkage%motion, linkage%solution%a, ydot, ydot(nq + 1:), status)
+            if (status /= 0) return
+         end if
+         if (guided%n > 0) then
+            associate (last => nq + linkage%n_rate - guided%n)
+               call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(last + 1:), &
+                                 ydot(nq - guided%n + 1:), ydot(last + 1:), status)
+               if (self%ledger%is_kept) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
+            end associate
+         end if
+      end associate
+      if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
+      if (self%ledger%is_kept) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
+   end procedure mechanism_evaluate
+
+   !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.
+   module procedure evaluate_terms
+      self%linkage%solution%bad_row = 0
+      status = merge(0, 1, self%linkage%reduced%known%is_finite)
+      if (status /= 0) return
+      call mechanism_evaluate_loads(self, t)
+      if (self%linkage%rows%n_solve > 0) call self%linkage%evaluate_rows(t)
+   end procedure evaluate_terms
+
+   !> Loads of gravity, force elements and touching contacts at the present motion.
+   module procedure mechanism_evaluate_loads
+      real(wp) :: inside
+      integer :: k
+
+      inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
+      associate (loading => self%loading, motion => self%linkage%motion, n_body => self%linkage%bodies%n)
+         call start_loads(n_body, loading%weight, loading%loads%force, loading%loads%moment)
+         loading%power = 0.0_wp
+         do k = 1, size(loading%forces)
+            call loading%forces(k)%set%evaluate(inside, motion, loading%loads, loading%power)
+         end do
+         do k = 1, size(self%loose%sets)
+            call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%losses)
+         end do
+         call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
+      end associate
+   end procedure mechanism_evaluate_loads
+
+end submodule mechanism_evaluation
