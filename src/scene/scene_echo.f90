@@ -27,6 +27,7 @@ contains
       call add_section(scene%settings%has_analysis(analysis_dynamic), scene%settings%dynamic)
       call add_section(scene%settings%has_analysis(analysis_kinematic), scene%settings%kinematic)
       call add_section(scene%settings%has_analysis(analysis_static), scene%settings%static)
+      call add_section(scene%settings%guards%is_present, scene%settings%guards)
       call add_section(.true., scene%settings%output)
       call add_section(scene%settings%statistics%is_present, scene%settings%statistics)
       call add_section(scene%settings%ensemble%is_present, scene%settings%ensemble)

@@ -100,3 +100,12 @@ def test_explain_without_assembly(gudgeon):
     assert "radial clearance 0.5 mm" in done.stdout and "defaults taken" in done.stdout
     said = call(gudgeon, "explain", written(scratch(), plain_deck())).stdout
     assert "NOT assembled" not in said and "gap at the start 0.5 mm" in said and "assembled in" in said
+
+
+def test_echo_of_guards(gudgeon):
+    """What ends or warns of a run is part of the deck as it was understood."""
+    text = plain_deck([("analysis.dynamic", "end", "1 ms")]) + "\n[guards]\npenetration = 0.5\nstop = gudgeon.penetration > 0.3 mm\n"
+    first, second = echoed(gudgeon, text)
+    echo = (first.directory / "deck.echo").read_text()
+    assert re.search(r"\[guards\](\n.*)*\npenetration\s*=\s*0\.5\b", echo), echo[-1500:]
+    assert "[guards]" not in (run_deck(gudgeon, plain_deck([("analysis.dynamic", "end", "1 ms")])).directory / "deck.echo").read_text()

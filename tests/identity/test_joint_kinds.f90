@@ -347,7 +347,7 @@ contains
                associate (i => set%body(1, k), j => set%body(2, k))
                   d = matmul(bench%motion%rot(1:2, 1:2, j), set%s_j(1:2, k)) + bench%motion%r(1:2, j) &
                       - matmul(bench%motion%rot(1:2, 1:2, i), set%s_i(1:2, k)) - bench%motion%r(1:2, i)
-                  axis = matmul(bench%motion%rot(1:2, 1:2, i), [-set%axis(2, k), set%axis(1, k)])
+                  axis = matmul(bench%motion%rot(1:2, 1:2, i), [-set%guide%axis(2, k), set%guide%axis(1, k)])
                end associate
                call set%coordinate(k, bench%motion, value, rate)
                call check_close(error, value, dot_product(axis, d), 1.0e-14_wp, "position along the axis")

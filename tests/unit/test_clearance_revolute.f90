@@ -54,8 +54,8 @@ contains
       call bench%set%report("normal_force", bench%motion, normal)
       do k = 1, n_item
          do side = 1, 2
-            body = bench%set%body(side, k)
-            s = merge(bench%set%s_i(1:2, k), bench%set%s_j(1:2, k), side == 1)
+            body = bench%set%items%body(side, k)
+            s = merge(bench%set%items%s_i(1:2, k), bench%set%items%s_j(1:2, k), side == 1)
             s = matmul(bench%motion%rot(1:2, 1:2, body), s)
             w(side) = bench%motion%omega(3, body)
             p(:, side) = bench%motion%r(1:2, body) + s
@@ -69,8 +69,8 @@ contains
          sliding = dot_product(e_dot, t) + 9.49e-3_wp*w(2) - 10.01e-3_wp*w(1)
          if (bench%is_book) sliding = 2.0e-5_wp*dot_product(e_dot, t)/norm2(e)
          expected = 0.0_wp
-         if (allocated(bench%set%friction)) then
-            call bench%set%friction%force(1, normal(1, n_before + k:n_before + k), [abs(sliding)], one)
+         if (allocated(bench%set%laws%friction)) then
+            call bench%set%laws%friction%force(1, normal(1, n_before + k:n_before + k), [abs(sliding)], one)
             expected = -sign(one(1), sliding)
          end if
          call check_close(error, friction(1, n_before + k), expected, 1.0e-9_wp*normal(1, n_before + k), &
@@ -78,8 +78,8 @@ contains
          f = -normal(1, n_before + k)*n + expected*t
          call check_close(error, force(:, n_before + k), f, 1.0e-9_wp, bench%name//": force on the journal", relative=.true.)
          ! the ground has the journal of item 3 and the bearing of item 2
-         if (bench%set%body(2, k) == 0) f = f - force(:, n_before + 2)
-         call check_close(error, loads%force(1:2, bench%set%body(2, k)), f, 1.0e-9_wp, bench%name//": load", relative=.true.)
+         if (bench%set%items%body(2, k) == 0) f = f - force(:, n_before + 2)
+         call check_close(error, loads%force(1:2, bench%set%items%body(2, k)), f, 1.0e-9_wp, bench%name//": load", relative=.true.)
       end do
    end subroutine channels
 
@@ -120,7 +120,7 @@ contains
 
       call make_bench(1, 1, 0, 1, bench)
       do k = 1, n_item
-         call run_impact(bench%set%law, bench%set%parameters(:, k), reduced(k), 0.7_wp, impact)
+         call run_impact(bench%set%laws%normal, bench%set%laws%parameters(:, k), reduced(k), 0.7_wp, impact)
          call check_close(error, bench%set%contact_time(k, 0.7_wp, inverse_mass), impact%duration, 1.0e-4_wp, &
                           "duration of an elastic impact", relative=.true.)
       end do
