@@ -17,7 +17,7 @@ module command_words
       character(9) :: name = ""      !! the verb
       character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
       character(76) :: help = ""     !! one line
-      character(92) :: options = ""  !! the options that it takes, blank-separated
+      character(112) :: options = ""  !! the options that it takes, blank-separated
    end type command_t
 
    !> An option.
@@ -30,7 +30,7 @@ module command_words
 
    type(command_t), parameter :: known_verbs(*) = [ &
       command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
-                "--out --set --ideal --analysis --tolerance --method --quiet --json --member --write"), &
+                "--out --set --ideal --analysis --tolerance --method --accuracy --budget --quiet --json --member --write"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
       command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
@@ -57,8 +57,8 @@ module command_words
       option_t("--write", "W", "leave out what takes long to write"), &
       option_t("--jobs", "N", "runs at once; default one for each processor"), &
       option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
-      option_t("--accuracy", "X", "error wanted, instead of the deck's"), &
-      option_t("--budget", "TIME", "time that all runs may take, as 60s, instead of the deck's"), &
+      option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &
+      option_t("--budget", "TIME", "time that all runs may take, as 60s, instead of the deck's (run: with --accuracy)"), &
       option_t("--manual", "", "the whole manual, as Markdown"), &
       option_t("--man", "", "the man page"), &
       option_t("--completion", "SHELL", "what completes the words of this program in a shell")]
@@ -68,7 +68,7 @@ module command_words
                                           exit_sweep, exit_file, exit_internal]  !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "a wrong command line", "a mistake in the deck", "the mechanism cannot be assembled", "the integration failed", &
-      "energy or constraints above the deck's limit", "part of a sweep failed", "a file, the disk or memory", &
+      "energy or constraints above a limit, or accuracy not reached", "part of a sweep failed", "a file, the disk or memory", &
       "a mistake of the program itself"]
       !! what they mean
 

@@ -1,5 +1,6 @@
 !> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
 module verb_run
+   use accurate_run, only: check_accuracy, choose_tolerance, tell_accuracy
    use item, only: place_of
    use build_info, only: compiler, git_sha1
    use build_system, only: levels_as_written, levels_ideal, new_system
@@ -58,6 +59,7 @@ contains
       type(loaded_t) :: loaded
 
       call load_deck(options, loaded, error)
+      if (.not. allocated(error)) call check_accuracy(options, loaded, error)
       if (allocated(error)) return
       select case (loaded%scene%analysis)
       case (analysis_kinematic)
@@ -88,19 +90,22 @@ contains
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)
 
-      call new_method(loaded%scene, method)
-      if (options%change%member > 0) then
-         call check_member(options, loaded, error)
-         if (allocated(error)) return
-         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
-                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%change%member), ideal=ideal)
-      else
-         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, ideal=ideal)
-      end if
+      call begin_motion(options, loaded, y, assembly, ideal, error)
       if (allocated(error)) return
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, plan)
+      if (options%accuracy > 0.0_wp) then
+         call choose_tolerance(options, loaded, plan, error)
+         if (.not. allocated(error)) then
+            plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
+            call new_system(loaded%scene, levels_as_written, loaded%system)
+            call begin_motion(options, loaded, y, assembly, ideal, error)
+         end if
+         if (allocated(error)) call directory%close()
+         if (allocated(error)) return
+      end if
+      call new_method(loaded%scene, method)
       if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%loose%n > 0) then
          call run_twin(loaded, plan, ideal, twin_error)
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
@@ -113,7 +118,27 @@ contains
       call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
       call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error)
       call directory%close()
+      call tell_accuracy(plan%accuracy, error)
    end subroutine run_motion
+
+   !> The start of a motion, perturbed if it is one of an ensemble.
+   subroutine begin_motion(options, loaded, y, assembly, ideal, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(inout) :: loaded              !! the deck
+      real(wp), allocatable, intent(out) :: y(:)           !! (n) state at the start [any]
+      type(assembly_t), intent(out) :: assembly            !! how it was found
+      type(ideal_start_t), intent(out) :: ideal            !! that with ideal joints, if it was needed
+      type(error_t), allocatable, intent(out) :: error     !! there is no ensemble, or no start
+
+      if (options%change%member > 0) then
+         call check_member(options, loaded, error)
+         if (allocated(error)) return
+         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
+                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%change%member), ideal=ideal)
+      else
+         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, ideal=ideal)
+      end if
+   end subroutine begin_motion
 
    !> A run of an ensemble needs one.
    subroutine check_member(options, loaded, error)

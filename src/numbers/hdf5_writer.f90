@@ -6,10 +6,12 @@
 !> killed, whenever, leaves a readable file with whole rows. Before a block is written its space on the
 !> disk is reserved: a full disk is noticed before the file is touched, and what it held stays whole.
 module hdf5_writer
+   use accuracy_results, only: accuracy_t
    use catalogue, only: catalogue_t
    use channels, only: selection_t
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
+   use hdf5_accuracy, only: bytes_of_accuracy, write_accuracy
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
    use hdf5_attributes, only: text_attribute
    use hdf5_calls, only: is_memory_short, new_file, new_group, open_library
@@ -50,6 +52,7 @@ module hdf5_writer
       integer :: written = 0                           !! rows in the file
       real(wp) :: last_time = 0.0_wp                   !! time of the last row in the file [s]
       integer(i8) :: flushed_at = 0                    !! clock at the last flush
+      type(accuracy_t) :: accuracy                     !! what is known of the errors
       logical :: with_histories = .true.               !! whether rows are kept
       logical :: is_broken = .false.                   !! a write failed: nothing more is written
    contains
@@ -73,6 +76,7 @@ contains
 
       self%path = plan%directory//"/run.h5"
       self%with_histories = plan%with%histories
+      self%accuracy = plan%accuracy
       block = rows_of_block(catalogue)
       allocate (self%times(block))
       status = enter_file(self%path)
@@ -253,7 +257,9 @@ contains
       if (self%file < 0) return
       status = 0
       if (.not. self%is_broken) call write_block(self, events, error)
-      if (.not. self%is_broken) call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]), error)
+      if (.not. self%is_broken) then
+         call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]) + bytes_of_accuracy(self%accuracy), error)
+      end if
       if (self%is_broken) then
          ! only what needs no new space
          call write_status(self%file, status_failed, status)
@@ -262,6 +268,7 @@ contains
          if (statistics%plan%is_wanted) then
             call write_statistics(self%file, statistics, catalogue, events, summary%time_end, numbers, status)
          end if
+         if (self%accuracy%asked > 0.0_wp) call write_accuracy(self%file, self%accuracy, status)
          call text_dataset(self%file, "warnings", warnings, .false., "what a careful reader should know", status)
          call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)

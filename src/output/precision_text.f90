@@ -1,6 +1,6 @@
 !> The results of a comparison of settings in words.
 module precision_text
-   use growth, only: n_digit
+   use growth, only: growth_t, n_digit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use precision_results, only: error_names, error_units, error_words, ladder_t, n_compared, precision_t, rung_done, &
@@ -9,7 +9,7 @@ module precision_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: column, figures, precision_summary, settings_text, short
+   public :: column, figures, growth_words, precision_summary, settings_text, short
 
    integer, parameter :: width = 11          !! characters of a column
    real(wp), parameter :: held = 1.1_wp      !! steps up to so many times the fewest that are possible are the deck's greatest [1]
@@ -151,16 +151,7 @@ contains
             call lines%line("horizon    not known: "//growth%reason)
             return
          end if
-         if (growth%is_exponential) then
-            call lines%line("horizon    neighbouring starts part as exp("//real_text(growth%rate, 4)//" t/s), +-"// &
-                            real_text(growth%rate_interval, 2)//", seen from "//real_text(growth%fit_begin, 3)//" to "// &
-                            real_text(growth%fit_end, 3)//" s by "//to_text(growth%n_twin)//" twins")
-         else
-            words = ": more than regular motion has"
-            if (growth%is_regular) words = ": regular motion"
-            call lines%line("horizon    neighbouring starts part as a power of time, t^"//rounded(growth%power)// &
-                            " +-"//rounded(growth%power_interval)//", by "//to_text(growth%n_twin)//" twins"//words)
-         end if
+         call lines%line("horizon    "//growth_words(growth))
          words = ""
          do k = n_digit, 1, -1
             if (.not. ieee_is_finite(growth%horizon(k))) cycle
@@ -173,6 +164,22 @@ contains
          end if
       end associate
    end subroutine add_growth
+
+   !> How fast neighbouring starts part.
+   function growth_words(growth) result(words)
+      type(growth_t), intent(in) :: growth        !! what the twins tell
+      character(:), allocatable :: words          !! a sentence
+
+      if (growth%is_exponential) then
+         words = "neighbouring starts part as exp("//real_text(growth%rate, 4)//" t/s), +-"// &
+                 real_text(growth%rate_interval, 2)//", seen from "//real_text(growth%fit_begin, 3)//" to "// &
+                 real_text(growth%fit_end, 3)//" s by "//to_text(growth%n_twin)//" twins"
+      else
+         words = "neighbouring starts part as a power of time, t^"//rounded(growth%power)//" +-"// &
+                 rounded(growth%power_interval)//", by "//to_text(growth%n_twin)//" twins: "// &
+                 trim(merge("regular motion               ", "more than regular motion has ", growth%is_regular))
+      end if
+   end function growth_words
 
    !> An exponent with a digit behind the point.
    function rounded(x) result(word)

@@ -1,5 +1,6 @@
 !> How a run went: summary.txt for people, summary.json for scripts.
 module summary_writer
+   use accuracy_text, only: accuracy_json, asked_lines, extreme_lines
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -84,6 +85,7 @@ contains
       call lines%line("")
       call cost_lines(lines, summary)
       call accuracy_lines(lines, summary)
+      if (plan%accuracy%asked > 0.0_wp) call asked_lines(lines, plan%accuracy)
       call lines%line("events     "//to_text(summary%count%events)//" located, "//to_text(summary%count%contacts)// &
                       " contacts began; "//to_text(summary%count%samples)//" output instants")
       if (sum(summary%count%rows(row_onset:row_jump)) > 0) then
@@ -93,6 +95,7 @@ contains
       else if (len(plan%contact_rows) > 0 .and. .not. plan%with%contact_rows) then
          call lines%line("rows       "//plan%contact_rows)
       end if
+      if (plan%accuracy%asked > 0.0_wp) call extreme_lines(lines, plan%accuracy)
       call impact_lines(lines, events)
       call number_lines(lines, plan, outcome%numbers)
       call lines%line("")
@@ -255,6 +258,7 @@ contains
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
       call put_summary(json, summary)
+      if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))
       if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)

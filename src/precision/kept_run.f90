@@ -10,7 +10,7 @@ module kept_run
    use recorder, only: event_t, recorder_t, summary_t
    implicit none (type, external)
    private
-   public :: contact_t, kept_run_t, n_sort, sort_positions, sort_reactions, sort_velocities
+   public :: contact_t, kept_run_t, n_sort, sort_of, sort_positions, sort_reactions, sort_velocities
 
    integer, parameter :: sort_positions = 1   !! positions and angles of bodies [m]
    integer, parameter :: sort_velocities = 2  !! velocities and angular velocities of bodies [m/s]

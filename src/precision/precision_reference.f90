@@ -20,7 +20,7 @@ module precision_reference
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
-   public :: arms_of, find_reference, kept_ladder_t, measure_rung, motion_of, reference_t, size_of
+   public :: arms_of, described, find_reference, last_within, kept_ladder_t, measure_rung, motion_of, reference_t, size_of
 
    real(wp), parameter :: part_wanted = 0.1_wp  !! of the error wanted that the reference may have [1]
    real(wp), parameter :: tighter = 0.1_wp      !! tolerance of the reference, of the finest one of the ladders [1]

@@ -15,7 +15,7 @@ module precision_study
    use precision_twins, only: run_twins
    use progress, only: progress_t
    use scene, only: scene_t
-   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting
+   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting, shorter
    use stop_condition, only: stop_t
    use text, only: text_t
    use time_budget, only: time_budget_t
@@ -197,15 +197,6 @@ contains
       end subroutine climb
 
    end subroutine run_ladders
-
-   !> The shorter one of a time and that which the deck allows; 0: no limit.
-   real(wp) function shorter(cpu, job)
-      real(wp), intent(in) :: cpu      !! a processor time [s]
-      type(job_t), intent(in) :: job   !! what runs share
-
-      shorter = job%settings%number("limit_cpu")
-      if (shorter <= 0.0_wp .or. (cpu > 0.0_wp .and. cpu < shorter)) shorter = cpu
-   end function shorter
 
    !> How long a rung may take, from the rungs before it.
    pure real(wp) function forecast(ladder, i) result(time)

@@ -10,10 +10,11 @@ module run_difference
    use kinds, only: not_a_number, wp
    implicit none (type, external)
    private
-   public :: compare_contacts, compare_sorts, distances, scales_of
+   public :: compare_contacts, compare_sorts, distances, first_other_contact, scales_of
 
    real(wp), parameter :: at_rest = 1.0e-8_wp   !! range of motion below which a mechanism rests, of its size [1]
    real(wp), parameter :: together = 1.0e-9_wp  !! onsets so near that their order does not count, of the time compared [1]
+   integer, parameter :: halvings = 10          !! of the motion, in the search for the first contact that differs
 
 contains
 
@@ -124,6 +125,42 @@ contains
       end do
       if (greatest > 0.0_wp) peak = peak/greatest
    end subroutine compare_contacts
+
+   !> Time from which two runs meet other contacts, to a thousandth of the motion; not a number if they do not.
+   real(wp) function first_other_contact(run, reference, end) result(from)
+      class(kept_run_t), intent(in) :: run        !! the run
+      class(kept_run_t), intent(in) :: reference  !! what it is compared with
+      real(wp), intent(in) :: end                 !! of the motion [s]
+
+      real(wp) :: same
+      integer :: k
+
+      from = not_a_number()
+      if (.not. is_other_at(end)) return
+      same = 0.0_wp
+      from = end
+      do k = 1, halvings
+         associate (middle => 0.5_wp*(same + from))
+            if (is_other_at(middle)) then
+               from = middle
+            else
+               same = middle
+            end if
+         end associate
+      end do
+
+   contains
+
+      !> Whether the contacts up to a time are others.
+      logical function is_other_at(until) result(is_other)
+         real(wp), intent(in) :: until  !! the time [s]
+
+         real(wp) :: onset, peak, restitution
+
+         call compare_contacts(run, reference, until, onset, peak, restitution, is_other)
+      end function is_other_at
+
+   end function first_other_contact
 
    !> Raise a maximum that may not be a number yet.
    pure subroutine raise(greatest, x)

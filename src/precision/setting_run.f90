@@ -13,7 +13,7 @@ module setting_run
    use kept_run, only: kept_run_t
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
-   use perturbation, only: random_shift
+   use perturbation, only: new_shift, random_shift
    use precision_info, only: setting_t
    use recorder, only: summary_t
    use run_audit, only: limits_t
@@ -27,7 +27,7 @@ module setting_run
    use time_plan, only: time_plan_t
    implicit none (type, external)
    private
-   public :: has_fixed_steps, job_t, outcome_t, run_setting
+   public :: has_fixed_steps, job_t, outcome_t, run_setting, shorter
 
    !> What all runs of a scene share.
    type :: job_t
@@ -35,7 +35,9 @@ module setting_run
       type(item_t) :: settings              !! those of the deck
       type(time_plan_t) :: plan             !! times of the motion and of the instants compared
       type(stop_t) :: stop                  !! conditions of the deck that end the motion
+      logical :: with_contact_rows = .false.  !! runs are kept with their rows at contacts
       real(wp) :: cpu = 0.0_wp              !! processor time that a run may take, 0: no limit [s]
+      integer :: start = 0                  !! number of the start in the deck's ensemble, 0: the start as it is
       integer :: member = 0                 !! number of the perturbed start, 0: the start as it is
       real(wp) :: length = 0.0_wp           !! of a perturbation [m]
       real(wp) :: speed = 0.0_wp            !! of a perturbation [m/s]
@@ -61,12 +63,21 @@ contains
       has_fixed_steps = method%steps() == steps_fixed .or. (method%steps() == steps_any .and. setting%way == "baumgarte_step")
    end function has_fixed_steps
 
+   !> The shorter one of a time and that which the deck allows; 0: no limit.
+   real(wp) function shorter(cpu, job)
+      real(wp), intent(in) :: cpu      !! a processor time [s]
+      type(job_t), intent(in) :: job   !! what runs share
+
+      shorter = job%settings%number("limit_cpu")
+      if (shorter <= 0.0_wp .or. (cpu > 0.0_wp .and. cpu < shorter)) shorter = cpu
+   end function shorter
+
    !> Run.
    subroutine run_setting(job, setting, asked, keeper, outcome)
       type(job_t), intent(inout) :: job               !! what all runs share
       type(setting_t), intent(in) :: setting          !! the setting
       real(wp), intent(in) :: asked                   !! tolerance, or length of fixed steps [1 or s]
-      type(kept_run_t), intent(inout) :: keeper       !! keeps the run, or nothing
+      class(kept_run_t), intent(inout) :: keeper      !! keeps the run, or nothing
       type(outcome_t), intent(out) :: outcome         !! what came of it
 
       class(integrator_t), allocatable :: method
@@ -89,6 +100,9 @@ contains
             call find_start(job%scene, levels_as_written, system, y, assembly, error, &
                             random_shift(job%scene%bodies, system%linkage%coordinates, 1, job%member, job%length, &
                                          job%speed))
+         else if (job%start > 0) then
+            call find_start(job%scene, levels_as_written, system, y, assembly, error, &
+                            new_shift(job%scene, system%linkage%coordinates, job%start))
          else
             call find_start(job%scene, levels_as_written, system, y, assembly, error)
          end if

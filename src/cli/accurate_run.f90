@@ -1,0 +1,182 @@
+!> `gudgeon run DECK --accuracy X`: the tolerance that a motion needs, put into its scene before it is run.
+module accurate_run
+   use accuracy_results, only: accuracy_t, claim_none, claim_reached
+   use accuracy_search, only: find_accuracy
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_name, scalar_t
+   use channels, only: list_scalars, match_word, select_channels, selection_t
+   use errors, only: error_t, exit_audit, exit_integration, exit_usage, set_error
+   use item, only: place_of
+   use kept_run, only: sort_of
+   use kinds, only: wp
+   use load, only: loaded_t
+   use mechanism_report, only: build_catalogue
+   use options, only: options_t
+   use output_plan, only: output_plan_t
+   use precision_info, only: setting_t
+   use progress, only: progress_t
+   use run_audit, only: limits_t
+   use run_limits, only: limits_of
+   use scene, only: analysis_dynamic
+   use setting_run, only: has_fixed_steps, job_t
+   use text, only: real_text, text_t
+   use time_budget, only: time_budget_t
+   use time_plan, only: last_instant
+   implicit none (type, external)
+   private
+   public :: check_accuracy, choose_tolerance, tell_accuracy
+
+   real(wp), parameter :: most_kept = 2.0e6_wp  !! numbers that are kept of a run: beyond, of fewer instants [1]
+
+   !> Quantities that have no true value but zero, or none between two.
+   character(*), parameter :: left_out = " violation violation_rate residual state "
+
+contains
+
+   !> What the option goes together with.
+   subroutine check_accuracy(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! what it does not go together with
+
+      type(setting_t) :: setting
+
+      if (options%accuracy <= 0.0_wp) then
+         if (options%budget > 0.0_wp) call set_error(error, exit_usage, "option --budget of run is for --accuracy")
+      else if (loaded%scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "option --accuracy is for the section [analysis.dynamic]: a kinematic or static "// &
+                        "analysis solves its equations to the tolerance asked for")
+      else if (options%change%tolerance > 0.0_wp) then
+         call set_error(error, exit_usage, "options --accuracy and --tolerance exclude each other: the first chooses the tolerance")
+      else
+         setting = setting_t(loaded%scene%settings%dynamic%word("method"), loaded%scene%settings%dynamic%word("stabilise"), "")
+         if (has_fixed_steps(setting)) then
+            call set_error(error, exit_usage, "option --accuracy chooses a tolerance, and '"//setting%word()// &
+                           "' makes fixed steps"//new_line("a")//"  = take another method, as with --method verner")
+         end if
+      end if
+   end subroutine check_accuracy
+
+   !> Find the tolerance and give it to the scene; what is known of the errors goes to the plan of the output.
+   subroutine choose_tolerance(options, loaded, plan, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(inout) :: loaded              !! the deck; its tolerance is set
+      type(output_plan_t), intent(inout) :: plan           !! accuracy is set
+      type(error_t), allocatable, intent(out) :: error     !! no run came to its end
+
+      type(catalogue_t) :: catalogue
+      type(job_t) :: job
+      type(limits_t) :: limits
+      type(progress_t) :: display
+      type(scalar_t), allocatable :: scalars(:)
+      type(text_t), allocatable :: warnings(:)
+      type(time_budget_t) :: budget
+      integer, allocatable :: asked(:, :)
+      integer :: k, stride
+
+      call build_catalogue(loaded%system, catalogue)
+      call find_asked(plan%channels, catalogue, scalars)
+      if (size(scalars) == 0) then
+         call set_error(error, exit_usage, "none of the channels asked for in [output] has an error in time: --accuracy is for "// &
+                        "positions, velocities, forces and energies")
+         return
+      end if
+      allocate (warnings(0))
+      call limits_of(loaded%scene, loaded%system, catalogue, limits, warnings)
+      job%scene = loaded%scene
+      job%settings = loaded%scene%settings%dynamic%item_t
+      job%plan = loaded%plan
+      job%stop = limits%stop
+      job%start = options%change%member
+      job%with_contact_rows = plan%with%contact_rows
+      asked = reshape([(scalars(k)%group, scalars(k)%component, scalars(k)%item, k=1, size(scalars))], [3, size(scalars)])
+      stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(catalogue) + 3*size(scalars), wp)/most_kept)
+      plan%accuracy%asked = options%accuracy
+      call budget%begin(merge(options%budget, loaded%scene%settings%precision%number("budget"), options%budget > 0.0_wp))
+      call display%start(plan%with%progress)
+      call find_accuracy(job, budget, loaded%scene%settings%dynamic%word("method"), asked, stride, display, plan%accuracy)
+      call display%finish()
+      if (plan%accuracy%end <= 0.0_wp) then
+         call set_error(error, exit_integration, "no run came to its end: "//plan%accuracy%reason)
+         return
+      end if
+      do k = 1, size(plan%accuracy%extremes)
+         plan%accuracy%extremes(k)%name = scalar_name(catalogue, scalars(k))
+         plan%accuracy%extremes(k)%unit = catalogue%groups(scalars(k)%group)%channel%unit
+      end do
+      call put_number("tolerance", plan%accuracy%tolerance)
+      call put_number("step", 0.0_wp)
+
+   contains
+
+      !> Give a key of [analysis.dynamic] a number.
+      subroutine put_number(key, number)
+         character(*), intent(in) :: key     !! the key
+         real(wp), intent(in) :: number      !! its number [1 or s]
+
+         associate (value => loaded%scene%settings%dynamic%values(place_of(loaded%scene%settings%dynamic, key)))
+            value%number = number
+            value%given = number > 0.0_wp
+         end associate
+      end subroutine put_number
+
+   end subroutine choose_tolerance
+
+   !> The channels that the deck's words name; without words positions, velocities and reactions.
+   subroutine find_asked(words, catalogue, scalars)
+      type(text_t), intent(in) :: words(:)                      !! (any) words that the run knows
+      type(catalogue_t), intent(in) :: catalogue                !! what can be recorded
+      type(scalar_t), allocatable, intent(out) :: scalars(:)    !! (n) channels
+
+      type(scalar_t), allocatable :: all(:)
+      type(selection_t) :: selection
+      character(:), allocatable :: hint, message
+      integer :: bad, k
+      logical, allocatable :: is_asked(:)
+
+      if (size(words) > 0) then
+         call select_channels(words, catalogue, selection, bad, message, hint)
+      else
+         call match_word("*", catalogue, selection, message, hint)
+      end if
+      all = list_scalars(selection)
+      allocate (is_asked(size(all)))
+      do k = 1, size(all)
+         associate (group => catalogue%groups(all(k)%group))
+            is_asked(k) = index(left_out, " "//group%channel%name//" ") == 0
+            if (size(words) == 0) is_asked(k) = sort_of(group%room, group%channel%name) > 0
+         end associate
+      end do
+      scalars = pack(all, is_asked)
+   end subroutine find_asked
+
+   !> Numbers of positions, velocities and reactions in a catalogue.
+   pure integer function count_kept(catalogue) result(n)
+      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
+
+      integer :: k
+
+      n = 0
+      do k = 1, size(catalogue%groups)
+         associate (group => catalogue%groups(k))
+            if (sort_of(group%room, group%channel%name) > 0) n = n + size(group%data)
+         end associate
+      end do
+   end function count_kept
+
+   !> A run that has not the accuracy asked for ends with an error, after all is written.
+   subroutine tell_accuracy(accuracy, error)
+      type(accuracy_t), intent(in) :: accuracy                 !! what is known of the errors
+      type(error_t), allocatable, intent(inout) :: error       !! of the run; set if the accuracy was not reached
+
+      character(:), allocatable :: reached
+
+      if (allocated(error) .or. accuracy%asked <= 0.0_wp) return
+      if (accuracy%claim /= claim_none .and. accuracy%claim /= claim_reached) return
+      reached = "no error of this run is known"
+      if (accuracy%claim == claim_reached) reached = "reached "//real_text(accuracy%error, 2)
+      call set_error(error, exit_audit, "accuracy "//real_text(accuracy%asked, 3)//" was asked for, "//reached//": "// &
+                     accuracy%reason)
+   end subroutine tell_accuracy
+
+end module accurate_run

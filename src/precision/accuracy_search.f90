@@ -1,0 +1,221 @@
+!> Finds the tolerance at which a motion has the accuracy asked for, from runs at successive tolerances.
+!>
+!> Each run is ten times as tight as the one before. Channels x of runs a and b, with the scales s of their kinds, differ by
+!> $$ d(t) = \max_{t_i \le t} \max_k |x_k^a(t_i) - x_k^b(t_i)|/s_k, $$
+!> extremes up to t_i counted as values. The tighter one of two that differ by less than the accuracy over the safety factor is
+!> taken and confirmed by another integrator, which is made tighter until it differs by no more; where that is not to be had, by a
+!> run of the same one at a hundredth of the tolerance. The error claimed is the greater difference times a safety factor, a
+!> greater one where round-off makes the differences: they are chance there. Where no tolerance keeps it to the end it is claimed
+!> up to the last instant to which it is kept.
+!>
+!> Limits: an error that all of these runs share, as of a start or of a law, is none here.
+module accuracy_search
+   use accuracy_claim, only: safety, set_claim
+   use accuracy_results, only: accuracy_t, claim_reached, claim_window
+   use accuracy_trial, only: agreement, is_better, make_trial, no_time, same, search_t, trial_t
+   use channel_difference, only: channel_scales
+   use kept_run, only: n_sort
+   use kinds, only: least_tolerance, wp
+   use precision_info, only: setting_t
+   use precision_reference, only: kept_ladder_t, reference_t, size_of
+   use precision_results, only: precision_t
+   use precision_twins, only: run_twins
+   use progress, only: progress_t
+   use setting_run, only: job_t
+   use time_budget, only: time_budget_t
+   implicit none (type, external)
+   private
+   public :: find_accuracy
+
+   real(wp), parameter :: step = 0.1_wp              !! from a tolerance to the next [1]
+   real(wp), parameter :: coarsest = 1.0e-4_wp       !! greatest tolerance of a first run [1]
+   real(wp), parameter :: finest = 1.0e-11_wp        !! least tolerance of a first run: below, others must be to be had [1]
+   real(wp), parameter :: first_part = 3.0_wp        !! of the greatest difference allowed: for the first one [1]
+   real(wp), parameter :: tightest_part = 1.0e-2_wp  !! of the tolerance, of a run of the same integrator that confirms [1]
+   integer, parameter :: attempts = 4                !! tolerances of the other integrator
+   real(wp), parameter :: rise = 1.6_wp              !! of the time of a run over that of the one before, for a forecast [1]
+   real(wp), parameter :: idle = 0.5_wp              !! of the difference before: it no longer falls [1]
+   integer, parameter :: patience = 2                !! pairs of runs in which nothing is gained before the search ends
+   real(wp), parameter :: beside = 1.0e-9_wp         !! perturbation of the twins that tell why digits end [1]
+
+   character(*), parameter :: others(3) = [character(6) :: "verner", "adams", "bdf"]       !! what confirms, in this order
+   character(*), parameter :: no_gain = "tighter tolerances gain nothing: round-off"      !! the same
+   character(*), parameter :: no_tighter = "the least tolerance is reached"               !! the same
+
+contains
+
+   !> Find the tolerance. Without any run that came to its end no tolerance is found, and the reason is that of the last.
+   subroutine find_accuracy(job, budget, method, asked, stride, display, found)
+      type(job_t), intent(inout) :: job               !! what runs share
+      type(time_budget_t), intent(in) :: budget       !! the time, begun
+      character(*), intent(in) :: method              !! the integrator
+      integer, intent(in) :: asked(:, :)              !! (3, n) group, component, item of the channels
+      integer, intent(in) :: stride                   !! output instants from one that is compared to the next
+      type(progress_t), intent(inout) :: display      !! shows how far it is
+      type(accuracy_t), intent(inout) :: found        !! `asked` is set, the rest follows
+
+      type(search_t) :: search
+
+      found%evidence%coarser = ""
+      found%evidence%confirmation = ""
+      found%growth%reason = "not looked for"
+      search%limit = found%asked/safety
+      search%asked = asked
+      search%stride = stride
+      search%reason = ""
+      call descend(job, budget, method, display, search)
+      if (search%coarser%is_there) call confirm(job, budget, search)
+      call display%update(0.9_wp)
+      call set_claim(search, found)
+      if (found%claim == claim_window .or. found%claim == claim_reached) call explain(job, budget, search, found)
+      found%evidence%runs = search%runs
+      found%evidence%spent = budget%elapsed()
+   end subroutine find_accuracy
+
+   !> From tolerance to tolerance, until two runs agree, nothing is gained, or the time is used up.
+   subroutine descend(job, budget, method, display, search)
+      type(job_t), intent(inout) :: job               !! what runs share
+      type(time_budget_t), intent(in) :: budget       !! the time
+      character(*), intent(in) :: method              !! the integrator
+      type(progress_t), intent(inout) :: display      !! shows how far it is
+      type(search_t), intent(inout) :: search         !! two runs are found, or one, or none
+
+      type(trial_t) :: last, next
+      real(wp) :: best(2), now(2), tolerance
+      integer :: futile, k
+
+      tolerance = max(finest, min(coarsest, 10.0_wp**floor(log10(first_part*search%limit))))
+      best = [-1.0_wp, huge(1.0_wp)]
+      futile = 0
+      do k = 1, nint(-log10(least_tolerance)) + 1
+         if (last%is_there .and. rise*last%what%wall > time_left(budget, last)) search%reason = no_time
+         if (search%reason /= "") return
+         call make_trial(job, budget, setting_t(method, "", ""), tolerance, search, next)
+         if (next%is_there) then
+            if (.not. search%taken%is_there) search%taken = next
+            if (last%is_there) then
+               search%scale = channel_scales(next%run, size_of(job), job%plan%end)
+               now = agreement(next%run, last%run, search)
+               if (is_better(now, best)) then
+                  futile = merge(0, futile + 1, now(1) > best(1) .or. now(2) < idle*best(2))
+                  best = now
+                  search%taken = next
+                  search%coarser = last
+               else
+                  futile = futile + 1
+               end if
+               if (now(2) <= search%limit) return
+            end if
+            last = next
+         end if
+         call display%update(0.08_wp*k)
+         if (tolerance <= same*least_tolerance .and. search%reason == "") search%reason = no_tighter
+         if (futile == patience) search%reason = no_gain
+         tolerance = max(least_tolerance, step*tolerance)
+      end do
+   end subroutine descend
+
+   !> Time that is left, less what the run that will be written takes.
+   real(wp) function time_left(budget, trial)
+      type(time_budget_t), intent(in) :: budget   !! the time
+      type(trial_t), intent(in) :: trial          !! the run
+
+      time_left = budget%left(1.0_wp) - trial%what%wall
+   end function time_left
+
+   !> Confirm the run by another integrator, or by the same one, much tighter, if that agrees longer.
+   subroutine confirm(job, budget, search)
+      type(job_t), intent(inout) :: job               !! what runs share
+      type(time_budget_t), intent(in) :: budget       !! the time
+      type(search_t), intent(inout) :: search         !! what confirms it is set
+
+      type(trial_t) :: next
+      real(wp) :: best(2), pair(2)
+      integer :: k
+
+      pair = agreement(search%taken%run, search%coarser%run, search)
+      best = [-2.0_wp, huge(1.0_wp)]
+      associate (own => search%taken%what)
+         do k = 1, size(others)
+            if (others(k) == own%setting%method .or. search%other%is_there) cycle
+            call confirm_by(trim(others(k)), own%asked)
+         end do
+         if (best(1) < pair(1) .and. own%asked > same*least_tolerance) then
+            call take(own%setting%method, max(least_tolerance, tightest_part*own%asked))
+         end if
+      end associate
+      if (best(1) >= pair(1) .and. pair(2) <= search%limit) search%reason = ""
+      if (best(1) < pair(1) .and. search%reason == "") search%reason = no_tighter
+
+   contains
+
+      !> Runs of an integrator, tighter from one to the next; looser where it fails.
+      subroutine confirm_by(name, first)
+         character(*), intent(in) :: name   !! the integrator
+         real(wp), intent(in) :: first      !! its first tolerance [1]
+
+         real(wp) :: tolerance
+         integer :: i
+         logical :: has_ended
+
+         tolerance = first
+         has_ended = .false.
+         do i = 1, attempts
+            call take(name, tolerance)
+            if (best(1) >= pair(1)) return
+            if (next%is_there) then
+               has_ended = .true.
+               if (tolerance <= same*least_tolerance) return
+               tolerance = max(least_tolerance, step*tolerance)
+            else
+               if (has_ended) return
+               tolerance = tolerance/step
+            end if
+         end do
+      end subroutine confirm_by
+
+      !> A run, if there is time for it.
+      subroutine take(name, tolerance)
+         character(*), intent(in) :: name       !! the integrator
+         real(wp), intent(in) :: tolerance      !! its tolerance [1]
+
+         type(trial_t) :: fresh
+         real(wp) :: now(2)
+
+         if (next%is_there .and. rise*next%what%wall > time_left(budget, search%taken)) then
+            search%reason = no_time
+            next = fresh
+            return
+         end if
+         call make_trial(job, budget, setting_t(name, "", ""), tolerance, search, next)
+         if (.not. next%is_there) return
+         now = agreement(search%taken%run, next%run, search)
+         if (.not. is_better(now, best)) return
+         best = now
+         search%other = next
+      end subroutine take
+
+   end subroutine confirm
+
+   !> Why digits end before the motion does: how fast neighbouring motions part.
+   subroutine explain(job, budget, search, found)
+      type(job_t), intent(inout) :: job               !! what runs share
+      type(time_budget_t), intent(in) :: budget       !! the time
+      type(search_t), intent(in) :: search            !! the runs
+      type(accuracy_t), intent(inout) :: found        !! growth is set
+
+      type(kept_ladder_t) :: none(0)
+      type(precision_t) :: study
+      type(reference_t) :: base
+
+      if (search%stride /= 1 .or. job%plan%first_output > 0.0_wp .or. job%start > 0) return
+      allocate (study%ladders(0))
+      base = search%taken%what
+      base%is_there = .true.
+      base%run = search%taken%run%kept_run_t
+      base%scale = search%scale(:n_sort)
+      call run_twins(job, budget, 1.0_wp, beside, none, base, study)
+      found%growth = study%growth
+   end subroutine explain
+
+end module accuracy_search

@@ -1,0 +1,93 @@
+!> The runs of a search for a tolerance: one, those that have been found, and how far two agree.
+module accuracy_trial
+   use channel_difference, only: set_differences
+   use kept_channels, only: kept_channels_t
+   use kinds, only: least_tolerance, wp
+   use precision_info, only: setting_t
+   use precision_reference, only: arms_of, last_within, reference_t
+   use setting_run, only: job_t, outcome_t, run_setting, shorter
+   use time_budget, only: time_budget_t
+   implicit none (type, external)
+   private
+   public :: agreement, is_better, make_trial, no_time, same, search_t, trial_t
+
+   real(wp), parameter :: same = 3.0_wp              !! ratio below which the difference of two tolerances tells nothing [1]
+   character(*), parameter :: no_time = "the budget is used up"  !! why no more was reached
+
+   !> A run of the search.
+   type :: trial_t
+      logical :: is_there = .false.            !! it came to its end
+      type(reference_t) :: what                !! its setting, tolerance and time; not its motion
+      type(kept_channels_t) :: run             !! its channels and motion
+   end type trial_t
+
+   !> The search.
+   type :: search_t
+      type(trial_t) :: taken                   !! the run that is taken
+      type(trial_t) :: coarser                 !! the one before it
+      type(trial_t) :: other                   !! what confirms it
+      integer, allocatable :: asked(:, :)      !! (3, n) group, component, item of the channels
+      integer :: stride = 1                    !! output instants from one that is compared to the next
+      real(wp), allocatable :: scale(:)        !! (kinds) scales of the channels [any]
+      real(wp) :: limit = 0.0_wp               !! greatest difference allowed [1]
+      integer :: runs = 0                      !! runs made
+      character(:), allocatable :: reason      !! why no more was reached; blank: it was
+   end type search_t
+
+contains
+
+   !> Make a run. One that is late ends the search.
+   subroutine make_trial(job, budget, setting, tolerance, search, trial)
+      type(job_t), intent(inout) :: job               !! what runs share
+      type(time_budget_t), intent(in) :: budget       !! the time
+      type(setting_t), intent(in) :: setting          !! its integrator
+      real(wp), intent(in) :: tolerance               !! its tolerance [1]
+      type(search_t), intent(inout) :: search         !! counts runs
+      type(trial_t), intent(out) :: trial             !! the run
+
+      type(outcome_t) :: outcome
+      real(wp) :: begun
+
+      begun = budget%elapsed()
+      trial%what%setting = setting
+      trial%what%asked = tolerance
+      trial%run%asked = search%asked
+      trial%run%stride = search%stride
+      trial%run%arm = arms_of(job)
+      trial%run%wants_contact_rows = job%with_contact_rows
+      job%cpu = shorter(budget%cpu_left(1.0_wp), job)
+      call run_setting(job, setting, tolerance, trial%run, outcome)
+      trial%what%wall = budget%elapsed() - begun
+      trial%is_there = outcome%reason == ""
+      search%runs = search%runs + 1
+      if (outcome%is_late) search%reason = no_time
+      if (.not. (trial%is_there .or. outcome%is_late .or. search%taken%is_there) .and. tolerance <= same*least_tolerance) then
+         search%reason = outcome%reason
+      end if
+   end subroutine make_trial
+
+   !> Up to when two runs agree, and their greatest difference.
+   function agreement(run, other, search) result(time_and_difference)
+      type(kept_channels_t), intent(in) :: run     !! a run
+      type(kept_channels_t), intent(in) :: other   !! another one
+      type(search_t), intent(in) :: search         !! scales and limit
+      real(wp) :: time_and_difference(2)           !! (2) last instant, negative: none; difference up to the end [s, 1]
+
+      real(wp) :: by_channel(size(run%kind)), by_instant(run%n)
+      integer :: worst(run%n)
+
+      by_instant = 0.0_wp
+      by_channel = 0.0_wp
+      call set_differences(run, other, search%scale, 0.0_wp, by_instant, by_channel, worst)
+      time_and_difference = [last_within(by_instant, run%t, search%limit), maxval(by_instant)]
+   end function agreement
+
+   !> Whether two runs agree longer than two others, or as long and better.
+   pure logical function is_better(now, best)
+      real(wp), intent(in) :: now(2)    !! (2) time and greatest difference [s, 1]
+      real(wp), intent(in) :: best(2)   !! (2) those of the others [s, 1]
+
+      is_better = now(1) > best(1) .or. (now(1) >= best(1) .and. now(2) < best(2))
+   end function is_better
+
+end module accuracy_trial

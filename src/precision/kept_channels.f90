@@ -1,0 +1,209 @@
+!> A recorder that keeps channels in memory besides what a kept run has, with their extremes so far.
+!>
+!> Extremes are those of the output instants, and of the row at which a condition ends the run; of normal forces those of all
+!> rows, whose peaks are located (which other rows a contact has depends on the steps). Values are kept at the output instants,
+!> or at each of a whole number of them. Every channel has a kind, by which its differences are measured (`channel_difference`).
+module kept_channels
+   use catalogue, only: catalogue_t, group_t, n_rooms, room_bodies, room_contacts
+   use errors, only: error_t
+   use kept_run, only: kept_run_t, n_sort, sort_of
+   use kinds, only: i8, wp
+   use recorder, only: row_stop, summary_t
+   implicit none (type, external)
+   private
+   public :: class_energy, class_force, class_length, class_rate, kept_channels_t, n_class
+
+   integer, parameter :: class_length = 1  !! m, rad
+   integer, parameter :: class_rate = 2    !! m/s, rad/s
+   integer, parameter :: class_force = 3   !! N, N.m
+   integer, parameter :: class_energy = 4  !! J
+   integer, parameter :: class_other = 5   !! accelerations, powers
+   integer, parameter :: n_class = 5       !! classes of units
+
+   !> Values of the channels, and their extremes.
+   type :: series_t
+      real(wp), allocatable :: x(:, :)            !! (n, capacity) values at the instants that are kept [any]
+      real(wp), allocatable :: low(:, :)          !! (n, capacity) least value up to there [any]
+      real(wp), allocatable :: high(:, :)         !! (n, capacity) greatest value up to there [any]
+      real(wp), allocatable :: least(:)           !! (n) least value of all rows [any]
+      real(wp), allocatable :: most(:)            !! (n) greatest value of all rows [any]
+   end type series_t
+
+   !> What is kept. Set `arm`, `asked` and `stride` before it starts.
+   type, extends(kept_run_t) :: kept_channels_t
+      integer, allocatable :: asked(:, :)         !! (3, n) group, component, item of the channels
+      integer :: stride = 1                       !! output instants from one that is kept to the next
+      integer, allocatable :: kind(:)             !! (n) kind of each channel: a sort, or one of the further ones
+      real(wp), allocatable :: factor_of(:)       !! (n) to the unit of its kind [any]
+      real(wp), allocatable :: magnitude(:)       !! (kinds) greatest magnitude, in the unit of the kind [any]
+      type(series_t) :: series                    !! values of the channels
+      type(summary_t) :: summary                  !! how the run went
+      integer(i8), private :: n_sample = 0        !! output instants so far
+      integer, allocatable, private :: kind_of(:) !! (groups) kind of all values of a group, 0: they scale nothing
+      logical, allocatable, private :: is_peaked(:)  !! (n) a normal force
+   contains
+      procedure :: start => start_channels
+      procedure :: sample => sample_channels
+      procedure :: further_row => row_of_channels
+      procedure :: finish => finish_channels
+   end type kept_channels_t
+
+contains
+
+   !> Find kinds and factors of the channels.
+   subroutine start_channels(self, catalogue, error)
+      class(kept_channels_t), intent(inout) :: self      !! the recorder
+      type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      integer :: g, k, n
+
+      call self%kept_run_t%start(catalogue, error)
+      n = size(self%asked, 2)
+      allocate (self%kind(n), source=0)
+      allocate (self%factor_of(n), source=1.0_wp)
+      allocate (self%magnitude(n_sort + n_rooms*n_class), source=0.0_wp)
+      allocate (self%series%x(n, size(self%t)), self%series%low(n, size(self%t)), self%series%high(n, size(self%t)), source=0.0_wp)
+      allocate (self%series%least(n), source=huge(1.0_wp))
+      allocate (self%series%most(n), source=-huge(1.0_wp))
+      allocate (self%kind_of(size(catalogue%groups)), source=0)
+      allocate (self%is_peaked(n), source=.false.)
+      do g = 1, size(catalogue%groups)
+         self%kind_of(g) = sort_of(catalogue%groups(g)%room, catalogue%groups(g)%channel%name)
+      end do
+      do k = 1, n
+         g = self%asked(1, k)
+         associate (group => catalogue%groups(g))
+            if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + (group%room - 1)*n_class + class_of(group%channel%unit)
+            self%kind(k) = self%kind_of(g)
+            self%factor_of(k) = factor_to(self, group, self%asked(3, k))
+            self%is_peaked(k) = group%room == room_contacts .and. group%channel%name == "normal_force"
+         end associate
+      end do
+   end subroutine start_channels
+
+   !> Class of a unit.
+   pure integer function class_of(unit)
+      character(*), intent(in) :: unit  !! SI
+
+      select case (unit)
+      case ("m", "rad"); class_of = class_length
+      case ("m/s", "rad/s"); class_of = class_rate
+      case ("N", "N.m"); class_of = class_force
+      case ("J"); class_of = class_energy
+      case default; class_of = class_other
+      end select
+   end function class_of
+
+   !> What makes angles ways, and moments forces: the radius of gyration of a body, elsewhere the greatest one.
+   pure real(wp) function factor_to(self, group, item) result(factor)
+      class(kept_channels_t), intent(in) :: self     !! the recorder
+      type(group_t), intent(in) :: group             !! a quantity
+      integer, intent(in) :: item                    !! number of one that has it
+
+      factor = 1.0_wp
+      if (group%channel%unit == "N.m") factor = 1.0_wp/maxval(self%arm)
+      if (index(group%channel%unit, "rad") /= 1) return
+      factor = maxval(self%arm)
+      if (group%room == room_bodies) factor = self%arm(item)
+   end function factor_to
+
+   !> Keep an output instant.
+   subroutine sample_channels(self, t, catalogue, error)
+      class(kept_channels_t), intent(inout) :: self      !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      integer :: k
+
+      call note(self, catalogue, .true.)
+      self%n_sample = self%n_sample + 1
+      if (modulo(self%n_sample - 1, int(self%stride, i8)) /= 0) return
+      call self%kept_run_t%sample(t, catalogue, error)
+      if (size(self%t) > size(self%series%x, 2)) then
+         call widen(self%series%x, size(self%t))
+         call widen(self%series%low, size(self%t))
+         call widen(self%series%high, size(self%t))
+      end if
+      do k = 1, size(self%kind)
+         self%series%x(k, self%n) = value_of(self, catalogue, k)
+      end do
+      self%series%low(:, self%n) = self%series%least
+      self%series%high(:, self%n) = self%series%most
+   end subroutine sample_channels
+
+   !> Note the extremes of a row of a contact, or of a condition that ends the run.
+   subroutine row_of_channels(self, t, kind, catalogue, error)
+      class(kept_channels_t), intent(inout) :: self      !! the recorder
+      real(wp), intent(in) :: t                          !! time [s]
+      integer, intent(in) :: kind                        !! what it is
+      type(catalogue_t), intent(in) :: catalogue         !! values at t
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      call note(self, catalogue, kind == row_stop)
+   end subroutine row_of_channels
+
+   !> Extremes and magnitudes.
+   subroutine note(self, catalogue, is_of_all)
+      class(kept_channels_t), intent(inout) :: self      !! the recorder
+      type(catalogue_t), intent(in) :: catalogue         !! values
+      logical, intent(in) :: is_of_all                   !! not of normal forces only
+
+      real(wp) :: x
+      integer :: g, i, j, k
+
+      do k = 1, size(self%kind)
+         if (.not. (is_of_all .or. self%is_peaked(k))) cycle
+         x = value_of(self, catalogue, k)
+         if (x < self%series%least(k)) self%series%least(k) = x
+         if (x > self%series%most(k)) self%series%most(k) = x
+      end do
+      do g = 1, size(self%kind_of)
+         if (self%kind_of(g) == 0) cycle
+         associate (magnitude => self%magnitude(self%kind_of(g)), group => catalogue%groups(g))
+            do j = 1, size(group%data, 2)
+               do i = 1, size(group%data, 1)
+                  x = abs(group%data(i, j))
+                  if (x*factor_to(self, group, j) > magnitude) magnitude = x*factor_to(self, group, j)
+               end do
+            end do
+         end associate
+      end do
+   end subroutine note
+
+   !> Value of a channel.
+   pure real(wp) function value_of(self, catalogue, k)
+      class(kept_channels_t), intent(in) :: self         !! the recorder
+      type(catalogue_t), intent(in) :: catalogue         !! values
+      integer, intent(in) :: k                           !! number of the channel
+
+      value_of = catalogue%groups(self%asked(1, k))%data(self%asked(2, k), self%asked(3, k))
+   end function value_of
+
+   !> Make columns for more instants.
+   subroutine widen(list, n)
+      real(wp), allocatable, intent(inout) :: list(:, :)  !! (any, less than n) grown [any]
+      integer, intent(in) :: n                            !! columns
+
+      real(wp), allocatable :: wider(:, :)
+
+      allocate (wider(size(list, 1), n), source=0.0_wp)
+      wider(:, :size(list, 2)) = list
+      call move_alloc(wider, list)
+   end subroutine widen
+
+   !> The run has ended.
+   subroutine finish_channels(self, summary, error)
+      class(kept_channels_t), intent(inout) :: self      !! the recorder
+      type(summary_t), intent(in) :: summary             !! cost and errors of the run
+      type(error_t), allocatable, intent(out) :: error   !! never set
+
+      self%summary = summary
+      call self%kept_run_t%finish(summary, error)
+      self%series%x = self%series%x(:, :self%n)
+      self%series%low = self%series%low(:, :self%n)
+      self%series%high = self%series%high(:, :self%n)
+   end subroutine finish_channels
+
+end module kept_channels

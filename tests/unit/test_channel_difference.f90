@@ -1,0 +1,135 @@
+!> Differences of runs by channels, their scales, and the first contact that is another one, on runs made by hand.
+module test_channel_difference
+   use channel_difference, only: channel_scales, set_differences
+   use check, only: check_close, check_true, suite_t
+   use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kept_channels, only: kept_channels_t, n_class
+   use kept_run, only: contact_t, n_sort, sort_positions, sort_reactions, sort_velocities
+   use kinds, only: not_a_number, wp
+   use run_difference, only: first_other_contact
+   implicit none (type, external)
+   private
+   public :: run_test_channel_difference
+
+   integer, parameter :: n_instant = 4  !! instants of the runs
+
+contains
+
+   !> Register the tests.
+   subroutine run_test_channel_difference(suite)
+      type(suite_t), intent(inout) :: suite  !! where tests are registered
+
+      call suite%test("by_instant_and_channel", test_by_instant_and_channel)
+      call suite%test("values_that_are_none", test_values_that_are_none)
+      call suite%test("scales", test_scales)
+      call suite%test("first_other_contact", test_first_other_contact)
+   end subroutine run_test_channel_difference
+
+   !> A run of two channels, x = t and x = 10 t: a position, and a moment that counts at an arm of 2 m.
+   subroutine new_run(run)
+      type(kept_channels_t), intent(out) :: run  !! the run
+
+      integer :: i
+
+      run%n = n_instant
+      run%t = [(real(i - 1, wp), i=1, n_instant)]
+      run%kind = [sort_positions, sort_reactions]
+      run%factor_of = [1.0_wp, 0.5_wp]
+      run%sort = [sort_positions, sort_velocities]
+      allocate (run%values(2, n_instant), run%series%x(2, n_instant), source=0.0_wp)
+      run%values(1, :) = run%t
+      run%values(2, :) = 1.0_wp
+      run%series%x(1, :) = run%t
+      run%series%x(2, :) = 10.0_wp*run%t
+      allocate (run%series%low(2, n_instant), source=0.0_wp)
+      run%series%high = run%series%x
+      run%series%least = [0.0_wp, 0.0_wp]
+      run%series%most = run%series%x(:, n_instant)
+      allocate (run%magnitude(n_sort + 7*n_class), source=0.0_wp)
+   end subroutine new_run
+
+   subroutine test_by_instant_and_channel(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kept_channels_t) :: a, b
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + 7*n_class)
+      integer :: worst(n_instant)
+
+      call new_run(a)
+      b = a
+      b%series%x(1, 2) = b%series%x(1, 2) + 0.03_wp     ! 0.01 of a scale of 3
+      b%series%x(2, 3) = b%series%x(2, 3) - 8.0_wp      ! 0.5 8/20 = 0.2
+      b%series%high(2, 4) = b%series%high(2, 4) + 2.0_wp  ! 0.05
+      scale = 1.0_wp
+      scale(sort_positions) = 3.0_wp
+      scale(sort_reactions) = 20.0_wp
+      by_instant = 0.0_wp
+      by_channel = 0.0_wp
+      worst = 0
+      call set_differences(a, b, scale, 2.0_wp, by_instant, by_channel, worst)
+      call check_close(error, by_instant, [0.0_wp, 0.01_wp, 0.2_wp, 0.05_wp], 1.0e-14_wp, "by instant")
+      call check_close(error, by_channel, [0.03_wp, 8.0_wp], 1.0e-14_wp, "by channel, up to 2 s")
+      call check_true(error, all(worst == [0, 1, 2, 2]), "the channel that has it")
+      b%series%most(2) = b%series%most(2) + 40.0_wp     ! a peak behind the last instant: 1
+      call set_differences(a, b, scale, 2.0_wp, by_instant, by_channel, worst)
+      call check_close(error, by_instant(n_instant), 1.0_wp, 1.0e-14_wp, "a peak at the end")
+   end subroutine test_by_instant_and_channel
+
+   subroutine test_values_that_are_none(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kept_channels_t) :: a, b
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + 7*n_class)
+      integer :: worst(n_instant)
+
+      call new_run(a)
+      a%series%x(1, 2) = not_a_number()
+      b = a
+      scale = 1.0_wp
+      by_instant = 0.0_wp
+      by_channel = 0.0_wp
+      worst = 0
+      call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
+      call check_true(error, all(by_instant <= 0.0_wp), "what is no number in both runs is no difference")
+      b%series%x(1, 2) = 1.0_wp
+      call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
+      call check_true(error, by_instant(2) > 1.0e90_wp, "a number in one run only")
+      b%n = n_instant - 2
+      by_instant = 0.0_wp
+      call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
+      call check_true(error, all(by_instant(3:) > 1.0e90_wp), "a run that ends much earlier")
+   end subroutine test_values_that_are_none
+
+   subroutine test_scales(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kept_channels_t) :: a
+      real(wp), allocatable :: scale(:)
+
+      call new_run(a)
+      a%summary%quality%energy_max = 7.0_wp
+      a%magnitude(sort_velocities) = 4.0_wp   ! a row between two instants
+      a%magnitude(sort_reactions) = 30.0_wp
+      scale = channel_scales(a, 5.0_wp, 3.0_wp)
+      call check_close(error, scale(:n_sort), [3.0_wp, 4.0_wp, 30.0_wp], 1.0e-14_wp, "range of positions, greatest of the others")
+      call check_true(error, all(scale > 0.0_wp), "every kind has a scale")
+      call check_true(error, count(abs(scale - 7.0_wp) < 1.0e-12_wp) == 7, "energies by the largest energy, in every room")
+   end subroutine test_scales
+
+   subroutine test_first_other_contact(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kept_channels_t) :: a, b
+
+      call new_run(a)
+      a%contacts = [contact_t(1, 0.2_wp), contact_t(2, 0.9_wp), contact_t(1, 1.7_wp), contact_t(1, 2.4_wp)]
+      b = a
+      call check_true(error, .not. ieee_is_finite(first_other_contact(a, b, 3.0_wp)), "the same contacts")
+      b%contacts(3)%number = 2
+      associate (from => first_other_contact(b, a, 3.0_wp))
+         call check_true(error, from > 1.3_wp .and. from < 1.71_wp, "between the last common contact and the first other one")
+      end associate
+   end subroutine test_first_other_contact
+
+end module test_channel_difference
