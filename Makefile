@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability fuzz figures studies lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability certify fuzz figures studies lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program
 
 all:
@@ -92,6 +92,11 @@ stability:
 	$(inner)release binary
 	@$(PYTHON) -B tests/stability/stability.py --build $(abspath $(BUILD)) $(STABILITY)
 
+# whether the intervals of `gudgeon run --accuracy` hold the true errors of random decks; CERTIFY='-n 50 --seed 2' for options
+certify:
+	$(inner)release binary
+	@$(PYTHON) -B tests/accuracy/certify.py --build $(abspath $(BUILD)) $(CERTIFY)
+
 # N mutants in each build; FUZZ='--run 0.5 --seed 2' for options of tests/fuzz/fuzz.py
 N ?= 1000
 fuzz:
@@ -130,6 +135,7 @@ help:
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
+	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
