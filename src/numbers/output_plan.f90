@@ -1,5 +1,6 @@
 !> What a recorder is told before a run: where its files go and what they say of the run.
 module output_plan
+   use exponent, only: horizon_t
    use statistics, only: statistics_plan_t
    use text, only: text_t
    implicit none (type, external)
@@ -47,6 +48,7 @@ module output_plan
       type(text_t), allocatable :: figures(:)          !! (n) words of the deck's `figures`
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
+      type(horizon_t) :: horizon                       !! how long digits mean anything; without times: it was not asked for
       type(written_t) :: with                          !! what is written
       character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts
       integer :: show = show_summary                   !! what to print at the end, one of the above

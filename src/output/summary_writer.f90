@@ -2,6 +2,7 @@
 module summary_writer
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_names
+   use horizon_text, only: add_horizon, horizon_json
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, not_a_number, wp
@@ -93,6 +94,7 @@ contains
       else if (len(plan%contact_rows) > 0 .and. .not. plan%with%contact_rows) then
          call lines%line("rows       "//plan%contact_rows)
       end if
+      call add_horizon(lines, plan%horizon)
       call impact_lines(lines, events)
       call number_lines(lines, plan, outcome%numbers)
       call lines%line("")
@@ -255,6 +257,7 @@ contains
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
       call put_summary(json, summary)
+      call horizon_json(plan%horizon, json)
       if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)
