@@ -105,15 +105,17 @@ contains
    end subroutine begin_part
 
    !> One step, and what is seen at its end.
-   subroutine advance_part(part, tally, error)
+   subroutine advance_part(part, tally, error, until)
       type(moving_part_t), intent(inout) :: part          !! the part
       type(run_tally_t), intent(inout) :: tally           !! of the run
       type(error_t), allocatable, intent(out) :: error    !! the integration failed
+      real(wp), intent(in), optional :: until             !! a time that the step must not pass [s]
 
       real(wp) :: t_stop
 
       associate (system => part%system, method => part%method)
          call part%instants%stop_after(method, t_stop)
+         if (present(until)) t_stop = min(t_stop, until)
          call method%advance(system, t_stop, part%status)
          if (part%status < 0) then
             call describe_failure(system, method, part%status, error)

@@ -36,6 +36,7 @@ module contact_states
       procedure :: item_of
       procedure :: label_of
       procedure :: begin_contact
+      procedure :: set_impact_speed
       procedure :: end_contact
       procedure :: take_off
       procedure :: adopt => states_adopt
@@ -88,6 +89,15 @@ contains
       self%n_touching = self%n_touching + 1
       call self%grip%forget(k)
    end subroutine begin_contact
+
+   !> A contact that touches is to have begun with another speed: so a neighbouring motion has it.
+   pure subroutine set_impact_speed(self, k, impact_speed)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: impact_speed            !! penetration rate at its onset [m/s]
+
+      self%contact(k)%impact_speed = impact_speed
+   end subroutine set_impact_speed
 
    !> A contact ends, or the run ends within it: tell its story in one row.
    subroutine end_contact(self, k, t, release_speed, loss, is_over, event)

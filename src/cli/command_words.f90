@@ -17,7 +17,7 @@ module command_words
       character(9) :: name = ""      !! the verb
       character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
       character(76) :: help = ""     !! one line
-      character(112) :: options = ""  !! the options that it takes, blank-separated
+      character(122) :: options = ""  !! the options that it takes, blank-separated
    end type command_t
 
    !> An option.
@@ -30,7 +30,8 @@ module command_words
 
    type(command_t), parameter :: known_verbs(*) = [ &
       command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
-                "--out --set --ideal --analysis --tolerance --method --accuracy --budget --quiet --json --member --write"), &
+                "--out --set --ideal --analysis --tolerance --method --accuracy --budget --horizon --quiet --json --member "// &
+                "--write"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
       command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
@@ -55,6 +56,7 @@ module command_words
       option_t("--json", "", "print summary.json and nothing else"), &
       option_t("--member", "K", "run number K of the deck's ensemble"), &
       option_t("--write", "W", "leave out what takes long to write"), &
+      option_t("--horizon", "", "how fast neighbouring motions part (Lyapunov exponent), and how long digits mean anything"), &
       option_t("--jobs", "N", "runs at once; default one for each processor"), &
       option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
       option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &

@@ -1,6 +1,6 @@
 !> The command line: a verb, its operands and its options.
 module options
-   use command_words, only: find_option, options_of, option_info => option_t, verb_names, words_of_value
+   use command_words, only: find_option, options_of, option_info => option_t, takers_of, verb_names, words_of_value
    use errors, only: error_t, exit_usage, set_error
    use kind_info, only: dim_time, same_dimension
    use kinds, only: least_tolerance, wp
@@ -43,6 +43,7 @@ module options
       character(:), allocatable :: command           !! the whole command line
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
+      logical :: with_horizon = .false.              !! `--horizon`
       type(help_options_t) :: help                   !! what help is asked for
    end type options_t
 
@@ -91,6 +92,11 @@ contains
          else if (allocated(value)) then
             deallocate (value)
          end if
+         if (.not. any_word(word, known) .and. takers_of(word) /= "") then
+            call set_error(error, exit_usage, "unknown option '"//word//"' of "//options%verb//new_line("a")// &
+                           "  = it is one of: "//takers_of(word))
+            return
+         end if
          if (.not. any_word(word, known)) then
             call usage_error("unknown option '"//word//"' of "//options%verb, word, known, error)
             return
@@ -121,6 +127,7 @@ contains
       case ("--ideal"); options%change%is_ideal = .true.
       case ("--quiet"); options%is_quiet = .true.
       case ("--json"); options%is_json = .true.
+      case ("--horizon"); options%with_horizon = .true.
       case ("--manual"); options%help%is_manual = .true.
       case ("--man"); options%help%is_man = .true.
       case default

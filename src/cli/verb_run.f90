@@ -11,6 +11,8 @@ module verb_run
    use deck_texts, only: deck_text, get_includes
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_usage, set_error
+   use exponent, only: horizon_t
+   use exponent_runs, only: find_horizon, plan_horizon
    use figure_words, only: check_figures
    use integrator, only: integrator_t
    use integrator_controls, only: read_controls
@@ -36,6 +38,7 @@ module verb_run
    use run_recorder, only: run_recorder_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
+   use setting_run, only: job_t
    use start_state, only: find_start, ideal_start_t, redundancy_text
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use statistics, only: statistics_plan_t
@@ -60,6 +63,10 @@ contains
 
       call load_deck(options, loaded, error)
       if (.not. allocated(error)) call check_accuracy(options, loaded, error)
+      if (.not. allocated(error) .and. options%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
+                        trim(analysis_names(loaded%scene%analysis)))
+      end if
       if (allocated(error)) return
       select case (loaded%scene%analysis)
       case (analysis_kinematic)
@@ -113,6 +120,7 @@ contains
       end if
       call build_catalogue(loaded%system, catalogue)
       call limits_of(loaded%scene, loaded%system, catalogue, limits, plan%warnings)
+      if (options%with_horizon) call look_ahead(options, loaded, plan%horizon)
       keeper%plan = plan
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")
       call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
@@ -139,6 +147,23 @@ contains
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, ideal=ideal)
       end if
    end subroutine begin_motion
+
+   !> How fast neighbouring motions part, by the tangent, and how long digits of this run mean anything.
+   subroutine look_ahead(options, loaded, horizon)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(horizon_t), intent(out) :: horizon              !! what is found
+
+      type(job_t) :: job
+
+      job%scene = loaded%scene
+      job%settings = loaded%scene%settings%dynamic%item_t
+      job%start = options%change%member
+      job%cpu = job%settings%number("limit_cpu")
+      call plan_horizon(loaded%scene%settings%precision%item_t, loaded%plan%end, horizon)
+      if (job%settings%number("step") <= 0.0_wp) horizon%asked = job%settings%number("tolerance")
+      call find_horizon(job, horizon)
+   end subroutine look_ahead
 
    !> A run of an ensemble needs one.
    subroutine check_member(options, loaded, error)

@@ -1,8 +1,8 @@
 !> Numbers with 17 significant digits, correctly rounded, as the edit descriptor es24.16e3 writes them, at a hundredth of its cost.
 !>
-!> x 10^(16 - k), with k the decimal exponent, is formed in double-double arithmetic (T. J. Dekker, A floating-point technique for
-!> extending the available precision, Numerische Mathematik 18, 1971, 224-242): its whole part holds the digits, and its fraction,
-!> known to about 1e-11, says how to round. Where that is within 1e-6 of a half, and for numbers near the ends of the range, the
+!> x 10^(16 - k), with k the decimal exponent, is formed in double-double arithmetic (after T. J. Dekker, A floating-point technique
+!> for extending the available precision, Numerische Mathematik 18, 1971, 224-242; halves are taken by their bits, which no
+!> fused operation changes): its whole part holds the digits, and its fraction, known to about 1e-11, says how to round. Where that is within 1e-6 of a half, and for numbers near the ends of the range, the
 !> run-time library writes instead, so that every digit is its own.
 module decimal_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_negative
@@ -16,12 +16,12 @@ module decimal_text
    integer, parameter :: digits_after = 16                        !! after the first digit
    integer, parameter :: most = 300                               !! greatest power of ten in the table
    real(wp), parameter :: greatest = 1.0e280_wp, least = 1.0e-280_wp  !! beyond them products may leave the range [any]
-   real(wp), parameter :: splitter = 134217729.0_wp               !! 2^27 + 1, of Dekker's splitting
+   integer(i8), parameter :: upper_half = -134217728_i8           !! bits of sign, exponent and the first 26 of the digits
    real(wp), parameter :: doubt = 1.0e-6_wp                       !! fractions so near one half are not decided here
    integer(i8), parameter :: whole = 10_i8**digits_after          !! least number of 17 digits
 
-   real(wp), save :: high(-most:most), low(-most:most)            !! 10^k as a sum of two numbers
-   logical, save :: is_made = .false.                             !! whether they are known
+   real(wp) :: high(-most:most), low(-most:most)                  !! 10^k as a sum of two numbers
+   logical :: is_made = .false.                                   !! whether they are known
 
 contains
 
@@ -79,7 +79,7 @@ contains
    end subroutine find_digits
 
    !> x 10^p as a sum of two numbers.
-   pure subroutine times_power(x, p, h, l)
+   subroutine times_power(x, p, h, l)
       real(wp), intent(in) :: x     !! the number [any]
       integer, intent(in) :: p      !! the power
       real(wp), intent(out) :: h    !! sum, rounded [any]
@@ -94,21 +94,19 @@ contains
    end subroutine times_power
 
    !> a b = q + e without an error.
-   pure subroutine exact_product(a, b, q, e)
+   subroutine exact_product(a, b, q, e)
       real(wp), intent(in) :: a, b   !! factors [any]
       real(wp), intent(out) :: q     !! product, rounded [any]
-      real(wp), intent(out) :: e     !! its error [any]
+      real(wp), intent(out) :: e     !! its error, to 2^-53 of it [any]
 
-      real(wp) :: a_high, a_low, b_high, b_low
+      real(wp), volatile :: rounded  ! so that no sum of it is fused with the product, which would be another number
+      real(wp) :: a_high, b_high
 
-      q = a*b
-      a_high = splitter*a
-      a_high = a_high - (a_high - a)
-      a_low = a - a_high
-      b_high = splitter*b
-      b_high = b_high - (b_high - b)
-      b_low = b - b_high
-      e = ((a_high*b_high - q) + a_high*b_low + a_low*b_high) + a_low*b_low
+      rounded = a*b
+      q = rounded
+      a_high = transfer(iand(transfer(a, upper_half), upper_half), a)
+      b_high = transfer(iand(transfer(b, upper_half), upper_half), b)
+      e = ((a_high*b_high - q) + a_high*(b - b_high) + (a - a_high)*b_high) + (a - a_high)*(b - b_high)
    end subroutine exact_product
 
    !> Powers of ten: positive ones by products, negative ones by their reciprocals.

@@ -21,6 +21,7 @@ module hdf5_writer
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
+   use horizon_group, only: write_horizon
    use kinds, only: i8, wp
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
@@ -101,6 +102,7 @@ contains
       call new_group(self%file, "summary", group, status)
       if (status >= 0) call h5gclose_f(group, closed)
       call make_provenance(self%file, plan, status)
+      call write_horizon(self%file, plan%horizon, status)
       if (status >= 0) call flush_file(self, status)
       if (status >= 0) return
       closed = remove_file(self%path)

@@ -1,6 +1,7 @@
 !> What a recorder is told before a run: where its files go and what they say of the run.
 module output_plan
    use accuracy_results, only: accuracy_t
+   use exponent, only: horizon_t
    use statistics, only: statistics_plan_t
    use text, only: text_t
    implicit none (type, external)
@@ -49,6 +50,7 @@ module output_plan
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       type(accuracy_t) :: accuracy                     !! what is known of the errors, if an accuracy was asked for
+      type(horizon_t) :: horizon                       !! how long digits mean anything; without times: it was not asked for
       type(written_t) :: with                          !! what is written
       character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts
       integer :: show = show_summary                   !! what to print at the end, one of the above

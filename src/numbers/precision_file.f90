@@ -9,6 +9,7 @@ module precision_file
    use hdf5_calls, only: new_group
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_layout, only: make_provenance, write_status
+   use horizon_group, only: write_horizon
    use kinds, only: not_a_number, wp
    use output_plan, only: output_plan_t
    use precision_results, only: error_names, error_units, error_words, n_compared, n_error, precision_t, rung_t
@@ -41,6 +42,7 @@ contains
          call write_rungs(file, study, status)
          call write_reference(file, study, status)
          call write_growth(file, study, status)
+         call write_horizon(file, study%horizon, status)
          call write_choice(file, study, status)
          call make_provenance(file, plan, status)
          call write_status(file, status_complete, status)

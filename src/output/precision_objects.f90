@@ -1,5 +1,6 @@
 !> The results of a comparison of settings for scripts.
 module precision_objects
+   use horizon_text, only: horizon_json
    use json_text, only: json_object_t
    use kinds, only: i8
    use precision_results, only: error_names, precision_t, rung_done, rung_failed, rung_other, rung_unrun
@@ -36,6 +37,7 @@ contains
          call json%put_real("growth_rate_interval", study%growth%rate_interval)
          call json%put_real("growth_power", study%growth%power)
       end if
+      call horizon_json(study%horizon, json)
       if (study%best_ladder == 0) return
       associate (ladder => study%ladders(study%best_ladder), rung => study%ladders(study%best_ladder)%rungs(study%best_rung))
          call json%put_text("choice", settings_text(ladder, rung))

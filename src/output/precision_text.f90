@@ -1,6 +1,7 @@
 !> The results of a comparison of settings in words.
 module precision_text
    use growth, only: growth_t, n_digit
+   use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use precision_results, only: error_names, error_units, error_words, ladder_t, n_compared, precision_t, rung_done, &
@@ -31,6 +32,7 @@ contains
       call lines%line("           "//flags_of(study%flags))
       call add_reference(lines, study)
       call add_growth(lines, study)
+      call add_horizon(lines, study%horizon)
       call add_ladders(lines, study)
       call add_held_steps(lines, study)
       call add_failures(lines, study)

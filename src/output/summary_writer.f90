@@ -3,6 +3,7 @@ module summary_writer
    use accuracy_text, only: accuracy_json, asked_lines, extreme_lines
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_names
+   use horizon_text, only: add_horizon, horizon_json
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, not_a_number, wp
@@ -96,6 +97,7 @@ contains
          call lines%line("rows       "//plan%contact_rows)
       end if
       if (plan%accuracy%asked > 0.0_wp) call extreme_lines(lines, plan%accuracy)
+      call add_horizon(lines, plan%horizon)
       call impact_lines(lines, events)
       call number_lines(lines, plan, outcome%numbers)
       call lines%line("")
@@ -259,6 +261,7 @@ contains
       call json%put_text("directory", plan%directory)
       call put_summary(json, summary)
       if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))
+      call horizon_json(plan%horizon, json)
       if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)

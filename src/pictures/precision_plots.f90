@@ -6,6 +6,7 @@
 module precision_plots
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t
+   use exponent_plot, only: exponent_rows, exponent_script, has_exponent
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use plot_text, only: quoted
@@ -54,10 +55,16 @@ contains
          call append_text(names, "precision")
          call append_text(names, "precision_views")
       end if
-      if (study%growth%reason /= "") return
-      call write_file(folder//"/horizon.dat", heading//horizon_rows(study), error)
-      if (.not. allocated(error)) call write_file(folder//"/horizon.gp", horizon_script(study, title), error)
-      if (.not. allocated(error)) call append_text(names, "horizon")
+      if (study%growth%reason == "") then
+         call write_file(folder//"/horizon.dat", heading//horizon_rows(study), error)
+         if (.not. allocated(error)) call write_file(folder//"/horizon.gp", horizon_script(study, title), error)
+         if (allocated(error)) return
+         call append_text(names, "horizon")
+      end if
+      if (.not. has_exponent(study%horizon)) return
+      call write_file(folder//"/exponent.dat", heading//exponent_rows(study%horizon), error)
+      if (.not. allocated(error)) call write_file(folder//"/exponent.gp", exponent_script(study%horizon, title), error)
+      if (.not. allocated(error)) call append_text(names, "exponent")
    end subroutine write_precision_plots
 
    !> Processor time over error.

@@ -1,5 +1,6 @@
 !> What a comparison of settings gives: ladders of runs with their costs and errors, the reference, the choice.
 module precision_results
+   use exponent, only: horizon_t
    use growth, only: growth_t, n_digit
    use kinds, only: i8, not_a_number, wp
    use precision_info, only: setting_t
@@ -86,6 +87,7 @@ module precision_results
       logical :: is_cut = .false.                     !! whether that is before the end
       logical :: is_unsure = .false.                  !! the reference is not known so well at any time: all of it is compared
       type(growth_t) :: growth                        !! of the distance of neighbouring starts
+      type(horizon_t) :: horizon                      !! largest Lyapunov exponent, and digits by it
       integer :: best_ladder = 0                      !! of the cheapest setting that reaches the error wanted, 0: none does
       integer :: best_rung = 0                        !! its rung
       real(wp) :: confirmed_error = 0.0_wp            !! of the choice, run once more; NaN: it was not [1]

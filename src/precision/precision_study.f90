@@ -5,6 +5,7 @@
 !> processor time is that of the solution: making the system and the output are not in it.
 module precision_study
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use exponent_runs, only: find_horizon, horizon_with_twin, plan_horizon
    use kept_run, only: kept_run_t
    use kinds, only: not_a_number, wp
    use precision_choice, only: choose_best, find_orders
@@ -28,6 +29,8 @@ module precision_study
    real(wp), parameter :: until_ladders = 0.45_wp      !! runs that are compared
    real(wp), parameter :: until_reference = 0.65_wp    !! the reference and what confirms it
    real(wp), parameter :: until_twins = 0.75_wp        !! twins
+   real(wp), parameter :: until_tangent = 0.80_wp      !! the exponent by the tangent
+   real(wp), parameter :: until_exponent = 0.85_wp     !! the exponent by a twin
    real(wp), parameter :: until_times = 0.95_wp        !! rounds of timing
    real(wp), parameter :: until_choice = 1.0_wp        !! the choice, run once more
    real(wp), parameter :: least_rise = 1.1_wp          !! of the time of a run over that of the rung before, for a forecast [1]
@@ -65,13 +68,13 @@ contains
       if (reference%is_there) call measure_all(study, kept, reference)
       call run_twins(job, budget, until_twins, scene%settings%precision%number("perturbation"), kept, reference, study)
       call raise_horizons(study)
+      call find_exponents(job, budget, study)
       call display%update(0.5_wp)
       call time_rounds(job, budget, nint(scene%settings%precision%number("rounds")), display, study)
       call find_orders(study)
       call choose_best(study)
       call confirm_choice(job, budget, reference, study)
       study%spent = budget%elapsed()
-
    end subroutine study_precision
 
    !> Digits that the reference and its confirmation have in common a trajectory can have, whatever the law of growth says of
@@ -88,6 +91,20 @@ contains
          end associate
       end do
    end subroutine raise_horizons
+
+   !> The largest Lyapunov exponent by both methods.
+   subroutine find_exponents(job, budget, study)
+      type(job_t), intent(inout) :: job                  !! what runs share
+      type(time_budget_t), intent(in) :: budget          !! the time
+      type(precision_t), intent(inout) :: study          !! its horizon is set
+
+      call plan_horizon(job%scene%settings%precision%item_t, study%end, study%horizon)
+      if (job%scene%settings%precision%number("perturbation") <= 0.0_wp) return
+      job%cpu = budget%cpu_left(until_tangent)
+      call find_horizon(job, study%horizon)
+      job%cpu = budget%cpu_left(until_exponent)
+      call horizon_with_twin(job, study%horizon)
+   end subroutine find_exponents
 
    !> What all runs share: the instants compared are equal parts of the motion, whatever the deck's output is.
    subroutine new_job(scene, plan, stop, job)

@@ -27,7 +27,7 @@ module setting_run
    use time_plan, only: time_plan_t
    implicit none (type, external)
    private
-   public :: has_fixed_steps, job_t, outcome_t, run_setting, shorter
+   public :: first_line, has_fixed_steps, job_t, outcome_t, prepare_run, run_setting, shorter
 
    !> What all runs of a scene share.
    type :: job_t
@@ -81,7 +81,6 @@ contains
       type(outcome_t), intent(out) :: outcome         !! what came of it
 
       class(integrator_t), allocatable :: method
-      type(assembly_t) :: assembly
       type(error_t), allocatable :: error
       type(limits_t) :: limits
       type(mechanism_t) :: system
@@ -91,24 +90,9 @@ contains
 
       outcome%reason = ""
       call cpu_time(cpu_0)
-      call take_setting(job, setting, asked, error)
+      call prepare_run(job, setting, asked, system, method, y, error)
       if (.not. allocated(error)) then
-         call new_system(job%scene, levels_as_written, system)
-         call find_integrator(setting%method, method)
-         call read_controls(job%scene%settings%dynamic%item_t, method%controls)
-         if (job%member > 0) then
-            call find_start(job%scene, levels_as_written, system, y, assembly, error, &
-                            random_shift(job%scene%bodies, system%linkage%coordinates, 1, job%member, job%length, &
-                                         job%speed))
-         else if (job%start > 0) then
-            call find_start(job%scene, levels_as_written, system, y, assembly, error, &
-                            new_shift(job%scene, system%linkage%coordinates, job%start))
-         else
-            call find_start(job%scene, levels_as_written, system, y, assembly, error)
-         end if
-         if (.not. allocated(error)) then
-            call new_subsystems(job%scene, levels_as_written, system, method, job%plan%end, subsystems)
-         end if
+         call new_subsystems(job%scene, levels_as_written, system, method, job%plan%end, subsystems)
       end if
       call cpu_time(cpu_1)
       outcome%setup = cpu_1 - cpu_0
@@ -124,6 +108,34 @@ contains
       outcome%is_late = job%cpu > 0.0_wp .and. cpu_0 - cpu_1 > job%cpu
       if (.not. allocated(outcome%summary%status)) outcome%summary%cpu_seconds = not_a_number()
    end subroutine run_setting
+
+   !> The system and its integrator, made anew, with the start.
+   subroutine prepare_run(job, setting, asked, system, method, y, error)
+      type(job_t), intent(inout) :: job                               !! what all runs share
+      type(setting_t), intent(in) :: setting                          !! the setting
+      real(wp), intent(in) :: asked                                   !! tolerance, or length of fixed steps [1 or s]
+      type(mechanism_t), intent(inout) :: system                      !! the system, new
+      class(integrator_t), allocatable, intent(out) :: method         !! the integrator, not started
+      real(wp), allocatable, intent(out) :: y(:)                      !! (n) state at t = 0 [any]
+      type(error_t), allocatable, intent(out) :: error                !! parts of the setting do not agree, or there is no start
+
+      type(assembly_t) :: assembly
+
+      call take_setting(job, setting, asked, error)
+      if (allocated(error)) return
+      call new_system(job%scene, levels_as_written, system)
+      call find_integrator(setting%method, method)
+      call read_controls(job%scene%settings%dynamic%item_t, method%controls)
+      if (job%member > 0) then
+         call find_start(job%scene, levels_as_written, system, y, assembly, error, &
+                         random_shift(job%scene%bodies, system%linkage%coordinates, 1, job%member, job%length, job%speed))
+      else if (job%start > 0) then
+         call find_start(job%scene, levels_as_written, system, y, assembly, error, &
+                         new_shift(job%scene, system%linkage%coordinates, job%start))
+      else
+         call find_start(job%scene, levels_as_written, system, y, assembly, error)
+      end if
+   end subroutine prepare_run
 
    !> Give the scene a setting.
    subroutine take_setting(job, setting, asked, error)

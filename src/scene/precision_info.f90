@@ -58,6 +58,12 @@ contains
                       lower=2.0_wp, upper=1.0e6_wp)
       call add_number(info, "perturbation", dim_none, "greatest displacement of the start of a twin run, of the size of the " &
                       //"mechanism; 0: no twins", default="1e-9", lower=0.0_wp, upper=1.0e-3_wp)
+      call add_number(info, "exponent_end", dim_time, "end of the motion whose Lyapunov exponent is found; 0: as the deck's", &
+                      default="0 s", lower=0.0_wp)
+      call add_number(info, "exponent_instants", dim_none, "equal parts of it, at which growth is noted and the twin brought " &
+                      //"back", default="640", lower=16.0_wp, upper=1.0e6_wp)
+      call add_number(info, "settle", dim_none, "part of it that the exponent leaves out as the transient", &
+                      default="0.25", lower=0.0_wp, upper=0.9_wp)
       call add_number(info, "budget", dim_time, "time that all of it may take; 0: no limit", default="60 s", lower=0.0_wp)
    end function precision_section
 

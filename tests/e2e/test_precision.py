@@ -128,7 +128,7 @@ def test_all_that_is_written(gudgeon):
     """Files say the same; the choice is the cheapest that reaches the error wanted, and gives the same once more."""
     study = regular(gudgeon, "pendulum")
     assert {path.name for path in study.directory.iterdir()} >= EXPECTED_FILES
-    assert {path.name for path in (study.directory / "figures").glob("*.png")} == {"precision.png", "precision_views.png", "horizon.png"}
+    assert {path.name for path in (study.directory / "figures").glob("*.png")} == {"precision.png", "precision_views.png", "horizon.png", "exponent.png"}
     names = list(study.read("errors/names"))
     errors = study.read("runs/error")
     assert_close(errors[:, names.index("motion")], [row["motion"] for row in study.rows], relative=1e-15)

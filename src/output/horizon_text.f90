@@ -1,0 +1,146 @@
+!> The largest Lyapunov exponent and the horizon in words, and for scripts.
+module horizon_text
+   use batch_means, only: estimate_t
+   use exponent, only: exponent_t, horizon_t, verdict, verdict_apart, verdict_together, verdict_unclear, verdict_unknown
+   use growth, only: n_digit
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use json_text, only: json_object_t
+   use kinds, only: i8, wp
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: add_horizon, horizon_json
+
+contains
+
+   !> The exponents, what they mean, and how long there are digits.
+   subroutine add_horizon(lines, horizon)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(horizon_t), intent(in) :: horizon      !! what is known
+
+      if (.not. allocated(horizon%t)) return
+      if (verdict(horizon) == verdict_unknown) then
+         call lines%line("exponent   not known: "//horizon%tangent%reason)
+         return
+      end if
+      if (horizon%tangent%reason == "") then
+         call lines%line("exponent   "//rate_text(horizon%tangent%rate)//" from "//real_text(horizon%after, 3)//" to "// &
+                         real_text(horizon%t(size(horizon%t)), 3)//" s, by the tangent, which jumps at "// &
+                         to_text(horizon%n_crossed)//" events")
+      else
+         call lines%line("exponent   by the tangent not known: "//horizon%tangent%reason)
+      end if
+      if (horizon%twin%reason == "") then
+         call lines%line("           "//rate_text(horizon%twin%rate)//" by a twin, brought back "//to_text(horizon%n_renewed)// &
+                         " times"//agreement(horizon))
+      else if (horizon%with_twin) then
+         call lines%line("           by a twin not known: "//horizon%twin%reason)
+      end if
+      call lines%line("           "//meaning(horizon))
+      if (horizon%n_grazed > 0) call lines%line("           "//to_text(horizon%n_grazed)// &
+         " events graze: there is no tangent at such an instant, and it was taken as if nothing jumped")
+      if (horizon%n_together > 0) call lines%line("           "//to_text(horizon%n_together)// &
+         " instants have several events: the tangent knows of the first only")
+      if (horizon%tangent%reason /= "") return
+      call lines%line("           digits in double precision: "//digits_text(horizon%digits))
+      if (horizon%asked > 0.0_wp) call lines%line("           digits of a run of tolerance "//to_text(horizon%asked)//": "// &
+                                                  digits_text(horizon%run_digits))
+   end subroutine add_horizon
+
+   !> An exponent with its interval.
+   function rate_text(rate) result(words)
+      type(estimate_t), intent(in) :: rate        !! the exponent [s^-1]
+      character(:), allocatable :: words          !! as `12.3 +-0.4 1/s`
+
+      words = real_text(rate%value, 4)//" +-"//real_text(rate%half, 2)//" 1/s"
+   end function rate_text
+
+   !> Whether both methods agree.
+   function agreement(horizon) result(words)
+      type(horizon_t), intent(in) :: horizon      !! what is known
+      character(:), allocatable :: words          !! blank if one of them is not known
+
+      words = ""
+      if (horizon%tangent%reason /= "" .or. horizon%twin%reason /= "") return
+      words = trim(merge(": within both intervals the same       ", ": NOT the same within their intervals  ", horizon%is_agreed))
+   end function agreement
+
+   !> What the exponent means.
+   function meaning(horizon) result(words)
+      type(horizon_t), intent(in) :: horizon      !! what is known
+      character(:), allocatable :: words          !! one line
+
+      select case (verdict(horizon))
+      case (verdict_apart)
+         words = "neighbouring motions part exponentially: chaotic, or unstable"
+      case (verdict_together)
+         words = "neighbouring motions come together: the motion is stable"
+      case (verdict_unclear)
+         words = "not told from zero: its interval has both signs; a longer motion (exponent_end) tells more"
+      case default
+         words = "not told from zero: neighbouring motions part no faster than a power of time"
+      end select
+   end function meaning
+
+   !> Times up to which there are digits.
+   function digits_text(digits) result(words)
+      real(wp), intent(in) :: digits(:)           !! (k) times of k digits; NaN: beyond the end [s]
+      character(:), allocatable :: words          !! one line
+
+      integer :: k
+
+      words = ""
+      do k = n_digit, 1, -1
+         if (.not. ieee_is_finite(digits(k))) exit
+         if (digits(k) <= 0.0_wp) cycle
+         words = words//", "//to_text(k)//" to "//real_text(digits(k), 3)//" s"
+      end do
+      if (k > 0) words = words//", "//to_text(k)//" to the end"
+      words = words(3:)
+   end function digits_text
+
+   !> The same for scripts.
+   subroutine horizon_json(horizon, json)
+      type(horizon_t), intent(in) :: horizon       !! what is known
+      type(json_object_t), intent(inout) :: json   !! grown
+
+      integer :: k
+
+      if (.not. allocated(horizon%t)) return
+      call put(horizon%tangent, "exponent")
+      if (horizon%with_twin) then
+         call put(horizon%twin, "exponent_by_twin")
+         call json%put_logical("exponents_agree", horizon%is_agreed)
+      end if
+      call json%put_real("exponent_from", horizon%after)
+      call json%put_real("exponent_to", horizon%t(size(horizon%t)))
+      call json%put_integer("exponent_jumps", int(horizon%n_crossed, i8))
+      call json%put_integer("exponent_grazing", int(horizon%n_grazed, i8))
+      call json%put_integer("exponent_together", int(horizon%n_together, i8))
+      do k = 1, n_digit
+         call json%put_real("horizon_"//to_text(k), horizon%digits(k))
+      end do
+      if (horizon%asked <= 0.0_wp) return
+      do k = 1, n_digit
+         call json%put_real("horizon_of_run_"//to_text(k), horizon%run_digits(k))
+      end do
+
+   contains
+
+      !> What a method says.
+      subroutine put(exponent, name)
+         type(exponent_t), intent(in) :: exponent   !! the method's
+         character(*), intent(in) :: name           !! of its numbers
+
+         call json%put_text(name//"_reason", exponent%reason)
+         if (exponent%reason /= "") return
+         call json%put_real(name, exponent%rate%value)
+         call json%put_real(name//"_interval", exponent%rate%half)
+         call json%put_integer(name//"_batches", int(exponent%rate%n_batch, i8))
+         call json%put_real(name//"_effective", exponent%rate%n_effective)
+      end subroutine put
+
+   end subroutine horizon_json
+
+end module horizon_text

@@ -1,0 +1,155 @@
+!> The figure of the largest Lyapunov exponent: growth of a small change by both methods, and the exponent as it settles.
+module exponent_plot
+   use batch_means, only: estimate_t
+   use display_units, only: choose_unit, display_unit_t
+   use exponent, only: horizon_t
+   use growth, only: n_digit
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use plot_text, only: quoted
+   use precision_rows, only: number
+   use script_parts, only: colours, preamble
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: exponent_rows, exponent_script, has_exponent
+
+contains
+
+   !> Whether there is anything to draw.
+   pure logical function has_exponent(horizon)
+      type(horizon_t), intent(in) :: horizon   !! what is known
+
+      has_exponent = .false.
+      if (allocated(horizon%t)) has_exponent = horizon%tangent%reason == "" .or. horizon%twin%reason == ""
+   end function has_exponent
+
+   !> Growth over time, and the mean rate from the end of the transient on.
+   function exponent_rows(horizon) result(text)
+      type(horizon_t), intent(in) :: horizon   !! what is known
+      character(:), allocatable :: text        !! whole lines
+
+      type(buffer_t) :: lines
+      integer :: first, i
+
+      call lines%line("# time [s], ln of growth by the tangent, by a twin, mean rate so far [1/s] by the tangent, by a twin")
+      first = max(1, count(horizon%t <= horizon%after*(1.0_wp + 1.0e-9_wp)))
+      do i = 1, size(horizon%t)
+         call lines%line(number(horizon%t(i))//" "//number(horizon%tangent%growth(i))//" "//number(horizon%twin%growth(i))//" "// &
+                         mean_rate(horizon%tangent%growth)//" "//mean_rate(horizon%twin%growth))
+      end do
+      text = lines%get()
+
+   contains
+
+      !> Mean rate from the end of the transient to instant i.
+      function mean_rate(growth) result(word)
+         real(wp), intent(in) :: growth(:)        !! (instants) ln of the growth [1]
+         character(:), allocatable :: word        !! the rate, or NaN
+
+         word = "NaN"
+         if (i > first) word = number((growth(i) - growth(first))/(horizon%t(i) - horizon%t(first)))
+      end function mean_rate
+
+   end function exponent_rows
+
+   !> Two panels: the growth, and the exponent with its interval.
+   function exponent_script(horizon, title) result(script)
+      type(horizon_t), intent(in) :: horizon   !! what is known
+      character(*), intent(in) :: title        !! of the scene, any text
+      character(:), allocatable :: script      !! lines for gnuplot
+
+      type(buffer_t) :: lines
+      type(display_unit_t) :: time
+      real(wp) :: end
+
+      end = horizon%t(size(horizon%t))
+      time = choose_unit("s", end)
+      call preamble(lines, "exponent", 1200, 1000)
+      call lines%line("f = "//real_text(time%factor, 9))
+      call lines%line("set multiplot layout 2,1 title "//quoted(title)//" font ',17'")
+      call lines%line("set xrange [0:"//number(end*time%factor)//"]; set datafile missing 'NaN'")
+      call lines%line("set key noautotitle inside bottom right vertical Left reverse samplen 2 spacing 1.2 opaque")
+      call lines%line("set xlabel "//quoted("time ["//time%symbol//"]"))
+      call lines%line("set ylabel 'growth of a small change of the start [1]'")
+      call lines%line("set format y '1e%+.0f'; e = log(10.)")
+      call add_digits(lines, horizon, time)
+      call lines%line("plot "//curve("($1*f)", "($2/e)", 1, "by the tangent, with jumps at "//to_text(horizon%n_crossed)// &
+                                     " events", "linewidth 2")//", \")
+      call lines%line("     "//curve("($1*f)", "($3/e)", 2, "by a twin, brought back "//to_text(horizon%n_renewed)//" times", &
+                                     "linewidth 1.5 dashtype 2"))
+      call lines%line("unset arrow; unset label; set format y '%g'; set key top right")
+      call lines%line("set ylabel 'mean exponent so far, without the transient [1/s]'")
+      call lines%line("set xrange ["//number(horizon%after*time%factor)//":"//number(end*time%factor)//"]")
+      call add_interval(lines, horizon)
+      call lines%line("plot 0 with lines linewidth 1 linecolor rgb '#404040', \")
+      call lines%line("     "//curve("($1*f)", "4", 1, "tangent: "//words_of(horizon%tangent%rate), "linewidth 2")//", \")
+      call lines%line("     "//curve("($1*f)", "5", 2, "twin: "//words_of(horizon%twin%rate), "linewidth 1.5 dashtype 2"))
+      call lines%line("unset multiplot")
+      call lines%line("unset output")
+      script = lines%get()
+   end function exponent_script
+
+   !> Marks of the times up to which there are digits.
+   subroutine add_digits(lines, horizon, time)
+      type(buffer_t), intent(inout) :: lines    !! the script
+      type(horizon_t), intent(in) :: horizon    !! what is known
+      type(display_unit_t), intent(in) :: time  !! unit of the abscissa
+
+      character(:), allocatable :: at
+      real(wp) :: last
+      integer :: k
+
+      last = -1.0_wp
+      do k = n_digit, 1, -1
+         if (.not. ieee_is_finite(horizon%digits(k))) cycle
+         if (horizon%digits(k) - last < 0.02_wp*horizon%t(size(horizon%t))) cycle
+         last = horizon%digits(k)
+         at = number(last*time%factor)
+         call lines%line("set arrow from first "//at//", graph 0 to first "//at//", graph 1 nohead dashtype 2 linecolor "// &
+                         "rgb '#909090'")
+         call lines%line("set label '"//to_text(k)//trim(merge(" digit ", " digits", k == 1))//"' at first "//at// &
+                         ", graph 0.98 right rotate by 90 offset -0.7,0 font ',12' textcolor rgb '#606060'")
+      end do
+   end subroutine add_digits
+
+   !> The interval of the exponent, and the range around it.
+   subroutine add_interval(lines, horizon)
+      type(buffer_t), intent(inout) :: lines    !! the script
+      type(horizon_t), intent(in) :: horizon    !! what is known
+
+      type(estimate_t) :: rate
+      real(wp) :: reach
+
+      rate = horizon%tangent%rate
+      if (horizon%tangent%reason /= "") rate = horizon%twin%rate
+      reach = max(5.0_wp*rate%half, 1.2_wp*abs(rate%value), tiny(1.0_wp))
+      call lines%line("set yrange ["//number(rate%value - reach)//":"//number(rate%value + reach)//"]")
+      call lines%line("set object 1 rectangle from graph 0, first "//number(rate%value - rate%half)//" to graph 1, first "// &
+                      number(rate%value + rate%half)//" behind fillcolor rgb '#e4ecf4' fillstyle solid noborder")
+   end subroutine add_interval
+
+   !> A curve of the numbers.
+   function curve(x, y, colour, title, style) result(words)
+      character(*), intent(in) :: x            !! abscissa
+      character(*), intent(in) :: y            !! ordinate
+      integer, intent(in) :: colour            !! number of the colour
+      character(*), intent(in) :: title        !! in the legend
+      character(*), intent(in) :: style        !! of the line
+      character(:), allocatable :: words       !! part of `plot`
+
+      words = "'exponent.dat' using "//x//":"//y//" with lines "//style//" linecolor rgb '"//colours(colour)//"' title "// &
+              quoted(title)
+   end function curve
+
+   !> An exponent with its interval.
+   function words_of(rate) result(words)
+      type(estimate_t), intent(in) :: rate     !! the exponent [s^-1]
+      character(:), allocatable :: words       !! one line
+
+      words = "not known"
+      if (ieee_is_finite(rate%half)) words = real_text(rate%value, 4)//" +-"//real_text(rate%half, 2)//" 1/s"
+   end function words_of
+
+end module exponent_plot
