@@ -2,8 +2,9 @@
 !>
 !> x 10^(16 - k), with k the decimal exponent, is formed in double-double arithmetic (after T. J. Dekker, A floating-point technique
 !> for extending the available precision, Numerische Mathematik 18, 1971, 224-242; halves are taken by their bits, which no
-!> fused operation changes): its whole part holds the digits, and its fraction, known to about 1e-11, says how to round. Where that is within 1e-6 of a half, and for numbers near the ends of the range, the
-!> run-time library writes instead, so that every digit is its own.
+!> fused operation changes): its whole part holds the digits, and its fraction, known to about 1e-11, says how to round. Where that
+!> is within 1e-6 of a half, and for numbers near the ends of the range, the run-time library writes instead, so that every
+!> digit is its own.
 module decimal_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_negative
    use kinds, only: i8, wp

@@ -146,7 +146,7 @@ contains
    !> Numbers side by side, with 17 digits, which read back to the same numbers.
    subroutine put_row_of_numbers(numbers, line)
       real(wp), intent(in) :: numbers(:)    !! (n) any [any]
-      character(*), intent(out) :: line     !! (decimal_width*n) each with a blank after it
+      character(decimal_width*size(numbers)), intent(out) :: line  !! each with a blank after it
 
       integer :: k
 

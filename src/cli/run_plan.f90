@@ -1,0 +1,147 @@
+!> What a run of a deck is to write and to say: the plan that its recorder follows.
+module run_plan
+   use build_info, only: compiler, git_sha1
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_t
+   use channels, only: find_scalars, item_finder_t
+   use consistent_start, only: assembly_t
+   use deck_texts, only: deck_text, get_includes
+   use figure_words, only: check_figures
+   use item, only: place_of
+   use kinds, only: wp
+   use libraries, only: library_versions
+   use load, only: loaded_t
+   use mechanism_report, only: build_catalogue
+   use options, only: options_t
+   use output_directory, only: output_directory_t
+   use output_plan, only: output_plan_t, show_json, show_nothing
+   use row_plan, only: contact_rows_text, has_contact_rows
+   use scene, only: analysis_dynamic, analysis_names
+   use scene_echo, only: echo_scene
+   use start_state, only: redundancy_text
+   use statistics, only: statistics_plan_t
+   use text, only: append_text, real_text, text_t, to_text
+   use text_list, only: text_list_t
+   use version, only: program_version
+   implicit none (type, external)
+   private
+   public :: make_plan
+
+   real(wp), parameter :: negligible = 1.0e-6_wp  !! change of a given velocity that is not worth a word [1]
+
+contains
+
+   !> What the recorder is told.
+   subroutine make_plan(options, loaded, directory, assembly, plan)
+      type(options_t), intent(in) :: options       !! the command line
+      type(loaded_t), intent(in) :: loaded         !! the deck
+      type(output_directory_t), intent(in) :: directory  !! of the run
+      type(assembly_t), intent(in) :: assembly     !! how the start was found
+      type(output_plan_t), intent(out) :: plan     !! the plan
+
+      plan%warnings = directory%warnings
+      plan%directory = directory%path
+      plan%origin%deck_name = loaded%path
+      plan%origin%deck_text = deck_text(loaded%deck)
+      plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
+      plan%title = loaded%scene%title
+      plan%origin%program_version = program_version
+      plan%origin%git_sha1 = git_sha1
+      plan%origin%compiler = compiler
+      plan%origin%libraries = library_versions()
+      plan%origin%command = options%command
+      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
+      call plan_statistics(loaded, plan%statistics)
+      call known_words(loaded, plan)
+      if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
+         call append_text(plan%warnings, "the start velocity that the deck gives body '"// &
+                          loaded%scene%bodies%names(assembly%changed_body)%s// &
+                          "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
+      end if
+      if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
+      plan%with%contact_rows = has_contact_rows(loaded%scene, loaded%system)
+      plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
+      plan%with%histories = options%write /= "numbers"
+      plan%with%texts = options%write == "all"
+      plan%with%figures = options%write == "all"
+      if (loaded%sweep%is_present .and. options%write == "all") then
+         call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
+                          " cases; this is the deck's own case ('gudgeon sweep' runs them)")
+      end if
+      if (options%is_json) plan%show = show_json
+      if (options%is_quiet) then
+         plan%with%progress = .false.
+         plan%with%warnings = .false.
+         if (.not. options%is_json) plan%show = show_nothing
+      end if
+   end subroutine make_plan
+
+   !> What the deck asks of the statistics of a motion.
+   subroutine plan_statistics(loaded, plan)
+      type(loaded_t), intent(in) :: loaded            !! the deck
+      type(statistics_plan_t), intent(out) :: plan    !! what is asked for
+
+      plan%is_wanted = loaded%scene%settings%statistics%is_present .and. loaded%scene%analysis == analysis_dynamic
+      if (.not. plan%is_wanted) return
+      plan%after = loaded%plan%after
+      plan%end = loaded%plan%end
+      plan%period = loaded%plan%period
+      associate (settings => loaded%scene%settings%statistics)
+         plan%channels = settings%values(place_of(settings, "channels"))%words
+         plan%spectra = settings%values(place_of(settings, "spectra"))%words
+         plan%bins = nint(settings%number("bins"))
+      end associate
+   end subroutine plan_statistics
+
+   !> The deck's words for channels and figures, without those that the joints taken as ideal do not have.
+   subroutine known_words(loaded, plan)
+      type(loaded_t), intent(in) :: loaded           !! the deck
+      type(output_plan_t), intent(inout) :: plan     !! words are set, dropped ones become warnings
+
+      type(catalogue_t) :: catalogue
+      type(item_finder_t) :: finder
+      character(:), allocatable :: reason
+
+      reason = "the joint is ideal"
+      if (loaded%scene%analysis /= analysis_dynamic) then
+         reason = "not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
+      end if
+      call build_catalogue(loaded%system, catalogue)
+      call finder%start(catalogue)
+      call keep("channel", "channels", plan%channels)
+      call keep("figure", "figures", plan%figures)
+
+   contains
+
+      !> Keep the words of a key that this run knows.
+      subroutine keep(one, key, kept)
+         character(*), intent(in) :: one                        !! what a word names
+         character(*), intent(in) :: key                        !! key of [output]
+         type(text_t), allocatable, intent(out) :: kept(:)      !! (any) words
+
+         type(scalar_t), allocatable :: scalars(:)
+         character(:), allocatable :: hint, message
+         type(text_list_t) :: list
+         integer :: bad, k
+
+         associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
+            do k = 1, size(words)
+               if (one == "figure") then
+                  call check_figures(words(k:k), catalogue, bad, message, hint)
+               else
+                  call find_scalars(words(k)%s, catalogue, finder, scalars, message, hint)
+                  bad = merge(1, 0, len(message) > 0)
+               end if
+               if (bad == 0) then
+                  call list%add(words(k)%s)
+               else
+                  call append_text(plan%warnings, one//" '"//words(k)%s//"' left out: "//reason)
+               end if
+            end do
+         end associate
+         kept = list%get()
+      end subroutine keep
+
+   end subroutine known_words
+
+end module run_plan
