@@ -79,7 +79,7 @@ check:
 
 bench:
 	$(inner)release binary bench_programs
-	@GUDGEON_BUILD=$(abspath $(BUILD)) tests/bench/run_bench.sh
+	@GUDGEON_BUILD=$(abspath $(BUILD)) tests/bench/run_bench.sh $(BENCH)
 
 # Other programs on the same scenes: PEERS='--quick' for options of tests/bench/peers/peers.py
 bench-peers:
@@ -148,6 +148,7 @@ help:
 	@echo "           LINK=static|shared (libraries within the program, where Debian's archives are there; a path above means shared)"
 	@echo "           PREFIX=/usr/local DESTDIR= (before every path installed)"
 	@echo "           PYTEST='-k expression' (options for make test)  STABILITY='--required A02' (options for make stability)"
+	@echo "           BENCH='--quick --docs' (options for make bench; --docs writes docs/performance.md)"
 
 # ---- building one mode ------------------------------------------------------------------------------
 

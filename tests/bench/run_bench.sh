@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Speed against error of the dry slider-crank beside a hand-coded program of the same scene (bench.py), time and memory of
-# large scenes (large_scenes.py), speed against error of each way of holding the constraints (holding.py).
-# Called by `make bench`, which builds the programs. Options go to all three: --repeat N, --quick; --callgrind to the first.
+# large scenes (large_scenes.py), speed against error of each way of holding the constraints (holding.py), a small run from start to exit
+# (small_run.py). --docs: docs/performance.md from all of it (report.py).
+# Called by `make bench`, which builds the programs. Options go to all: --repeat N, --quick; --callgrind to the first.
 # Speed fails nothing: the exit code is 0 unless something could not be run at all.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -16,6 +17,14 @@ for program in "$build/gudgeon" "$build/bench/minimal_slider_crank"; do
       exit 1
    fi
 done
+docs=""
+options=()
+for option in "$@"; do
+   if [ "$option" = --docs ]; then docs=yes; else options+=("$option"); fi
+done
+set -- "${options[@]+"${options[@]}"}"
 "$python" tests/bench/bench.py --build "$build" "$@"
+"$python" tests/bench/small_run.py --build "$build" "$@"
 "$python" tests/bench/large_scenes.py --build "$build" "$@"
 "$python" tests/bench/holding.py --build "$build" "$@"
+[ -z "$docs" ] || "$python" tests/bench/report.py --build "$build"

@@ -1,0 +1,96 @@
+"""docs/performance.md from the tables and pictures that the timers left in build/bench: `make bench BENCH=--docs`.
+
+Tables of `make bench-peers` are in it if they are there. Nothing is measured here.
+"""
+
+import argparse
+import csv
+import pathlib
+import shutil
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+# Table, picture, heading, what stands before the table.
+PARTS = (
+    ("slider_crank_dry.csv", "slider_crank_dry.png", "Speed against error: the dry slider-crank of section 4.4",
+     "24 ms, two turns. Errors: the greatest of the first ten onsets [s], the greatest relative ones of speeds and peak forces of the "
+     "first five impacts, against an independent solution. `hand-coded`: a program for this one scene in minimal coordinates, the "
+     "limit of what a general program can hope for. `ns_least`: of the shortest run."),
+    ("small_run.csv", None, "A small run from start to exit",
+     "The same mechanism, figures off: processor time of the whole process, median and least, and its greatest memory. The first run has "
+     "two output instants of one channel, the second those of the deck (2401 instants, and rows at contacts)."),
+    ("rooms.csv", None, "Where the instructions of that run go",
+     "With the output of the deck, by room of src/ and by library (callgrind)."),
+    ("large_scenes.csv", "large_scenes.png", "Large scenes: time by body, start, memory",
+     "Decks of `scripts/make_chain`, ledger off, RK4 in steps of 1 ms. `us_per_body`: by body and right-hand side; `start_s`: reading, "
+     "assembling and output; memory beyond that of the smallest scene."),
+    ("holding.csv", None, "Ways of holding the constraints, and integrators",
+     "CPU time against error over a ladder of tolerances."),
+    ("peers/peers_ratio.csv", None, "Other programs on the same scenes (`make bench-peers`)",
+     "Time of Simbody (Runge-Kutta-Merson and -Fehlberg; Adams of CPODES for chains), MuJoCo (RK4, implicitfast) and Exudyn (kinematic "
+     "tree with DOPRI5 for chains, index-2 trapezoidal rule for loops) over gudgeon's (verner, ledger off) at the same error; each by its "
+     "cheapest setting. Empty: that error is not reached, or the program is not tried on that scene: contact laws as these cannot be "
+     "given to MuJoCo's and Exudyn's compiled code. Errors: greatest distance of a centre of mass at the end, over the scene's size; "
+     "of the slider-crank the greatest of ten onsets [s]."),
+)
+MOST_ROWS = 60
+
+
+def value(text):
+    """A cell: three digits of a number, nothing for one that is none."""
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    if number != number:
+        return ""
+    return text if number == int(number) and abs(number) < 1e6 else f"{number:.3g}"
+
+
+def table(path):
+    """A CSV file as Markdown."""
+    with open(path, newline="", encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|"*len(head)]
+    lines += ["| " + " | ".join(value(cell) for cell in row) + " |" for row in rows[:MOST_ROWS]]
+    if len(rows) > MOST_ROWS:
+        lines.append(f"\n{len(rows) - MOST_ROWS} more rows: `make bench`, build/bench/{path.name}.")
+    return "\n".join(lines)
+
+
+def machine():
+    """Processor, compiler and revision in a line."""
+    model = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+                  if line.startswith("model name")), "unknown processor")
+    compiler = subprocess.run(["gfortran", "--version"], capture_output=True, text=True).stdout.splitlines()[:1]
+    return f"{model}, shared with others; {compiler[0] if compiler else 'compiler unknown'}, `-O3 -march=x86-64-v3`, one thread."
+
+
+def main():
+    """Write the page."""
+    options = argparse.ArgumentParser(description=__doc__)
+    options.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="where the tables are")
+    given, _ = options.parse_known_args()
+    results, docs = given.build / "bench", ROOT / "docs"
+    text = ["# Performance", "",
+            "Written by `make bench BENCH=--docs` (tests/bench/report.py) from the last measurement; what it means stands in "
+            "[accuracy.md](accuracy.md). " + machine(), "",
+            "CPU times are medians over rounds in each of which everything ran once. Others use the machine too: compare ratios within "
+            "a table."]
+    for name, picture, heading, words in PARTS:
+        if not (results / name).exists():
+            continue
+        text += ["", f"## {heading}", "", words, "", table(results / name)]
+        if picture and (results / picture).exists():
+            shutil.copy(results / picture, docs / f"performance_{picture}")
+            text += ["", f"![{heading}](performance_{picture})"]
+    for picture in sorted((results / "peers").glob("peers_*.png")):
+        shutil.copy(picture, docs / f"performance_{picture.name}")
+        text += ["", f"![{picture.stem}](performance_{picture.name})"]
+    (docs / "performance.md").write_text("\n".join(text) + "\n", encoding="utf-8")
+    print(f"{docs / 'performance.md'} written.")
+
+
+if __name__ == "__main__":
+    main()
