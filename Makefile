@@ -245,9 +245,13 @@ ARCHIVES := $(and $(OPENBLAS),$(wildcard /usr/lib/*/libsundials_fcvode_mod.a),$(
   $(wildcard /usr/lib/*/libfftw3.a))
 LINK ?= $(if $(SUNDIALS_DIR)$(HDF5_DIR)$(SUITESPARSE_DIR)$(FFTW_DIR)$(LAPACK),shared,$(if $(ARCHIVES),static,shared))
 ifeq ($(LINK),static)
-# What blas_threads looks up at run time stays visible.
-LIBRARIES := -Wl,-Bstatic -Wl,--start-group $(SUNDIALS_LIBRARIES) -Wl,--end-group \
-  -lhdf5_serial_fortran -lhdf5_serial_hl -lhdf5_serial -lsz -laec -lz -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
+# The archive of HDF5 after 1.10 wants those of curl and OpenSSL, which have no end: there HDF5 alone is loaded. What blas_threads looks
+# up at run time stays visible.
+HDF5_MINOR := $(shell awk '/define H5_VERS_MINOR/ { print $$3 }' /usr/include/hdf5/serial/H5public.h 2>/dev/null)
+HDF5_ARCHIVES := $(if $(filter 10,$(HDF5_MINOR)),-lhdf5_serial_fortran -lhdf5_serial_hl -lhdf5_serial -lsz -laec -lz)
+LIBRARIES := $(if $(HDF5_ARCHIVES),,-Wl$(comma)--as-needed $(HDF5_LIBRARIES)) \
+  -Wl,-Bstatic -Wl,--start-group $(SUNDIALS_LIBRARIES) -Wl,--end-group \
+  $(HDF5_ARCHIVES) -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
   $(foreach f,openblas_set_num_threads blas_memory_alloc blas_memory_free,-Wl$(comma)-u$(comma)$(f) -Wl$(comma)--export-dynamic-symbol=$(f)) \
   $(OPENBLAS) -Wl,-Bdynamic -Wl,--as-needed -lgomp -lpthread -ldl -lm
 else ifeq ($(LINK),shared)
