@@ -245,15 +245,15 @@ ARCHIVES := $(and $(OPENBLAS),$(wildcard /usr/lib/*/libsundials_fcvode_mod.a),$(
   $(wildcard /usr/lib/*/libfftw3.a))
 LINK ?= $(if $(SUNDIALS_DIR)$(HDF5_DIR)$(SUITESPARSE_DIR)$(FFTW_DIR)$(LAPACK),shared,$(if $(ARCHIVES),static,shared))
 ifeq ($(LINK),static)
-# The archive of HDF5 after 1.10 wants those of curl and OpenSSL, which have no end: there HDF5 alone is loaded. What blas_threads looks
-# up at run time stays visible.
+# Archives that want no others: those of SUNDIALS 7 want MPI, that of HDF5 after 1.10 curl and OpenSSL; these are loaded. What
+# blas_threads looks up at run time stays visible.
 HDF5_MINOR := $(shell awk '/define H5_VERS_MINOR/ { print $$3 }' /usr/include/hdf5/serial/H5public.h 2>/dev/null)
 HDF5_ARCHIVES := $(if $(filter 10,$(HDF5_MINOR)),-lhdf5_serial_fortran -lhdf5_serial_hl -lhdf5_serial -lsz -laec -lz)
-LIBRARIES := $(if $(HDF5_ARCHIVES),,-Wl$(comma)--as-needed $(HDF5_LIBRARIES)) \
-  -Wl,-Bstatic -Wl,--start-group $(SUNDIALS_LIBRARIES) -Wl,--end-group \
-  $(HDF5_ARCHIVES) -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
+SUNDIALS_ARCHIVES := $(if $(filter 6,$(SUNDIALS_VERSION)),-Wl$(comma)--start-group $(SUNDIALS_LIBRARIES) -Wl$(comma)--end-group)
+LIBRARIES := -Wl,--as-needed $(if $(SUNDIALS_ARCHIVES),,$(SUNDIALS_LIBRARIES)) $(if $(HDF5_ARCHIVES),,$(HDF5_LIBRARIES)) \
+  -Wl,-Bstatic $(SUNDIALS_ARCHIVES) $(HDF5_ARCHIVES) -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
   $(foreach f,openblas_set_num_threads blas_memory_alloc blas_memory_free,-Wl$(comma)-u$(comma)$(f) -Wl$(comma)--export-dynamic-symbol=$(f)) \
-  $(OPENBLAS) -Wl,-Bdynamic -Wl,--as-needed -lgomp -lpthread -ldl -lm
+  $(OPENBLAS) -Wl,-Bdynamic -lgomp -lpthread -ldl -lm
 else ifeq ($(LINK),shared)
 LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(SUITESPARSE_PATH) -lklu \
   $(FFTW_PATH) -lfftw3 $(or $(LAPACK),-llapack -lblas) -lm
@@ -280,13 +280,13 @@ PREFIX_MAP := -ffile-prefix-map=$(CURDIR)=.
 COMPILE = $(FC) $(FFLAGS) $(PREFIX_MAP) -J$(B)/mod -I$(B)/mod $(SUNDIALS_INCLUDE) $(HDF5_INCLUDE)
 LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
 
-# Files that change only when their content does: flags, list of objects, build_info, the test program.
+# Files that change only when their content does: flags, what is linked, build_info, the test program.
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
 $(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench \
   $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) $(FUZZ_MAIN)))))
-$(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS) $(LIBRARIES)'; } > $(B)/flags.new; \
+$(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
-  echo '$(OBJECTS) $(TEST_OBJECTS)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
+  echo '$(OBJECTS) $(TEST_OBJECTS) $(LIBRARIES)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
   scripts/buildinfo $(FC) '$(FFLAGS)' > $(B)/build_info.f90.new; $(call keep_if_equal,$(B)/build_info.f90); \
   awk -f scripts/testmain.awk $(TEST_SOURCES) > $(B)/tests/run_tests.f90.new; \
   $(call keep_if_equal,$(B)/tests/run_tests.f90))
