@@ -72,7 +72,7 @@ contains
       call display%finish()
       call write_results(loaded, plan, study, pictures, warnings, error)
       if (.not. allocated(error)) call report(options, loaded, plan, study, pictures, warnings, error)
-      if (.not. allocated(error) .and. study%reference == "") then
+      if (.not. allocated(error) .and. study%reference%what == "") then
          call set_error(error, exit_integration, "no run came to its end; "//directory%path//"/precision.txt tells why")
       end if
       call directory%close()
@@ -128,9 +128,9 @@ contains
          if (options%accuracy > 0.0_wp) study%accuracy = options%accuracy
          study%wanted = findloc(error_names == asked%word("error"), .true., dim=1)
       end associate
-      study%machine = processor_name()
-      study%compiler = compiler
-      study%flags = compile_flags
+      study%machine%processor = processor_name()
+      study%machine%compiler = compiler
+      study%machine%flags = compile_flags
    end subroutine begin_study
 
    !> What the files say of the comparison.

@@ -36,8 +36,8 @@ contains
       call begin_whole_file(path, "gudgeon precision", plan, file, status, error)
       if (allocated(error)) return
       if (status >= 0) then
-         call text_attribute(file, "machine", study%machine, status)
-         call text_attribute(file, "compile_flags", study%flags, status)
+         call text_attribute(file, "machine", study%machine%processor, status)
+         call text_attribute(file, "compile_flags", study%machine%flags, status)
          call write_ladders(file, study, status)
          call write_rungs(file, study, status)
          call write_reference(file, study, status)
@@ -122,9 +122,9 @@ contains
       call real_dataset(file, "runs/rounds", [most, n], reshape(rounds, [most*n]), "s", "processor time of each round", status)
       call put("setup", rungs%setup, "s", "processor time of the system and its start")
       call put("wall", rungs%wall, "s", "time that the compared run took, all in all")
-      call put("steps", real(rungs%steps, wp), "1", "accepted steps")
-      call put("rejected_steps", real(rungs%rejected, wp), "1", "rejected steps")
-      call put("rhs_evaluations", real(rungs%evaluations, wp), "1", "right-hand sides, without those for output")
+      call put("steps", real(rungs%count%steps, wp), "1", "accepted steps")
+      call put("rejected_steps", real(rungs%count%rejected, wp), "1", "rejected steps")
+      call put("rhs_evaluations", real(rungs%count%evaluations, wp), "1", "right-hand sides, without those for output")
 
    contains
 
@@ -151,14 +151,14 @@ contains
 
       call new_group(file, "reference", group, status)
       if (status < 0) return
-      call text_attribute(group, "setting", study%reference, status)
-      call text_attribute(group, "confirmed_by", study%confirmation, status)
-      call real_attribute(group, "window", study%window, status)
+      call text_attribute(group, "setting", study%reference%what, status)
+      call text_attribute(group, "confirmed_by", study%reference%confirmation, status)
+      call real_attribute(group, "window", study%reference%window, status)
       call real_attribute(group, "end", study%end, status)
       call h5gclose_f(group, closed)
-      call real_dataset(file, "reference/error", [n_compared], study%bar, "list", &
+      call real_dataset(file, "reference/error", [n_compared], study%reference%bar, "list", &
                         "difference to what confirms it: the first kinds of error", status)
-      call real_dataset(file, "reference/agrees_until", [n_digit], study%agreed, "s", &
+      call real_dataset(file, "reference/agrees_until", [n_digit], study%reference%agreed, "s", &
                         "last time at which both have 1, 2, ... digits in common", status)
    end subroutine write_reference
 
@@ -209,12 +209,12 @@ contains
       call real_attribute(group, "accuracy", study%accuracy, status)
       call real_attribute(group, "budget", study%budget, status)
       call real_attribute(group, "spent", study%spent, status)
-      if (study%best_ladder > 0) then
-         associate (ladder => study%ladders(study%best_ladder))
+      if (study%choice%ladder > 0) then
+         associate (ladder => study%ladders(study%choice%ladder))
             call text_attribute(group, "setting", ladder%name, status)
-            call real_attribute(group, "asked", ladder%rungs(study%best_rung)%asked, status)
-            call real_attribute(group, "confirmed_error", study%confirmed_error, status)
-            call real_attribute(group, "confirmed_cpu", study%confirmed_cpu, status)
+            call real_attribute(group, "asked", ladder%rungs(study%choice%rung)%asked, status)
+            call real_attribute(group, "confirmed_error", study%choice%error, status)
+            call real_attribute(group, "confirmed_cpu", study%choice%cpu, status)
          end associate
       else
          call text_attribute(group, "setting", "", status)

@@ -18,11 +18,11 @@ contains
 
       call json%put_text("error", trim(error_names(study%wanted)))
       call json%put_real("accuracy", study%accuracy)
-      call json%put_text("reference", study%reference)
-      call json%put_text("confirmed_by", study%confirmation)
-      call json%put_real("reference_error", study%bar(study%wanted))
+      call json%put_text("reference", study%reference%what)
+      call json%put_text("confirmed_by", study%reference%confirmation)
+      call json%put_real("reference_error", study%reference%bar(study%wanted))
       call json%put_real("end", study%end)
-      call json%put_real("window", study%window)
+      call json%put_real("window", study%reference%window)
       call json%put_integer("settings", int(size(study%ladders), i8))
       call json%put_integer("runs", int(runs_in(rung_done), i8))
       call json%put_integer("failed", int(runs_in(rung_failed), i8))
@@ -38,13 +38,13 @@ contains
          call json%put_real("growth_power", study%growth%power)
       end if
       call horizon_json(study%horizon, json)
-      if (study%best_ladder == 0) return
-      associate (ladder => study%ladders(study%best_ladder), rung => study%ladders(study%best_ladder)%rungs(study%best_rung))
+      if (study%choice%ladder == 0) return
+      associate (ladder => study%ladders(study%choice%ladder), rung => study%ladders(study%choice%ladder)%rungs(study%choice%rung))
          call json%put_text("choice", settings_text(ladder, rung))
          call json%put_real("choice_error", rung%error(study%wanted))
          call json%put_real("choice_cpu", rung%cpu)
-         call json%put_real("confirmed_error", study%confirmed_error)
-         call json%put_real("confirmed_cpu", study%confirmed_cpu)
+         call json%put_real("confirmed_error", study%choice%error)
+         call json%put_real("confirmed_cpu", study%choice%cpu)
       end associate
 
    contains

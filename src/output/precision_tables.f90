@@ -58,7 +58,7 @@ contains
          line = line//column(short(rung%error(kind)))
       end do
       line = line//column(figures(1.0e3_wp*rung%cpu))//column(figures(1.0e3_wp*rung%cpu_least))// &
-             column(to_text(rung%evaluations))//column(to_text(rung%steps))//"  "//trim(rung_states(rung%state))
+             column(to_text(rung%count%evaluations))//column(to_text(rung%count%steps))//"  "//trim(rung_states(rung%state))
    end function rung_line
 
    !> Every run as comma-separated values, SI.
@@ -85,8 +85,8 @@ contains
                   line = line//","//exact(rung%error(kind))
                end do
                call lines%line(line//","//exact(rung%cpu)//","//exact(rung%cpu_least)//","//to_text(rung%n_round)//","// &
-                               exact(rung%setup)//","//to_text(rung%evaluations)//","//to_text(rung%steps)//","// &
-                               to_text(rung%rejected)//","//exact(rung%holds_until)//","//digit(rung%is_below)//","// &
+                               exact(rung%setup)//","//to_text(rung%count%evaluations)//","//to_text(rung%count%steps)//","// &
+                               to_text(rung%count%rejected)//","//exact(rung%holds_until)//","//digit(rung%is_below)//","// &
                                digit(rung%is_front)//","""//replace(rung%reason, """", "'")//"""")
             end associate
          end do

@@ -28,8 +28,8 @@ contains
       call lines%line(title)
       call lines%line("compared   "//to_text(size(study%ladders))//" settings on a motion of "//real_text(study%end, 6)// &
                       " s, at "//to_text(study%instants)//" instants"//window_text(study))
-      call lines%line("machine    "//study%machine//"; "//study%compiler)
-      call lines%line("           "//flags_of(study%flags))
+      call lines%line("machine    "//study%machine%processor//"; "//study%machine%compiler)
+      call lines%line("           "//flags_of(study%machine%flags))
       call add_reference(lines, study)
       call add_growth(lines, study)
       call add_horizon(lines, study%horizon)
@@ -89,7 +89,7 @@ contains
       character(:), allocatable :: words          !! blank: to the end
 
       words = ""
-      if (study%is_cut .and. .not. study%is_unsure) words = " up to "//real_text(study%window, 4)// &
+      if (study%reference%is_cut .and. .not. study%reference%is_unsure) words = " up to "//real_text(study%reference%window, 4)// &
          " s, where the reference is known to a tenth of the error wanted"
    end function window_text
 
@@ -100,20 +100,23 @@ contains
 
       integer :: k
 
-      if (study%reference == "") then
+      if (study%reference%what == "") then
          call lines%line("reference  none: no run came to its end, so there are costs but no errors")
          return
       end if
-      if (study%confirmation == "") then
-         call lines%line("reference  "//study%reference//", which nothing confirms: its own error is not known")
+      if (study%reference%confirmation == "") then
+         call lines%line("reference  "//study%reference%what//", which nothing confirms: its own error is not known")
          return
       end if
-      call lines%line("reference  "//study%reference//", confirmed by "//study%confirmation//"; they differ by")
+      call lines%line("reference  "//study%reference%what//", confirmed by "//study%reference%confirmation//"; they differ by")
       do k = 2, n_compared
-         if (ieee_is_finite(study%bar(k))) call lines%line("           "//with_unit(study%bar(k), k)//"  "//trim(error_words(k)))
+         if (.not. ieee_is_finite(study%reference%bar(k))) cycle
+         call lines%line("           "//with_unit(study%reference%bar(k), k)//"  "//trim(error_words(k)))
       end do
-      if (study%is_poor) call lines%line("           a tighter one failed or took too long: a greater budget may give a better one")
-      if (study%is_unsure) call lines%line("           at no time do they agree to a tenth of the error wanted")
+      if (study%reference%is_poor) then
+         call lines%line("           a tighter one failed or took too long: a greater budget may give a better one")
+      end if
+      if (study%reference%is_unsure) call lines%line("           at no time do they agree to a tenth of the error wanted")
    end subroutine add_reference
 
    !> An error with its unit.
@@ -215,7 +218,8 @@ contains
             call lines%line(padded(ladder%name, longest)//column(to_text(count(ladder%rungs%state == rung_done)))// &
                             column(figures(ladder%order))//column(figures(ladder%exponent))//column(figures(ladder%ratio))// &
                             column(known_error(study, ladder%rungs(best)))// &
-                            column(real_text(1.0e3_wp*ladder%rungs(best)%cpu, 3))//column(to_text(ladder%rungs(best)%evaluations)))
+                            column(real_text(1.0e3_wp*ladder%rungs(best)%cpu, 3))// &
+                            column(to_text(ladder%rungs(best)%count%evaluations)))
          end associate
       end do
       call lines%line("")
@@ -228,7 +232,7 @@ contains
       character(:), allocatable :: word           !! as `1.0e-9` or `< 1.0e-9`
 
       word = short(rung%error(study%wanted))
-      if (rung%is_below) word = "< "//short(study%bar(study%wanted))
+      if (rung%is_below) word = "< "//short(study%reference%bar(study%wanted))
    end function known_error
 
    !> A number of three figures.
@@ -267,7 +271,7 @@ contains
       do k = 1, size(study%ladders)
          associate (ladder => study%ladders(k))
             if (ladder%is_fixed) cycle
-            n = count(ladder%rungs%state == rung_done .and. ladder%rungs%steps*study%longest_step < held*study%end)
+            n = count(ladder%rungs%state == rung_done .and. ladder%rungs%count%steps*study%longest_step < held*study%end)
             if (n == 0) cycle
             call lines%line("held: "//ladder%name//", "//to_text(n)//" runs: 'maximum_step' of the deck, "// &
                             real_text(study%longest_step, 3)//" s, sets their steps, not the tolerance")
@@ -329,24 +333,24 @@ contains
       character(:), allocatable :: kind
 
       kind = trim(error_names(study%wanted))
-      if (study%reference == "" .or. study%confirmation == "") then
+      if (study%reference%what == "" .or. study%reference%confirmation == "") then
          call lines%line("choice     none: there is no reference that is confirmed")
          return
       end if
-      if (study%best_ladder == 0) then
+      if (study%choice%ladder == 0) then
          call lines%line("choice     no setting reaches an error of "//short(study%accuracy)//" ("//kind//")")
          return
       end if
-      associate (ladder => study%ladders(study%best_ladder), rung => study%ladders(study%best_ladder)%rungs(study%best_rung))
+      associate (ladder => study%ladders(study%choice%ladder), rung => study%ladders(study%choice%ladder)%rungs(study%choice%rung))
          call lines%line("choice     "//settings_text(ladder, rung))
          call lines%line("           the cheapest for an error of "//short(study%accuracy)//" ("//kind//"): error "// &
                          short(rung%error(study%wanted))//", "//real_text(1.0e3_wp*rung%cpu, 3)//" ms, "// &
-                         to_text(rung%evaluations)//" right-hand sides")
-         if (study%is_cut) call lines%line("           as far as the reference is known, up to "// &
-                                           real_text(study%window, 4)//" s of "//real_text(study%end, 4)//" s")
-         if (ieee_is_finite(study%confirmed_error)) then
-            call lines%line("           run once more: error "//short(study%confirmed_error)//", "// &
-                            real_text(1.0e3_wp*study%confirmed_cpu, 3)//" ms")
+                         to_text(rung%count%evaluations)//" right-hand sides")
+         if (study%reference%is_cut) call lines%line("           as far as the reference is known, up to "// &
+                                           real_text(study%reference%window, 4)//" s of "//real_text(study%end, 4)//" s")
+         if (ieee_is_finite(study%choice%error)) then
+            call lines%line("           run once more: error "//short(study%choice%error)//", "// &
+                            real_text(1.0e3_wp*study%choice%cpu, 3)//" ms")
          else
             call lines%line("           not run once more: no time was left in the budget")
          end if

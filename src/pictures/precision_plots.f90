@@ -115,7 +115,9 @@ contains
       character(:), allocatable :: label          !! one line
 
       label = "greatest error of "//trim(error_names(study%wanted))//" [1], of the range of motion or the greatest value"
-      if (study%is_cut .and. .not. study%is_unsure) label = label//", up to "//real_text(study%window, 3)//" s"
+      if (study%reference%is_cut .and. .not. study%reference%is_unsure) then
+         label = label//", up to "//real_text(study%reference%window, 3)//" s"
+      end if
    end function error_label
 
    !> The error of the reference, and the error wanted.
@@ -125,8 +127,8 @@ contains
 
       character(:), allocatable :: bar
 
-      if (ieee_is_finite(study%bar(study%wanted))) then
-         bar = number(max(study%bar(study%wanted), least_error))
+      if (ieee_is_finite(study%reference%bar(study%wanted))) then
+         bar = number(max(study%reference%bar(study%wanted), least_error))
          call lines%line("set object 1 rectangle from graph 0, graph 0 to first "//bar//", graph 1 behind "// &
                          "fillcolor rgb '#f0f0f0' fillstyle solid noborder")
          call lines%line("set arrow 1 from first "//bar//", graph 0 to first "//bar//", graph 1 nohead linewidth 1.5 "// &
@@ -221,9 +223,9 @@ contains
       character(:), allocatable :: words          !! one line
 
       words = "no setting reaches the error wanted"
-      if (study%best_ladder == 0) return
-      associate (ladder => study%ladders(study%best_ladder))
-         words = "choice: "//ladder%name//" "//real_text(ladder%rungs(study%best_rung)%asked, 3)
+      if (study%choice%ladder == 0) return
+      associate (ladder => study%ladders(study%choice%ladder))
+         words = "choice: "//ladder%name//" "//real_text(ladder%rungs(study%choice%rung)%asked, 3)
          if (ladder%is_fixed) words = words//" s"
       end associate
    end function choice_title

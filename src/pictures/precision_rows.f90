@@ -39,7 +39,7 @@ contains
       call lines%line("")
       call lines%line("")
       call lines%line("# choice")
-      if (study%best_ladder > 0) call lines%line(row_of(study, study%ladders(study%best_ladder)%rungs(study%best_rung)))
+      if (study%choice%ladder > 0) call lines%line(row_of(study, study%ladders(study%choice%ladder)%rungs(study%choice%rung)))
       text = lines%get()
    end function numbers_of
 
@@ -78,7 +78,7 @@ contains
       ledger = rung%error(error_ledger)
       if (ieee_is_finite(ledger)) ledger = max(ledger, least_error)
       line = number(rung%asked)//" "//number(x)//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &
-             to_text(rung%evaluations)//" "//to_text(rung%steps)//" "//number(ledger)//" "// &
+             to_text(rung%count%evaluations)//" "//to_text(rung%count%steps)//" "//number(ledger)//" "// &
              to_text(rung%state)//" "//to_text(merge(1, 0, rung%is_below))
    end function row_of
 

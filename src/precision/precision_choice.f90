@@ -27,7 +27,7 @@ contains
             is_good = ladder%rungs%state == rung_done
             is_good = is_good .and. error > above_bar*bar_of(study) .and. error > 0.0_wp .and. error < coarse
             call drop_floor(error, is_good)
-            ladder%order = -slope(log(pack(real(ladder%rungs%steps, wp), is_good)), log(pack(error, is_good)))
+            ladder%order = -slope(log(pack(real(ladder%rungs%count%steps, wp), is_good)), log(pack(error, is_good)))
             ladder%exponent = slope(log(pack(ladder%rungs%asked, is_good)), log(pack(error, is_good)))
             ladder%ratio = not_a_number()
             if (.not. ladder%is_fixed) ladder%ratio = median(pack(error/ladder%rungs%asked, is_good))
@@ -67,7 +67,7 @@ contains
       type(precision_t), intent(in) :: study  !! the study
 
       bar = 0.0_wp
-      if (ieee_is_finite(study%bar(study%wanted))) bar = study%bar(study%wanted)
+      if (ieee_is_finite(study%reference%bar(study%wanted))) bar = study%reference%bar(study%wanted)
    end function bar_of
 
    !> Slope of a line: the median of the slopes between all pairs of points, which a few points near round-off do not change; NaN of
@@ -103,8 +103,8 @@ contains
       integer :: i, k
       real(wp) :: least
 
-      study%best_ladder = 0
-      study%best_rung = 0
+      study%choice%ladder = 0
+      study%choice%rung = 0
       least = huge(1.0_wp)
       do k = 1, size(study%ladders)
          do i = 1, size(study%ladders(k)%rungs)
@@ -112,7 +112,7 @@ contains
                if (can_be_chosen(rung, study%wanted)) rung%is_front = .not. is_beaten(study, rung)
             end associate
          end do
-         if (.not. ieee_is_finite(study%bar(study%wanted))) cycle
+         if (.not. ieee_is_finite(study%reference%bar(study%wanted))) cycle
          do i = size(study%ladders(k)%rungs), 1, -1
             associate (rung => study%ladders(k)%rungs(i))
                if (rung%state == rung_other) exit
@@ -120,8 +120,8 @@ contains
                if (level(study, rung) > study%accuracy) exit
                if (rung%cpu >= least) cycle
                least = rung%cpu
-               study%best_ladder = k
-               study%best_rung = i
+               study%choice%ladder = k
+               study%choice%rung = i
             end associate
          end do
       end do

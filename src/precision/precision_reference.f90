@@ -56,21 +56,22 @@ contains
 
       type(reference_t) :: other, second
 
-      study%reference = ""
-      study%confirmation = ""
-      study%bar = not_a_number()
-      study%window = study%end
-      study%is_unsure = .true.
+      study%reference%what = ""
+      study%reference%confirmation = ""
+      study%reference%bar = not_a_number()
+      study%reference%window = study%end
+      study%reference%is_unsure = .true.
       call run_tight("verner", until - for_other)
       reference = second
       if (.not. reference%is_there) call tightest_of(study, kept, "", reference)
       if (.not. reference%is_there) return
-      study%reference = described(reference)
-      study%is_poor = reference%setting%method /= "verner" .or. reference%asked > 1.01_wp*max(least_tolerance, tighter*finest)
+      study%reference%what = described(reference)
+      study%reference%is_poor = reference%setting%method /= "verner" .or. &
+                                reference%asked > 1.01_wp*max(least_tolerance, tighter*finest)
       reference%scale = scales_of(reference%run, size_of(job), study%end)
       call find_other(other)
       if (.not. other%is_there) return
-      study%confirmation = described(other)
+      study%reference%confirmation = described(other)
       call set_bar(other%run, reference, study)
 
    contains
@@ -268,14 +269,14 @@ contains
       integer :: k
 
       x = motion_of(other, reference)
-      study%agreed = [(max(0.0_wp, last_within(x, reference%run%t, 10.0_wp**(-k))), k=1, n_digit)]
+      study%reference%agreed = [(max(0.0_wp, last_within(x, reference%run%t, 10.0_wp**(-k))), k=1, n_digit)]
       call agreement(other, reference, study, last, far)
-      study%is_unsure = last <= 0.0_wp
-      if (.not. study%is_unsure) study%window = last
-      study%is_cut = study%window < study%end*(1.0_wp - 1.0e-9_wp)
+      study%reference%is_unsure = last <= 0.0_wp
+      if (.not. study%reference%is_unsure) study%reference%window = last
+      study%reference%is_cut = study%reference%window < study%end*(1.0_wp - 1.0e-9_wp)
       own%error = not_a_number()
       call measure_rung(other, reference, study, own)
-      study%bar = own%error(:size(study%bar))
+      study%reference%bar = own%error(:size(study%reference%bar))
    end subroutine set_bar
 
    !> Errors of a run.
@@ -290,17 +291,17 @@ contains
       logical :: is_other
 
       call distances(run, reference%run, reference%scale, d)
-      call compare_sorts(d, reference%run%t, study%window, error, rung%error(error_motion))
+      call compare_sorts(d, reference%run%t, study%reference%window, error, rung%error(error_motion))
       rung%error(error_positions) = error(sort_positions)
       rung%error(error_velocities) = error(sort_velocities)
       rung%error(error_reactions) = error(sort_reactions)
       if (all(reference%run%sort /= sort_reactions)) rung%error(error_reactions) = not_a_number()
-      call compare_contacts(run, reference%run, study%window, rung%error(error_onsets), rung%error(error_peaks), &
+      call compare_contacts(run, reference%run, study%reference%window, rung%error(error_onsets), rung%error(error_peaks), &
                             rung%error(error_restitution), is_other)
       if (is_other) rung%state = rung_other
       rung%is_below = .false.
-      if (ieee_is_finite(rung%error(study%wanted)) .and. ieee_is_finite(study%bar(study%wanted))) then
-         rung%is_below = rung%error(study%wanted) <= study%bar(study%wanted)
+      if (ieee_is_finite(rung%error(study%wanted)) .and. ieee_is_finite(study%reference%bar(study%wanted))) then
+         rung%is_below = rung%error(study%wanted) <= study%reference%bar(study%wanted)
       end if
       rung%holds_until = last_within(wanted_of(d, study%wanted), reference%run%t, study%accuracy)
    end subroutine measure_rung

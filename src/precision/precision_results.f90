@@ -40,6 +40,13 @@ module precision_results
    integer, parameter :: rung_other = 3    !! ran to the end, with another sequence of contacts than the reference
    character(*), parameter :: rung_states(0:3) = [character(14) :: "not run", "done", "failed", "other sequence"]  !! in words
 
+   !> What a run did.
+   type :: rung_counts_t
+      integer(i8) :: steps = 0         !! accepted steps
+      integer(i8) :: rejected = 0      !! rejected steps
+      integer(i8) :: evaluations = 0   !! of right-hand sides, without those for output
+   end type rung_counts_t
+
    !> A run of a ladder.
    type :: rung_t
       real(wp) :: asked = 0.0_wp                     !! tolerance, or length of fixed steps [1 or s]
@@ -54,9 +61,7 @@ module precision_results
       real(wp) :: cpu_least = 0.0_wp                 !! the least of them [s]
       real(wp) :: setup = 0.0_wp                     !! processor time of the system and its start [s]
       real(wp) :: wall = 0.0_wp                      !! that the compared run took, all in all [s]
-      integer(i8) :: steps = 0                       !! accepted steps
-      integer(i8) :: rejected = 0                    !! rejected steps
-      integer(i8) :: evaluations = 0                 !! of right-hand sides, without those for output
+      type(rung_counts_t) :: count                   !! steps and evaluations
       logical :: is_front = .false.                  !! no other one is both cheaper and more exact
    end type rung_t
 
@@ -71,6 +76,33 @@ module precision_results
       real(wp) :: ratio = 0.0_wp                 !! median of error over tolerance; NaN: not known [1]
    end type ladder_t
 
+   !> What the runs are compared with.
+   type :: reference_t
+      character(:), allocatable :: what           !! the setting; blank: there is none
+      character(:), allocatable :: confirmation   !! what confirms it; blank: nothing does
+      logical :: is_poor = .false.                !! it is not as tight as it should be
+      real(wp) :: bar(n_compared) = 0.0_wp        !! (n_compared) its errors; NaN: unknown [1 or s]
+      real(wp) :: agreed(n_digit) = 0.0_wp        !! (k) last time at which it and its confirmation have k digits in common [s]
+      real(wp) :: window = 0.0_wp                 !! last time compared: it is known well enough [s]
+      logical :: is_cut = .false.                 !! whether that is before the end
+      logical :: is_unsure = .false.              !! it is not known so well at any time: all of it is compared
+   end type reference_t
+
+   !> The cheapest setting that reaches the error wanted, run once more.
+   type :: choice_t
+      integer :: ladder = 0            !! its ladder, 0: none does
+      integer :: rung = 0              !! its rung
+      real(wp) :: error = 0.0_wp       !! when it was run once more; NaN: it was not [1]
+      real(wp) :: cpu = 0.0_wp         !! its processor time then [s]
+   end type choice_t
+
+   !> What times were measured on.
+   type :: machine_t
+      character(:), allocatable :: processor   !! its name
+      character(:), allocatable :: compiler    !! that built the program
+      character(:), allocatable :: flags       !! with which flags
+   end type machine_t
+
    !> All of it.
    type :: precision_t
       type(ladder_t), allocatable :: ladders(:)       !! (n) the ladders
@@ -78,27 +110,15 @@ module precision_results
       real(wp) :: accuracy = 0.0_wp                   !! error wanted [1]
       real(wp) :: end = 0.0_wp                        !! of the motion [s]
       integer :: instants = 0                         !! compared, with the start
-      character(:), allocatable :: reference          !! what the reference is; blank: there is none
-      character(:), allocatable :: confirmation       !! what confirms it; blank: nothing does
-      logical :: is_poor = .false.                    !! the reference is not as tight as it should be
-      real(wp) :: bar(n_compared) = 0.0_wp            !! (n_compared) errors of the reference; NaN: unknown [1 or s]
-      real(wp) :: agreed(n_digit) = 0.0_wp            !! (k) last time at which it and its confirmation have k digits in common [s]
-      real(wp) :: window = 0.0_wp                     !! last time compared: the reference is known well enough [s]
-      logical :: is_cut = .false.                     !! whether that is before the end
-      logical :: is_unsure = .false.                  !! the reference is not known so well at any time: all of it is compared
+      type(reference_t) :: reference                  !! what all are compared with
       type(growth_t) :: growth                        !! of the distance of neighbouring starts
       type(horizon_t) :: horizon                      !! largest Lyapunov exponent, and digits by it
-      integer :: best_ladder = 0                      !! of the cheapest setting that reaches the error wanted, 0: none does
-      integer :: best_rung = 0                        !! its rung
-      real(wp) :: confirmed_error = 0.0_wp            !! of the choice, run once more; NaN: it was not [1]
-      real(wp) :: confirmed_cpu = 0.0_wp              !! its processor time [s]
+      type(choice_t) :: choice                        !! the cheapest setting that reaches the error wanted
       real(wp) :: budget = 0.0_wp                     !! time allowed, 0: no limit [s]
       real(wp) :: spent = 0.0_wp                      !! time taken up to the figures [s]
       integer :: rounds = 0                           !! rounds of timing that were done by all
       real(wp) :: longest_step = 0.0_wp               !! `maximum_step` of the deck, 0: none [s]
-      character(:), allocatable :: machine            !! processor
-      character(:), allocatable :: compiler           !! that built the program
-      character(:), allocatable :: flags              !! with which flags
+      type(machine_t) :: machine                      !! what it was measured on
    end type precision_t
 
 contains

@@ -84,8 +84,8 @@ contains
 
       integer :: k
 
-      do k = 1, size(study%agreed)
-         associate (horizon => study%growth%horizon(k), agreed => study%agreed(k))
+      do k = 1, size(study%reference%agreed)
+         associate (horizon => study%growth%horizon(k), agreed => study%reference%agreed(k))
             if (agreed >= study%end*(1.0_wp - 1.0e-9_wp)) horizon = not_a_number()
             if (ieee_is_finite(horizon)) horizon = max(horizon, agreed)
          end associate
@@ -252,9 +252,9 @@ contains
       associate (summary => outcome%summary)
          rung%cpu = summary%cpu_seconds
          rung%cpu_least = summary%cpu_seconds
-         rung%steps = summary%count%steps
-         rung%rejected = summary%count%rejected_steps
-         rung%evaluations = summary%count%rhs_evaluations - summary%count%output_evaluations
+         rung%count%steps = summary%count%steps
+         rung%count%rejected = summary%count%rejected_steps
+         rung%count%evaluations = summary%count%rhs_evaluations - summary%count%output_evaluations
          if (rung%state /= rung_done) return
          rung%error(error_violation) = summary%quality%violation_max
          if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
@@ -280,8 +280,8 @@ contains
       if (longest <= 0.0_wp) then
          longest = study%end/100.0_wp
          do k = size(study%ladders), 1, -1
-            if (.not. study%ladders(k)%is_fixed .and. study%ladders(k)%rungs(1)%steps > 0) then
-               longest = study%end/real(study%ladders(k)%rungs(1)%steps, wp)
+            if (.not. study%ladders(k)%is_fixed .and. study%ladders(k)%rungs(1)%count%steps > 0) then
+               longest = study%end/real(study%ladders(k)%rungs(1)%count%steps, wp)
             end if
          end do
          if (all(study%ladders%is_fixed)) then
@@ -377,19 +377,19 @@ contains
       type(rung_t) :: again
       logical :: is_late
 
-      study%confirmed_error = not_a_number()
-      study%confirmed_cpu = not_a_number()
-      if (study%best_ladder == 0) return
-      associate (ladder => study%ladders(study%best_ladder))
-         again%asked = ladder%rungs(study%best_rung)%asked
+      study%choice%error = not_a_number()
+      study%choice%cpu = not_a_number()
+      if (study%choice%ladder == 0) return
+      associate (ladder => study%ladders(study%choice%ladder))
+         again%asked = ladder%rungs(study%choice%rung)%asked
          again%error = not_a_number()
-         if (ladder%rungs(study%best_rung)%wall*least_rise > budget%left(until_choice)) return
+         if (ladder%rungs(study%choice%rung)%wall*least_rise > budget%left(until_choice)) return
          job%cpu = 0.0_wp
          call run_rung(job, budget, ladder%setting, again, run, is_late)
          if (again%state /= rung_done) return
          call measure_rung(run, reference, study, again)
-         if (again%state == rung_done) study%confirmed_error = again%error(study%wanted)
-         study%confirmed_cpu = again%cpu
+         if (again%state == rung_done) study%choice%error = again%error(study%wanted)
+         study%choice%cpu = again%cpu
       end associate
    end subroutine confirm_choice
 

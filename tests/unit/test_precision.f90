@@ -236,7 +236,7 @@ contains
       integer :: k
 
       allocate (study%ladders(2))
-      study%bar = 1.0e-13_wp
+      study%reference%bar = 1.0e-13_wp
       study%accuracy = 1.0e-6_wp
       do k = 1, 2
          allocate (study%ladders(k)%rungs(13))
@@ -246,11 +246,11 @@ contains
       do k = 1, 13
          associate (fixed => study%ladders(1)%rungs(k), variable => study%ladders(2)%rungs(k))
             fixed%asked = 10.0_wp**(-0.25_wp*k)
-            fixed%steps = nint(1.0e4_wp/fixed%asked)
+            fixed%count%steps = nint(1.0e4_wp/fixed%asked)
             fixed%error(error_motion) = fixed%asked**4 + 1.0e-15_wp/fixed%asked
             fixed%cpu = 1.0e-3_wp/fixed%asked
             variable%asked = 10.0_wp**(-k)
-            variable%steps = 100*k
+            variable%count%steps = 100*k
             variable%error(error_motion) = 20.0_wp*variable%asked
             variable%cpu = 1.0e-3_wp*k
          end associate
@@ -266,17 +266,17 @@ contains
       call make_study(study)
       study%ladders(2)%rungs(8)%state = rung_failed
       call choose_best(study)
-      call check_equal(error, study%best_ladder, 2, "ladder of the choice")
-      call check_equal(error, study%best_rung, 9, "the first rung below the error wanted that did not fail")
+      call check_equal(error, study%choice%ladder, 2, "ladder of the choice")
+      call check_equal(error, study%choice%rung, 9, "the first rung below the error wanted that did not fail")
       call check_true(error, study%ladders(2)%rungs(9)%is_front, "the choice is on the front")
       call check_true(error, .not. study%ladders(2)%rungs(8)%is_front, "a failure is not")
       call check_true(error, .not. any(study%ladders(1)%rungs(6:11)%is_front), "a dear method is not")
       study%ladders(2)%rungs(11)%error(error_motion) = 2.0e-6_wp
       call choose_best(study)
-      call check_equal(error, study%best_rung, 12, "a run is not chosen if a tighter one misses the error wanted")
+      call check_equal(error, study%choice%rung, 12, "a run is not chosen if a tighter one misses the error wanted")
       study%accuracy = 1.0e-14_wp
       call choose_best(study)
-      call check_equal(error, study%best_ladder, 0, "nothing reaches an error below the reference's own")
+      call check_equal(error, study%choice%ladder, 0, "nothing reaches an error below the reference's own")
    end subroutine test_choice
 
    !> Medians of an odd and of an even number.
