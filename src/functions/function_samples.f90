@@ -100,7 +100,7 @@ contains
       type(item_t), intent(in) :: item     !! the row
       type(made_t), intent(inout) :: made  !! receives a mistake
 
-      integer :: k, n
+      integer :: k, n, places, values
 
       made%help = ""
       do k = 1, 2
@@ -109,7 +109,9 @@ contains
          made%help = "give columns at and value, as ""0 10 20 30 ms"", or column file"
          return
       end do
-      associate (x => item%values(place_of(item, "at"))%table(:, 1), y => item%values(place_of(item, "value"))%table(:, 1))
+      places = place_of(item, "at")
+      values = place_of(item, "value")
+      associate (x => item%values(places)%table(:, 1), y => item%values(values)%table(:, 1))
          n = size(x)
          if (size(y) /= n) then
             call complain("value", to_text(size(y))//" values at "//to_text(n)//" places")
