@@ -25,7 +25,7 @@ module run_plan
    use version, only: program_version
    implicit none (type, external)
    private
-   public :: make_plan
+   public :: make_plan, tell_origin
 
    real(wp), parameter :: negligible = 1.0e-6_wp  !! change of a given velocity that is not worth a word [1]
 
@@ -41,16 +41,9 @@ contains
 
       plan%warnings = directory%warnings
       plan%directory = directory%path
-      plan%origin%deck_name = loaded%path
-      plan%origin%deck_text = deck_text(loaded%deck)
+      call tell_origin(options, loaded, plan)
       plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
       plan%title = loaded%scene%title
-      plan%origin%program_version = program_version
-      plan%origin%git_sha1 = git_sha1
-      plan%origin%compiler = compiler
-      plan%origin%libraries = library_versions()
-      plan%origin%command = options%command
-      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
       call plan_statistics(loaded, plan%statistics)
       call known_words(loaded, plan)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
@@ -75,6 +68,22 @@ contains
          if (.not. options%is_json) plan%show = show_nothing
       end if
    end subroutine make_plan
+
+   !> Which deck, program and command the results are of.
+   subroutine tell_origin(options, loaded, plan)
+      type(options_t), intent(in) :: options       !! the command line
+      type(loaded_t), intent(in) :: loaded         !! the deck
+      type(output_plan_t), intent(inout) :: plan   !! its origin is set, but for the deck's echo
+
+      plan%origin%deck_name = loaded%path
+      plan%origin%deck_text = deck_text(loaded%deck)
+      plan%origin%program_version = program_version
+      plan%origin%git_sha1 = git_sha1
+      plan%origin%compiler = compiler
+      plan%origin%libraries = library_versions()
+      plan%origin%command = options%command
+      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
+   end subroutine tell_origin
 
    !> What the deck asks of the statistics of a motion.
    subroutine plan_statistics(loaded, plan)

@@ -1,15 +1,13 @@
 !> `gudgeon precision DECK`: how long for how many digits, by which method, and up to what time digits mean anything.
 module verb_precision
-   use build_info, only: compile_flags, compiler, git_sha1
+   use build_info, only: compile_flags, compiler
    use catalogue, only: catalogue_t
    use console, only: say
-   use deck_texts, only: deck_text, get_includes
    use errors, only: error_t, exit_integration, exit_usage, set_error
    use figures, only: draw_figures
    use item, only: place_of
    use json_text, only: json_object_t
    use kinds, only: wp
-   use libraries, only: library_versions
    use load, only: load_deck, loaded_t
    use mechanism_report, only: build_catalogue
    use options, only: options_t
@@ -29,6 +27,7 @@ module verb_precision
    use progress, only: progress_t
    use run_audit, only: limits_t
    use run_limits, only: limits_of
+   use run_plan, only: tell_origin
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
    use text, only: append_text, replace, split_blank, text_t
@@ -141,15 +140,8 @@ contains
       type(output_plan_t), intent(out) :: plan             !! the plan
 
       plan%directory = path
-      plan%origin%deck_name = loaded%path
-      plan%origin%deck_text = deck_text(loaded%deck)
       plan%title = loaded%scene%title
-      plan%origin%program_version = program_version
-      plan%origin%git_sha1 = git_sha1
-      plan%origin%compiler = compiler
-      plan%origin%libraries = library_versions()
-      plan%origin%command = options%command
-      call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
+      call tell_origin(options, loaded, plan)
       call plan%complete()
    end subroutine make_plan
 
