@@ -12,7 +12,8 @@ module precision_file
    use horizon_group, only: write_horizon
    use kinds, only: not_a_number, wp
    use output_plan, only: output_plan_t
-   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, precision_t, rung_t
+   use precision_results, only: error_names, error_units, error_words, n_compared, n_error, n_statistic, precision_t, rung_t, &
+      statistic_names, statistic_units, statistic_words
    use recorder, only: status_complete
    use text, only: append_text, text_t
    use whole_file, only: begin_whole_file, end_whole_file
@@ -41,6 +42,7 @@ contains
          call write_ladders(file, study, status)
          call write_rungs(file, study, status)
          call write_reference(file, study, status)
+         call write_statistics(file, study, status)
          call write_growth(file, study, status)
          call write_horizon(file, study%horizon, status)
          call write_choice(file, study, status)
@@ -161,6 +163,66 @@ contains
       call real_dataset(file, "reference/agrees_until", [n_digit], study%reference%agreed, "s", &
                         "last time at which both have 1, 2, ... digits in common", status)
    end subroutine write_reference
+
+   !> Statistics of the time that is not compared, if there is one.
+   subroutine write_statistics(file, study, status)
+      integer(hid_t), intent(in) :: file          !! the file
+      type(precision_t), intent(in) :: study      !! results
+      integer, intent(inout) :: status            !! negative: failed
+
+      type(text_t), allocatable :: names(:), units(:), words(:)
+      integer(hid_t) :: group
+      integer :: closed, i, k, n, s
+
+      associate (reference => study%reference%statistics, ladders => study%ladders)
+         if (.not. reference%is_there) return
+         call new_group(file, "statistics", group, status)
+         if (status < 0) return
+         call real_attribute(group, "from", reference%from, status)
+         call real_attribute(group, "until", study%end, status)
+         call h5gclose_f(group, closed)
+         allocate (names(0), units(0), words(0))
+         do s = 1, n_statistic
+            call append_text(names, trim(statistic_names(s)))
+            call append_text(units, trim(statistic_units(s)))
+            call append_text(words, trim(statistic_words(s)))
+         end do
+         call text_dataset(file, "statistics/names", names, .false., "statistics", status)
+         call text_dataset(file, "statistics/units", units, .false., "their units", status)
+         call text_dataset(file, "statistics/long_names", words, .false., "what they are", status)
+         call put("reference", 1, reference%list%value, "of the reference")
+         call put("reference_interval", 1, reference%list%half, "half its interval of 95 %")
+         n = size(ladders)
+      call put("settings", n, [(ladders(k)%statistics%list%value, k=1, n)], "mean over the runs of a setting that go their own way")
+         call put("settings_interval", n, [(ladders(k)%statistics%list%half, k=1, n)], &
+                  "half its interval of 95 %, from how the runs scatter")
+         call integer_dataset(file, "statistics/runs", [n_statistic, n], [(ladders(k)%statistics%n_run, k=1, n)], &
+                              "runs of a setting that go their own way", status)
+         call integer_dataset(file, "statistics/apart", [n_statistic, n], [(ladders(k)%statistics%n_apart, k=1, n)], &
+                              "those of them that are apart from the reference", status)
+         call integer_dataset(file, "statistics/is_own", [sum([(size(ladders(k)%rungs), k=1, n)])], &
+                              [((merge(1, 0, ladders(k)%rungs(i)%statistics%is_own), i=1, size(ladders(k)%rungs)), k=1, n)], &
+                              "1: the run parts from the reference and goes its own way", status)
+         call put("values", sum([(size(ladders(k)%rungs), k=1, n)]), &
+                  [((ladders(k)%rungs(i)%statistics%list%value, i=1, size(ladders(k)%rungs)), k=1, n)], "of every run")
+         call put("intervals", sum([(size(ladders(k)%rungs), k=1, n)]), &
+                  [((ladders(k)%rungs(i)%statistics%list%half, i=1, size(ladders(k)%rungs)), k=1, n)], &
+                  "half the interval of 95 % of every run, by batches")
+      end associate
+
+   contains
+
+      !> One number of each statistic, of several.
+      subroutine put(name, n, values, long_name)
+         character(*), intent(in) :: name       !! of the dataset
+         integer, intent(in) :: n               !! how many have it
+         real(wp), intent(in) :: values(:)      !! (n_statistic n) the numbers [any]
+         character(*), intent(in) :: long_name  !! what they are
+
+         call real_dataset(file, "statistics/"//name, [n_statistic, n], values, "list", long_name, status)
+      end subroutine put
+
+   end subroutine write_statistics
 
    !> The twins.
    subroutine write_growth(file, study, status)

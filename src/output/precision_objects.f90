@@ -3,7 +3,8 @@ module precision_objects
    use horizon_text, only: horizon_json
    use json_text, only: json_object_t
    use kinds, only: i8
-   use precision_results, only: error_names, precision_t, rung_done, rung_failed, rung_other, rung_unrun
+   use precision_results, only: error_names, n_statistic, precision_t, rung_done, rung_failed, rung_other, rung_unrun, &
+      statistic_names
    use precision_text, only: settings_text
    implicit none (type, external)
    private
@@ -23,6 +24,7 @@ contains
       call json%put_real("reference_error", study%reference%bar(study%wanted))
       call json%put_real("end", study%end)
       call json%put_real("window", study%reference%window)
+      if (study%reference%statistics%is_there) call put_statistics()
       call json%put_integer("settings", int(size(study%ladders), i8))
       call json%put_integer("runs", int(runs_in(rung_done), i8))
       call json%put_integer("failed", int(runs_in(rung_failed), i8))
@@ -48,6 +50,21 @@ contains
       end associate
 
    contains
+
+      !> Statistics of the reference, and how many runs are apart from it.
+      subroutine put_statistics()
+         integer :: k, s
+
+         associate (statistics => study%reference%statistics)
+            call json%put_real("statistics_from", statistics%from)
+            do s = 1, n_statistic
+               call json%put_real(trim(statistic_names(s)), statistics%list(s)%value)
+               call json%put_real(trim(statistic_names(s))//"_interval", statistics%list(s)%half)
+               call json%put_integer(trim(statistic_names(s))//"_apart", &
+                                     int(sum([(study%ladders(k)%statistics%n_apart(s), k=1, size(study%ladders))]), i8))
+            end do
+         end associate
+      end subroutine put_statistics
 
       !> Runs in some state.
       pure integer function runs_in(state) result(n)

@@ -2,7 +2,8 @@
 module precision_tables
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use precision_results, only: error_names, error_units, n_error, precision_t, rung_failed, rung_states, rung_t, rung_unrun
+   use precision_results, only: error_names, error_units, n_error, n_statistic, precision_t, rung_failed, rung_states, rung_t, &
+      rung_unrun, statistic_names, statistic_units
    use precision_text, only: column, figures, precision_summary, short
    use text, only: exact_text, replace, to_text
    use text_buffer, only: buffer_t
@@ -67,7 +68,7 @@ contains
       character(:), allocatable :: text          !! whole lines
 
       type(buffer_t) :: lines
-      character(:), allocatable :: line
+      character(:), allocatable :: line, unit
       integer :: i, k, kind
 
       line = "setting,fixed_steps,asked,state"
@@ -75,7 +76,15 @@ contains
          line = line//","//trim(error_names(kind))
          if (error_units(kind) /= "1") line = line//" ["//trim(error_units(kind))//"]"
       end do
-      call lines%line(line//",cpu [s],cpu_least [s],rounds,setup [s],rhs,steps,rejected,holds_until [s],below,front,reason")
+      line = line//",cpu [s],cpu_least [s],rounds,setup [s],rhs,steps,rejected,holds_until [s],below,front"
+      if (study%reference%statistics%is_there) then
+         line = line//",own_way"
+         do kind = 1, n_statistic
+            unit = " ["//trim(statistic_units(kind))//"]"
+            line = line//","//trim(statistic_names(kind))//unit//","//trim(statistic_names(kind))//"_interval"//unit
+         end do
+      end if
+      call lines%line(line//",reason")
       do k = 1, size(study%ladders)
          do i = 1, size(study%ladders(k)%rungs)
             associate (rung => study%ladders(k)%rungs(i))
@@ -84,10 +93,17 @@ contains
                do kind = 1, n_error
                   line = line//","//exact(rung%error(kind))
                end do
-               call lines%line(line//","//exact(rung%cpu)//","//exact(rung%cpu_least)//","//to_text(rung%n_round)//","// &
-                               exact(rung%setup)//","//to_text(rung%count%evaluations)//","//to_text(rung%count%steps)//","// &
-                               to_text(rung%count%rejected)//","//exact(rung%holds_until)//","//digit(rung%is_below)//","// &
-                               digit(rung%is_front)//","""//replace(rung%reason, """", "'")//"""")
+               line = line//","//exact(rung%cpu)//","//exact(rung%cpu_least)//","//to_text(rung%n_round)//","// &
+                      exact(rung%setup)//","//to_text(rung%count%evaluations)//","//to_text(rung%count%steps)//","// &
+                      to_text(rung%count%rejected)//","//exact(rung%holds_until)//","//digit(rung%is_below)//","// &
+                      digit(rung%is_front)
+               if (study%reference%statistics%is_there) then
+                  line = line//","//digit(rung%statistics%is_own)
+                  do kind = 1, n_statistic
+                     line = line//","//exact(rung%statistics%list(kind)%value)//","//exact(rung%statistics%list(kind)%half)
+                  end do
+               end if
+               call lines%line(line//","""//replace(rung%reason, """", "'")//"""")
             end associate
          end do
       end do

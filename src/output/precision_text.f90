@@ -1,5 +1,6 @@
 !> The results of a comparison of settings in words.
 module precision_text
+   use beyond_text, only: add_statistics
    use growth, only: growth_t, n_digit
    use horizon_text, only: add_horizon
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -34,6 +35,7 @@ contains
       call add_growth(lines, study)
       call add_horizon(lines, study%horizon)
       call add_ladders(lines, study)
+      call add_statistics(lines, study)
       call add_held_steps(lines, study)
       call add_failures(lines, study)
       call add_choice(lines, study)

@@ -4,6 +4,7 @@
 !> is within the error of the reference is grey; a run with another sequence of contacts is an open diamond; failures stand as
 !> crosses at the right edge, at the time after which they failed, their reasons in the legend.
 module precision_plots
+   use beyond_plot, only: beyond_rows, beyond_script, has_beyond
    use display_units, only: choose_unit, display_unit_t
    use errors, only: error_t
    use exponent_plot, only: exponent_rows, exponent_script, has_exponent
@@ -60,6 +61,12 @@ contains
          if (.not. allocated(error)) call write_file(folder//"/horizon.gp", horizon_script(study, title), error)
          if (allocated(error)) return
          call append_text(names, "horizon")
+      end if
+      if (has_beyond(study)) then
+         call write_file(folder//"/precision_statistics.dat", heading//beyond_rows(study), error)
+         if (.not. allocated(error)) call write_file(folder//"/precision_statistics.gp", beyond_script(study, title), error)
+         if (allocated(error)) return
+         call append_text(names, "precision_statistics")
       end if
       if (.not. has_exponent(study%horizon)) return
       call write_file(folder//"/exponent.dat", heading//exponent_rows(study%horizon), error)

@@ -1,16 +1,19 @@
 !> What a comparison of settings gives: ladders of runs with their costs and errors, the reference, the choice.
 module precision_results
+   use batch_means, only: estimate_t
    use exponent, only: horizon_t
    use growth, only: growth_t, n_digit
    use kinds, only: i8, not_a_number, wp
    use precision_info, only: setting_t
    implicit none (type, external)
    private
-   public :: ladder_t, precision_t, rung_t
+   public :: ladder_t, precision_t, rung_t, statistics_t
    public :: error_ledger, error_motion, error_names, error_onsets, error_peaks, error_positions, error_reactions, &
       error_restitution, error_units, error_velocities, error_violation, error_words, n_compared, n_error
    public :: rung_done, rung_failed, rung_other, rung_states, rung_unrun
    public :: median
+   public :: n_statistic, statistic_names, statistic_peaks, statistic_rate, statistic_reactions, statistic_speeds, &
+      statistic_units, statistic_velocities, statistic_words
 
    ! kinds of error, those against the reference first
    integer, parameter :: error_motion = 1       !! the greater of positions and velocities
@@ -40,6 +43,31 @@ module precision_results
    integer, parameter :: rung_other = 3    !! ran to the end, with another sequence of contacts than the reference
    character(*), parameter :: rung_states(0:3) = [character(14) :: "not run", "done", "failed", "other sequence"]  !! in words
 
+   ! statistics of the time that is not compared
+   integer, parameter :: statistic_rate = 1         !! contacts that begin
+   integer, parameter :: statistic_speeds = 2       !! impact speeds
+   integer, parameter :: statistic_peaks = 3        !! peak forces
+   integer, parameter :: statistic_velocities = 4   !! velocities of bodies
+   integer, parameter :: statistic_reactions = 5    !! reactions
+   integer, parameter :: n_statistic = 5            !! number of them
+
+   character(*), parameter :: statistic_names(n_statistic) = [character(12) :: "contact_rate", "impact_speed", "peak_force", &
+      "velocity_rms", "reaction_rms"]                                           !! in files
+   character(*), parameter :: statistic_units(n_statistic) = [character(3) :: "1/s", "m/s", "N", "m/s", "N"]  !! SI
+   character(*), parameter :: statistic_words(n_statistic) = [character(64) :: &
+      "contacts that begin per time", "mean impact speed", "mean peak force of contacts that ended", &
+      "root mean square of velocities of bodies", "root mean square of reactions"]  !! what they are
+
+   !> Statistics of the time that is not compared, of one run or of the runs of a setting.
+   type :: statistics_t
+      real(wp) :: from = 0.0_wp                   !! begin of that time [s]
+      logical :: is_there = .false.               !! there is such a time
+      logical :: is_own = .false.                 !! of a run: it parts from the reference, so that it tells something of its own
+      type(estimate_t) :: list(n_statistic)       !! (n_statistic) values and half intervals of 95 %; NaN: not known [any]
+      integer :: n_run(n_statistic) = 0           !! (n_statistic) runs of a setting that go their own way and have a value
+      integer :: n_apart(n_statistic) = 0         !! (n_statistic) those of them that are apart from the reference
+   end type statistics_t
+
    !> What a run did.
    type :: rung_counts_t
       integer(i8) :: steps = 0         !! accepted steps
@@ -63,6 +91,7 @@ module precision_results
       real(wp) :: wall = 0.0_wp                      !! that the compared run took, all in all [s]
       type(rung_counts_t) :: count                   !! steps and evaluations
       logical :: is_front = .false.                  !! no other one is both cheaper and more exact
+      type(statistics_t) :: statistics               !! of the time that is not compared
    end type rung_t
 
    !> The runs of a setting, from the coarsest on.
@@ -74,6 +103,7 @@ module precision_results
       real(wp) :: order = 0.0_wp                 !! observed: -d ln error/d ln steps; NaN: not known [1]
       real(wp) :: exponent = 0.0_wp              !! of proportionality: d ln error/d ln tolerance; NaN: not known [1]
       real(wp) :: ratio = 0.0_wp                 !! median of error over tolerance; NaN: not known [1]
+      type(statistics_t) :: statistics           !! of its runs in the time that is not compared
    end type ladder_t
 
    !> What the runs are compared with.
@@ -86,6 +116,7 @@ module precision_results
       real(wp) :: window = 0.0_wp                 !! last time compared: it is known well enough [s]
       logical :: is_cut = .false.                 !! whether that is before the end
       logical :: is_unsure = .false.              !! it is not known so well at any time: all of it is compared
+      type(statistics_t) :: statistics            !! of the time beyond the last one compared, or of all of it if it is unsure
    end type reference_t
 
    !> The cheapest setting that reaches the error wanted, run once more.

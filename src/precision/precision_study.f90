@@ -13,6 +13,7 @@ module precision_study
    use precision_reference, only: arms_of, find_reference, kept_ladder_t, measure_rung, reference_t
    use precision_results, only: error_ledger, error_violation, ladder_t, median, precision_t, rung_done, rung_failed, &
       rung_other, rung_t, rung_unrun
+   use precision_statistics, only: take_statistics
    use precision_twins, only: run_twins
    use progress, only: progress_t
    use scene, only: scene_t
@@ -66,6 +67,7 @@ contains
       call find_reference(job, budget, until_reference, scene%settings%precision%number("finest"), study, kept, reference)
       call display%update(0.4_wp)
       if (reference%is_there) call measure_all(study, kept, reference)
+      call take_statistics(kept, reference, study)
       call run_twins(job, budget, until_twins, scene%settings%precision%number("perturbation"), kept, reference, study)
       call raise_horizons(study)
       call find_exponents(job, budget, study)

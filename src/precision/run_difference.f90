@@ -10,7 +10,7 @@ module run_difference
    use kinds, only: not_a_number, wp
    implicit none (type, external)
    private
-   public :: compare_contacts, compare_sorts, distances, first_other_contact, scales_of
+   public :: by_onset, compare_contacts, compare_sorts, distances, first_other_contact, scales_of
 
    real(wp), parameter :: at_rest = 1.0e-8_wp   !! range of motion below which a mechanism rests, of its size [1]
    real(wp), parameter :: together = 1.0e-9_wp  !! onsets so near that their order does not count, of the time compared [1]

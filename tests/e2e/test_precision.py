@@ -268,6 +268,32 @@ def test_errors_are_told_inside_the_horizon_only(gudgeon):
     last = study.ladder("verner")[-1]
     assert last["onsets [s]"] < 1e-7 and last["peaks"] < 1e-3 and last["restitution"] < 1e-3
     assert last["onsets [s]"] >= 0
+    check_statistics(study)
+
+
+def check_statistics(study):
+    """Beyond what is compared, statistics with intervals take over: in the tables, the file, the figure and the words."""
+    assert study.read("statistics@from") == study.summary["statistics_from"] == study.summary["window"]
+    names = list(study.read("statistics/names"))
+    reference = dict(zip(names, zip(study.read("statistics/reference")[0], study.read("statistics/reference_interval")[0])))
+    own = study.read("statistics/is_own") == 1
+    assert 0 < own.sum() < len(own) and not own[[row["asked"] for row in study.rows].index(1e-12)]
+    counted = study.read("runs/ladder")
+    for place, name in enumerate(names):
+        value, half = reference[name]
+        assert half > 0 and study.summary[name] == value and study.summary[name + "_interval"] == half
+        values, halves = study.read("statistics/values")[:, place], study.read("statistics/intervals")[:, place]
+        apart = own & (abs(values - value) > np.hypot(half, halves))
+        for setting in (1, 2):
+            chosen = own & (counted == setting) & np.isfinite(values)
+            assert study.read("statistics/runs")[setting - 1, place] == chosen.sum()
+            assert study.read("statistics/apart")[setting - 1, place] == (apart & chosen).sum()
+            assert_close(study.read("statistics/settings")[setting - 1, place], values[chosen].mean(), 1e-12)
+        assert study.summary[name + "_apart"] == apart.sum() <= 1
+        column = next(key for key in study.rows[0] if key.startswith(name + " ["))
+        assert_close([row[column] for row in study.rows], list(values), 1e-15)
+    assert (study.directory / "figures" / "precision_statistics.png").stat().st_size > 10_000
+    assert "go their own way" in (study.directory / "summary.txt").read_text()
 
 
 def test_another_sequence_of_contacts_is_a_flag(gudgeon):

@@ -1,0 +1,99 @@
+!> The statistics of a comparison of settings beyond the time that is compared, in words.
+module beyond_text
+   use batch_means, only: estimate_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use precision_results, only: ladder_t, n_statistic, precision_t, rung_done, rung_other, statistic_units, statistic_words
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: add_statistics
+
+   integer, parameter :: width = 24          !! characters of a column
+   real(wp), parameter :: chance = 0.05_wp   !! runs of equal statistics that are apart by chance [1]
+
+contains
+
+   !> For every statistic that is known: of the reference, of the runs of each setting together, and how many of them are apart.
+   subroutine add_statistics(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      character(:), allocatable :: line
+      integer :: k, longest, n_ended, n_own, s
+
+      associate (reference => study%reference%statistics)
+         if (.not. reference%is_there) return
+         n_own = 0
+         n_ended = 0
+         do k = 1, size(study%ladders)
+            n_own = n_own + count(study%ladders(k)%rungs%statistics%is_own)
+            n_ended = n_ended + count(study%ladders(k)%rungs%state == rung_done .or. study%ladders(k)%rungs%state == rung_other)
+         end do
+         call lines%line("statistics from "//real_text(reference%from, 4)//" to "//real_text(study%end, 4)// &
+                         " s, where runs are not compared with the reference, with intervals of 95 %,")
+         call lines%line("of the reference and of runs that go their own way, which "//to_text(n_own)//" of "// &
+                         to_text(n_ended)//" do:")
+         longest = len("reference")
+         do k = 1, size(study%ladders)
+            longest = max(longest, len(study%ladders(k)%name))
+         end do
+         do s = 1, n_statistic
+            if (.not. ieee_is_finite(reference%list(s)%value)) cycle
+            call lines%line("  "//trim(statistic_words(s))//" ["//trim(statistic_units(s))//"]")
+            line = "    "//padded("reference", longest)//padded(estimate_text(reference%list(s)), width)
+            call lines%line(trim(line)//told(.not. ieee_is_finite(reference%list(s)%half), "too few for an interval"))
+            do k = 1, size(study%ladders)
+               associate (ladder => study%ladders(k))
+                  if (ladder%statistics%n_run(s) == 0) cycle
+                  call lines%line("    "//padded(ladder%name, longest)//padded(estimate_text(ladder%statistics%list(s)), width)// &
+                                  apart_text(ladder, s))
+               end associate
+            end do
+         end do
+         call lines%line("")
+      end associate
+   end subroutine add_statistics
+
+   !> How many runs of a setting are apart from the reference.
+   function apart_text(ladder, s) result(words)
+      type(ladder_t), intent(in) :: ladder       !! the setting
+      integer, intent(in) :: s                   !! the statistic
+      character(:), allocatable :: words         !! as `1 of 27 apart from the reference`
+
+      associate (n => ladder%statistics%n_run(s), apart => ladder%statistics%n_apart(s))
+         words = to_text(apart)//" of "//to_text(n)//" apart from the reference"// &
+                 told(apart > 0 .and. apart <= 1 + nint(chance*n), "as chance has it")
+      end associate
+   end function apart_text
+
+   !> A remark, if it holds.
+   pure function told(is_so, remark) result(words)
+      logical, intent(in) :: is_so              !! whether it holds
+      character(*), intent(in) :: remark        !! the remark
+      character(:), allocatable :: words        !! as `, remark`, or blank
+
+      words = ""
+      if (is_so) words = ", "//remark
+   end function told
+
+   !> An estimate with its interval.
+   function estimate_text(estimate) result(words)
+      type(estimate_t), intent(in) :: estimate   !! the estimate [any]
+      character(:), allocatable :: words         !! as `12.3 +-0.4`
+
+      words = real_text(estimate%value, 4)
+      if (ieee_is_finite(estimate%half)) words = words//" +-"//real_text(estimate%half, 2)
+   end function estimate_text
+
+   !> A word at the left of its column.
+   pure function padded(word, length) result(cell)
+      character(*), intent(in) :: word            !! the word
+      integer, intent(in) :: length               !! of the column
+      character(:), allocatable :: cell           !! with blanks behind it
+
+      cell = word//repeat(" ", max(0, length - len(word)) + 2)
+   end function padded
+
+end module beyond_text
