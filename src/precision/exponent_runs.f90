@@ -28,6 +28,7 @@ module exponent_runs
    real(wp), parameter :: distance = 1.0e-7_wp             !! of the twin, of the scales [1]
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
    real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one wanted, from which it is brought back [1]
+   character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a twin that is put back
 
 contains
 
@@ -68,7 +69,7 @@ contains
 
       allocate (logs(2, size(horizon%t)), source=0.0_wp)
       horizon%tangent%reason = ""
-      call mover%start(job, setting_t("verner", "", ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
+      call mover%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
       if (.not. allocated(error)) then
          call tangent%begin(mover%system, mover%method, 1.0_wp/horizon%t(size(horizon%t)), status)
          if (status /= 0) horizon%tangent%reason = "nothing is free to be moved"
@@ -112,9 +113,9 @@ contains
 
       horizon%with_twin = .true.
       horizon%twin%reason = ""
-      call base%start(job, setting_t("verner", "", ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
+      call base%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
       if (.not. allocated(error)) then
-         call twin%start(job, setting_t("verner", "", ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
+         call twin%start(job, setting_t("verner", on_constraints, ""), horizon%tolerance, horizon%t(size(horizon%t)), error)
       end if
       if (.not. allocated(error)) then
          call first%begin(base%system, base%method, 1.0_wp/horizon%t(size(horizon%t)), status)
