@@ -1,5 +1,6 @@
 !> The results of a comparison of settings for scripts.
 module precision_objects
+   use bend_text, only: bends_of
    use horizon_text, only: horizon_json
    use json_text, only: json_object_t
    use kinds, only: i8
@@ -40,6 +41,7 @@ contains
          call json%put_real("growth_power", study%growth%power)
       end if
       call horizon_json(study%horizon, json)
+      call json%put_list("bends", bends_of(study))
       if (study%choice%ladder == 0) return
       associate (ladder => study%ladders(study%choice%ladder), rung => study%ladders(study%choice%ladder)%rungs(study%choice%rung))
          call json%put_text("choice", settings_text(ladder, rung))

@@ -1,5 +1,6 @@
 !> The results of a comparison of settings in words.
 module precision_text
+   use bend_text, only: add_bends
    use beyond_text, only: add_statistics
    use growth, only: growth_t, n_digit
    use horizon_text, only: add_horizon
@@ -14,7 +15,6 @@ module precision_text
    public :: column, figures, growth_words, precision_summary, settings_text, short
 
    integer, parameter :: width = 11          !! characters of a column
-   real(wp), parameter :: held = 1.1_wp      !! steps up to so many times the fewest that are possible are the deck's greatest [1]
 
 contains
 
@@ -36,7 +36,7 @@ contains
       call add_horizon(lines, study%horizon)
       call add_ladders(lines, study)
       call add_statistics(lines, study)
-      call add_held_steps(lines, study)
+      call add_bends(lines, study)
       call add_failures(lines, study)
       call add_choice(lines, study)
       call lines%line("time       "//real_text(study%spent, 3)//" s"//trim(merge(" of a budget of ", repeat(" ", 16), &
@@ -261,25 +261,6 @@ contains
          if (ladder%rungs(k)%error(kind) < ladder%rungs(best)%error(kind)) best = k
       end do
    end function least_error
-
-   !> Runs whose steps the deck's greatest one holds, so that their tolerance changes nothing.
-   subroutine add_held_steps(lines, study)
-      type(buffer_t), intent(inout) :: lines      !! grown
-      type(precision_t), intent(in) :: study      !! results
-
-      integer :: k, n
-
-      if (study%longest_step <= 0.0_wp) return
-      do k = 1, size(study%ladders)
-         associate (ladder => study%ladders(k))
-            if (ladder%is_fixed) cycle
-            n = count(ladder%rungs%state == rung_done .and. ladder%rungs%count%steps*study%longest_step < held*study%end)
-            if (n == 0) cycle
-            call lines%line("held: "//ladder%name//", "//to_text(n)//" runs: 'maximum_step' of the deck, "// &
-                            real_text(study%longest_step, 3)//" s, sets their steps, not the tolerance")
-         end associate
-      end do
-   end subroutine add_held_steps
 
    !> Runs that failed, were not made, or had other contacts, with their reasons, each reason of a setting once.
    subroutine add_failures(lines, study)

@@ -5,7 +5,7 @@ module precision_choice
    use precision_results, only: ladder_t, median, precision_t, rung_done, rung_other, rung_t
    implicit none (type, external)
    private
-   public :: choose_best, find_orders
+   public :: choose_best, find_orders, hidden_below
 
    real(wp), parameter :: coarse = 1.0e-3_wp     !! error above which no method shows its order [1]
    real(wp), parameter :: above_bar = 10.0_wp    !! errors this many times the reference's own or more tell of a method [1]
@@ -25,7 +25,7 @@ contains
          associate (ladder => study%ladders(k))
             error = errors_of(ladder, study%wanted)
             is_good = ladder%rungs%state == rung_done
-            is_good = is_good .and. error > above_bar*bar_of(study) .and. error > 0.0_wp .and. error < coarse
+            is_good = is_good .and. error > hidden_below(study) .and. error > 0.0_wp .and. error < coarse
             call drop_floor(error, is_good)
             ladder%order = -slope(log(pack(real(ladder%rungs%count%steps, wp), is_good)), log(pack(error, is_good)))
             ladder%exponent = slope(log(pack(ladder%rungs%asked, is_good)), log(pack(error, is_good)))
@@ -61,6 +61,13 @@ contains
          if (ieee_is_finite(ladder%rungs(k)%error(kind))) error(k) = ladder%rungs(k)%error(kind)
       end do
    end function errors_of
+
+   !> Errors up to this one tell of the reference, not of a method.
+   pure real(wp) function hidden_below(study) result(least)
+      type(precision_t), intent(in) :: study  !! the study
+
+      least = above_bar*bar_of(study)
+   end function hidden_below
 
    !> Error of the reference, 0 if nothing confirms it.
    pure real(wp) function bar_of(study) result(bar)

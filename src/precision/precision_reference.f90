@@ -20,7 +20,8 @@ module precision_reference
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
-   public :: arms_of, described, find_reference, last_within, kept_ladder_t, measure_rung, motion_of, reference_t, size_of
+   public :: arms_of, described, find_reference, last_within, kept_ladder_t, measure_all, measure_rung, motion_of, reference_t, &
+      size_of
 
    real(wp), parameter :: part_wanted = 0.1_wp  !! of the error wanted that the reference may have [1]
    real(wp), parameter :: tighter = 0.1_wp      !! tolerance of the reference, of the finest one of the ladders [1]
@@ -278,6 +279,23 @@ contains
       call measure_rung(other, reference, study, own)
       study%reference%bar = own%error(:size(study%reference%bar))
    end subroutine set_bar
+
+   !> Errors of all runs against the reference.
+   subroutine measure_all(study, kept, reference)
+      type(precision_t), intent(inout) :: study           !! errors of its rungs are set
+      type(kept_ladder_t), intent(in) :: kept(:)          !! (ladders) the runs
+      type(reference_t), intent(in) :: reference          !! what they are compared with
+
+      integer :: i, k
+
+      do k = 1, size(kept)
+         do i = 1, size(kept(k)%runs)
+            if (study%ladders(k)%rungs(i)%state == rung_done) then
+               call measure_rung(kept(k)%runs(i), reference, study, study%ladders(k)%rungs(i))
+            end if
+         end do
+      end do
+   end subroutine measure_all
 
    !> Errors of a run.
    subroutine measure_rung(run, reference, study, rung)

@@ -7,7 +7,8 @@ module precision_results
    use precision_info, only: setting_t
    implicit none (type, external)
    private
-   public :: ladder_t, precision_t, rung_t, statistics_t
+   public :: bend_t, ladder_t, precision_t, rung_t, statistics_t
+   public :: bend_lost, bend_scatter, bend_steps, bend_violation
    public :: error_ledger, error_motion, error_names, error_onsets, error_peaks, error_positions, error_reactions, &
       error_restitution, error_units, error_velocities, error_violation, error_words, n_compared, n_error
    public :: rung_done, rung_failed, rung_other, rung_states, rung_unrun
@@ -94,6 +95,18 @@ module precision_results
       type(statistics_t) :: statistics               !! of the time that is not compared
    end type rung_t
 
+   integer, parameter :: bend_scatter = 0     !! no cause is known
+   integer, parameter :: bend_steps = 1       !! the steps do not change either
+   integer, parameter :: bend_lost = 3        !! errors are of the size of the motion itself
+   integer, parameter :: bend_violation = 2   !! the constraint violation does not fall either
+
+   !> A stretch of a ladder over which errors do not fall.
+   type :: bend_t
+      integer :: first = 0                !! its coarsest rung
+      integer :: last = 0                 !! its finest rung
+      integer :: cause = bend_scatter     !! why
+   end type bend_t
+
    !> The runs of a setting, from the coarsest on.
    type :: ladder_t
       type(setting_t) :: setting                 !! the setting
@@ -103,6 +116,7 @@ module precision_results
       real(wp) :: order = 0.0_wp                 !! observed: -d ln error/d ln steps; NaN: not known [1]
       real(wp) :: exponent = 0.0_wp              !! of proportionality: d ln error/d ln tolerance; NaN: not known [1]
       real(wp) :: ratio = 0.0_wp                 !! median of error over tolerance; NaN: not known [1]
+      type(bend_t), allocatable :: bends(:)      !! (n) where errors do not fall
       type(statistics_t) :: statistics           !! of its runs in the time that is not compared
    end type ladder_t
 

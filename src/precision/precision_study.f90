@@ -8,9 +8,10 @@ module precision_study
    use exponent_runs, only: find_horizon, horizon_with_twin, plan_horizon
    use kept_run, only: kept_run_t
    use kinds, only: not_a_number, wp
+   use precision_bends, only: find_bends
    use precision_choice, only: choose_best, find_orders
    use precision_info, only: setting_t, settings_of
-   use precision_reference, only: arms_of, find_reference, kept_ladder_t, measure_rung, reference_t
+   use precision_reference, only: arms_of, find_reference, kept_ladder_t, measure_all, measure_rung, reference_t
    use precision_results, only: error_ledger, error_violation, ladder_t, median, precision_t, rung_done, rung_failed, &
       rung_other, rung_t, rung_unrun
    use precision_statistics, only: take_statistics
@@ -74,6 +75,7 @@ contains
       call display%update(0.5_wp)
       call time_rounds(job, budget, nint(scene%settings%precision%number("rounds")), display, study)
       call find_orders(study)
+      call find_bends(study)
       call choose_best(study)
       call confirm_choice(job, budget, reference, study)
       study%spent = budget%elapsed()
@@ -298,23 +300,6 @@ contains
          if (study%ladders(k)%is_fixed) study%ladders(k)%rungs%asked = longest*study%ladders(k)%rungs%asked
       end do
    end subroutine set_steps
-
-   !> Errors of all runs against the reference.
-   subroutine measure_all(study, kept, reference)
-      type(precision_t), intent(inout) :: study           !! errors of its rungs are set
-      type(kept_ladder_t), intent(in) :: kept(:)          !! (ladders) the runs
-      type(reference_t), intent(in) :: reference          !! what they are compared with
-
-      integer :: i, k
-
-      do k = 1, size(kept)
-         do i = 1, size(kept(k)%runs)
-            if (study%ladders(k)%rungs(i)%state == rung_done) then
-               call measure_rung(kept(k)%runs(i), reference, study, study%ladders(k)%rungs(i))
-            end if
-         end do
-      end do
-   end subroutine measure_all
 
    !> Time all runs that ended, round by round.
    subroutine time_rounds(job, budget, rounds, display, study)

@@ -1,0 +1,84 @@
+!> Where settings of a comparison do not do as they are asked, and why, in words.
+module bend_text
+   use kinds, only: wp
+   use precision_results, only: bend_lost, bend_scatter, bend_steps, bend_t, bend_violation, ladder_t, precision_t, rung_done
+   use text, only: append_text, real_text, text_t, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: add_bends, bends_of
+
+   real(wp), parameter :: held = 1.1_wp      !! steps up to so many times the fewest that are possible are the deck's greatest [1]
+
+contains
+
+   !> A line for each.
+   subroutine add_bends(lines, study)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(precision_t), intent(in) :: study      !! results
+
+      type(text_t), allocatable :: remarks(:)
+      integer :: k
+
+      remarks = bends_of(study)
+      do k = 1, size(remarks)
+         call lines%line(remarks(k)%s)
+      end do
+   end subroutine add_bends
+
+   !> Runs whose steps the deck's greatest one holds, so that their tolerance changes nothing, and stretches of tolerances or steps
+   !> over which errors do not fall.
+   function bends_of(study) result(remarks)
+      type(precision_t), intent(in) :: study        !! results
+      type(text_t), allocatable :: remarks(:)       !! (n) one line each
+
+      integer :: i, k, n
+
+      allocate (remarks(0))
+      do k = 1, size(study%ladders)
+         associate (ladder => study%ladders(k))
+            n = 0
+            if (.not. ladder%is_fixed .and. study%longest_step > 0.0_wp) then
+               n = count(ladder%rungs%state == rung_done .and. ladder%rungs%count%steps*study%longest_step < held*study%end)
+            end if
+            if (n > 0) call append_text(remarks, "held: "//ladder%name//", "//to_text(n)// &
+                                        " runs: 'maximum_step' of the deck, "//real_text(study%longest_step, 3)// &
+                                        " s, sets their steps, not the tolerance")
+            do i = 1, size(ladder%bends)
+               call append_text(remarks, "bent: "//ladder%name//" "//stretch(ladder, ladder%bends(i))// &
+                                ": errors fall by less than 3 over two decades; "//cause_text(ladder, ladder%bends(i)))
+            end do
+         end associate
+      end do
+   end function bends_of
+
+   !> From what to what a bend goes.
+   function stretch(ladder, bend) result(words)
+      type(ladder_t), intent(in) :: ladder       !! the ladder
+      type(bend_t), intent(in) :: bend           !! its bend
+      character(:), allocatable :: words         !! as `1e-4 to 1e-7`
+
+      words = real_text(ladder%rungs(bend%first)%asked, 2)//" to "//real_text(ladder%rungs(bend%last)%asked, 2)
+      if (ladder%is_fixed) words = words//" s"
+   end function stretch
+
+   !> Why.
+   function cause_text(ladder, bend) result(words)
+      type(ladder_t), intent(in) :: ladder       !! the ladder
+      type(bend_t), intent(in) :: bend           !! its bend
+      character(:), allocatable :: words         !! one clause
+
+      select case (bend%cause)
+      case (bend_steps)
+         words = "its steps hardly change ("//to_text(ladder%rungs(bend%first)%count%steps)//" to "// &
+                 to_text(ladder%rungs(bend%last)%count%steps)//"): stability, or events and instants that are met, set them"
+      case (bend_violation)
+         words = "the constraint violation does not fall either: the way of holding sets both"
+      case (bend_lost)
+         words = "they are as large as the motion itself"
+      case (bend_scatter)
+         words = "no cause was found"
+      end select
+   end function cause_text
+
+end module bend_text

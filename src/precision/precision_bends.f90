@@ -1,0 +1,123 @@
+!> Where the curve of error over tolerance (or step) bends before round-off, and why.
+!>
+!> Errors that the reference does not hide (`precision_choice`) are taken by decades of what was asked; in each the median, of two
+!> runs at least. A ladder is bent where its median falls by less than `least_fall` over two decades: a tenth of what it does in
+!> proportion, and more than single runs scatter. Neighbouring stretches are one. The cause is what does not change either: the
+!> steps, when stability, events or instants set them, or the constraint violation; or errors are as large as the motion itself.
+!>
+!> Limits: ladders that are too short for three decades of two runs are not judged.
+module precision_bends
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use precision_choice, only: hidden_below
+   use precision_results, only: bend_lost, bend_scatter, bend_steps, bend_t, bend_violation, error_violation, ladder_t, median, &
+      precision_t, rung_done
+   implicit none (type, external)
+   private
+   public :: find_bends
+
+   real(wp), parameter :: least_fall = 3.0_wp      !! of the median over two decades [1]
+   real(wp), parameter :: same_steps = 1.4_wp      !! numbers of steps, over two decades, that are nearly the same [1]
+   real(wp), parameter :: lost = 0.1_wp            !! error of a motion that has nothing left of what it should be [1]
+   integer, parameter :: fewest = 2                !! runs of a decade
+
+   !> The runs of a decade.
+   type :: decade_t
+      integer :: n = 0                   !! runs whose error is known
+      integer :: first = 0               !! rung, the coarsest of them
+      integer :: last = 0                !! rung, the finest of them
+      real(wp) :: error = 0.0_wp         !! median of their errors [1]
+      real(wp) :: steps = 0.0_wp         !! median of their numbers of steps [1]
+      real(wp) :: violation = 0.0_wp     !! median of the constraint violations [m]
+   end type decade_t
+
+contains
+
+   !> The bends of all ladders.
+   subroutine find_bends(study)
+      type(precision_t), intent(inout) :: study  !! errors are known; bends are set
+
+      integer :: k
+
+      do k = 1, size(study%ladders)
+         allocate (study%ladders(k)%bends(0))
+         if (ieee_is_finite(study%reference%bar(study%wanted))) call find_in(study%ladders(k), study%wanted, hidden_below(study))
+      end do
+   end subroutine find_bends
+
+   !> The bends of a ladder.
+   subroutine find_in(ladder, kind, hidden)
+      type(ladder_t), intent(inout) :: ladder    !! bends are set
+      integer, intent(in) :: kind                !! of error
+      real(wp), intent(in) :: hidden             !! errors up to this one are hidden by the reference's [1]
+
+      type(decade_t), allocatable :: decades(:)
+      type(bend_t) :: bend
+      integer :: k, last
+
+      decades = decades_of(ladder, kind, hidden)
+      last = 0
+      do k = 1, size(decades) - 2
+         if (any(decades(k:k + 2)%n < fewest)) cycle
+         if (decades(k)%error > least_fall*decades(k + 2)%error) cycle
+         bend%cause = cause_of(decades(k), decades(k + 2))
+         bend%first = decades(k)%first
+         bend%last = decades(k + 2)%last
+         if (last > 0 .and. k <= last + 2) then
+            associate (before => ladder%bends(size(ladder%bends)))
+               if (before%cause == bend%cause) then
+                  before%last = bend%last
+                  last = k
+                  cycle
+               end if
+            end associate
+         end if
+         ladder%bends = [ladder%bends, bend]
+         last = k
+      end do
+   end subroutine find_in
+
+   !> Decades of what was asked, from the coarsest rung on.
+   function decades_of(ladder, kind, hidden) result(decades)
+      type(ladder_t), intent(in) :: ladder         !! the ladder
+      integer, intent(in) :: kind                  !! of error
+      real(wp), intent(in) :: hidden               !! errors up to this one are hidden by the reference's [1]
+      type(decade_t), allocatable :: decades(:)    !! (n) decades
+
+      integer :: decade(size(ladder%rungs))
+      logical :: is_in(size(ladder%rungs)), is_known(size(ladder%rungs))
+      integer :: i, k
+
+      associate (rungs => ladder%rungs)
+         is_known = .false.
+         do i = 1, size(rungs)
+            decade(i) = 1 + floor(log10(rungs(1)%asked/rungs(i)%asked) + 1.0e-6_wp)
+            if (rungs(i)%state /= rung_done) cycle
+            if (ieee_is_finite(rungs(i)%error(kind))) is_known(i) = rungs(i)%error(kind) > hidden
+         end do
+         allocate (decades(decade(size(rungs))))
+         do k = 1, size(decades)
+            is_in = is_known .and. decade == k
+            decades(k)%n = count(is_in)
+            if (decades(k)%n == 0) cycle
+            decades(k)%first = findloc(is_in, .true., dim=1)
+            decades(k)%last = findloc(is_in, .true., dim=1, back=.true.)
+            decades(k)%error = median(pack([(rungs(i)%error(kind), i=1, size(rungs))], is_in))
+            decades(k)%steps = median(pack(real(rungs%count%steps, wp), is_in))
+            decades(k)%violation = median(pack([(rungs(i)%error(error_violation), i=1, size(rungs))], is_in))
+         end do
+      end associate
+   end function decades_of
+
+   !> Why errors do not fall from one decade to another.
+   pure integer function cause_of(coarse, fine)
+      type(decade_t), intent(in) :: coarse   !! the first decade
+      type(decade_t), intent(in) :: fine     !! the last one
+
+      cause_of = bend_scatter
+      if (fine%violation > 0.0_wp .and. coarse%violation <= least_fall*fine%violation) cause_of = bend_violation
+      if (fine%steps <= same_steps*coarse%steps) cause_of = bend_steps
+      if (fine%error > lost) cause_of = bend_lost
+   end function cause_of
+
+end module precision_bends

@@ -1,0 +1,78 @@
+"""`gudgeon precision` on every deck of inputs/ and inputs/hard: errors fall with the tolerance, or the report says why they do not.
+
+Decks are found by themselves. A copy of each says what is different: a ladder of eleven tolerances, no twins, and of some that take
+long a part of the motion.
+"""
+
+import csv
+import json
+import math
+import re
+import statistics
+
+import pytest
+from conftest import ROOT
+from support import call, changed, scratch, text_of, written
+
+DECKS = sorted(path for folder in ("inputs", "inputs/hard") for path in (ROOT / folder).glob("*.deck"))
+LADDER = "\n[precision]\ncoarsest = 1e-4\nfinest = 1e-9\nper_decade = 2\nrounds = 1\ninstants = 50\nperturbation = 0\n"
+SHORTER = {"a02_four_bars_40": "0.5 s", "shaken_pendulum": "0.2 s", "friction": "0.2 s"}
+REFUSED = {"four_bar_kinematic": (2, "a comparison runs the section [analysis.dynamic]"), "dead_point": (5, "no run came to its end")}
+LEAST_FALL = 3  # of the median error of a decade over two decades; in proportion it is 100
+
+
+def deck_text(deck):
+    """A deck with files at their places and a ladder."""
+    text = deck.read_text()
+    text = re.sub(r'(?m)^(\s*include\s+)"([^"]+)"', lambda found: f'{found.group(1)}"{deck.parent / found.group(2)}"', text)
+    text = text.replace('"valve_lift.txt"', f'"{ROOT / "inputs" / "valve_lift.txt"}"')
+    if deck.stem in SHORTER:
+        text = changed(text, "analysis.dynamic", end=SHORTER[deck.stem])
+    return text + LADDER
+
+
+def medians(rows, hidden):
+    """Median error of each decade of tolerances, of two runs at least that the reference does not hide."""
+    decades = {}
+    for row in rows:
+        if row["state"] == "done" and row["motion"] and float(row["motion"]) > hidden:
+            place = math.floor(math.log10(1e-4 / float(row["asked"])) + 1e-6)
+            decades.setdefault(place, []).append(float(row["motion"]))
+    return {place: statistics.median(errors) for place, errors in decades.items() if len(errors) > 1}
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=lambda deck: deck.stem)
+def test_errors_fall_or_the_report_says_why(gudgeon, deck):
+    """Over any two decades of tolerance by a factor of 3 at least, until the reference's own error; else a line names the cause."""
+    directory = scratch()
+    code, words = REFUSED.get(deck.stem, (0, ""))
+    done = call(gudgeon, "precision", written(directory, deck_text(deck)), "--methods", "verner", "--out", directory / "out", "--quiet", expect=code)
+    assert words in done.stderr
+    if code:
+        return
+    summary = json.loads((directory / "out" / "summary.json").read_text())
+    assert summary["confirmed_by"] and not any("no cause" in line for line in summary["bends"]), summary["bends"]
+    rows = list(csv.DictReader((directory / "out" / "precision.csv").open()))
+    assert summary["not_run"] == 0 and sum(row["state"] == "done" for row in rows) >= 4
+    errors = medians(rows, 10 * summary["reference_error"])
+    bent = [place for place in errors if place + 2 in errors and errors[place] < LEAST_FALL * errors[place + 2]]
+    assert not bent or summary["bends"], (errors, bent)
+    report = (directory / "out" / "summary.txt").read_text()
+    assert all(line in report for line in summary["bends"])
+
+
+@pytest.mark.parametrize(
+    "name, words",
+    [
+        ("hard/grazed_plane", "errors fall by less than 3 over two decades; its steps hardly change (7 to 9)"),
+        ("four_bar", "they are as large as the motion itself"),
+        ("hard/a02_four_bars_1", "held: verner, 11 runs: 'maximum_step' of the deck"),
+    ],
+)
+def test_causes_are_named(gudgeon, name, words):
+    """A parabola, whose errors are round-off but where steps are shorter for an event; constraints that drift; steps that the deck holds."""
+    directory = scratch()
+    text = deck_text(ROOT / "inputs" / f"{name}.deck").replace("finest = 1e-9", "finest = 1e-11" if "plane" in name else "finest = 1e-9")
+    call(gudgeon, "precision", written(directory, text), "--methods", "verner", "--out", directory / "out", "--quiet")
+    bends = json.loads((directory / "out" / "summary.json").read_text())["bends"]
+    assert any(words in line for line in bends), bends
