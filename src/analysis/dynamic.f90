@@ -59,6 +59,7 @@ contains
       allocate (run%waiting(size(run%whole%parts)))
       call new_sampler(system, plan, run%sampler)
       call recorder%start(run%sampler%catalogue, error)
+      if (.not. allocated(error)) call run%sampler%ask(recorder, run%stop)
       call cpu_time(cpu_0)
       call run%budget%begin(limits%cpu)
       if (.not. allocated(error)) call integrate(run, y, plan, recorder, error)

@@ -12,6 +12,7 @@ module sampling
    use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
+   use stop_condition, only: stop_t
    use time_plan, only: instant, last_instant, time_plan_t
    use whole_motion, only: whole_motion_t
    implicit none (type, external)
@@ -34,6 +35,7 @@ module sampling
       real(wp), allocatable, private :: y(:)     !! (n) state that is reported [any]
       real(wp), allocatable, private :: ydot(:)  !! (n) its derivative [any]
    contains
+      procedure :: ask => ask_readers
       procedure :: take => take_samples
       procedure :: take_stop
       procedure :: before_events
@@ -54,6 +56,19 @@ contains
       allocate (sampler%y(system%n), sampler%ydot(system%n), source=0.0_wp)
       sampler%n_last_sample = last_instant(plan)
    end subroutine new_sampler
+
+   !> Learn what is read of a report: nothing else is found.
+   subroutine ask_readers(self, recorder, stop)
+      class(sampler_t), intent(inout) :: self         !! what is reported
+      class(recorder_t), intent(in) :: recorder       !! keeps the results, started
+      type(stop_t), intent(in) :: stop                !! conditions that end the run
+
+      integer :: k
+
+      do k = 1, size(self%catalogue%groups)
+         self%catalogue%groups(k)%is_wanted = recorder%wants(k) .or. stop%wants(k)
+      end do
+   end subroutine ask_readers
 
    !> All output instants and peaks of contacts up to the time that all parts have reached; an output instant at which functions of
    !> time are not smooth only when the motion has passed it, with the values behind it.

@@ -35,6 +35,7 @@ module stop_condition
       integer :: met = 0                         !! the condition that ended it, 0: none
    contains
       procedure :: add => stop_add
+      procedure :: wants => stop_wants
       procedure :: look => stop_look
       procedure :: message => stop_message
    end type stop_t
@@ -55,6 +56,15 @@ contains
       self%list = [self%list, condition_t(words, group, component, item, is_above, limit)]
       self%n = size(self%list)
    end subroutine stop_add
+
+   !> Whether a condition reads the values of a quantity.
+   pure logical function stop_wants(self, group) result(wants)
+      class(stop_t), intent(in) :: self       !! the conditions
+      integer, intent(in) :: group            !! its group in the catalogue
+
+      wants = .false.
+      if (self%n > 0) wants = any(self%list%group == group)
+   end function stop_wants
 
    !> After a step; before the first one, a condition that is met already ends the run there.
    subroutine stop_look(self, system, method, residual, catalogue, status)

@@ -7,6 +7,15 @@ submodule(joint_set) joint_channels
    use motion, only: cross
    implicit none (type, external)
 
+   ! channels
+   integer, parameter :: of_force = 1             !! reaction
+   integer, parameter :: of_moment = 2            !! reaction moment
+   integer, parameter :: of_violation = 3         !! of the constraints
+   integer, parameter :: of_violation_rate = 4    !! its rate
+   integer, parameter :: of_coordinate = 5        !! of a driver
+   integer, parameter :: of_power = 6             !! of a driver
+   integer, parameter :: of_friction = 7          !! of joints that rub
+
 contains
 
    !> The channels that every ideal joint has.
@@ -20,35 +29,45 @@ contains
    !> Values of a channel for all items.
    module procedure report_shared
       real(wp) :: force(3), moment(3), rate, value
-      integer :: first, k, last
+      integer :: first, k, last, what
 
+      select case (channel)
+      case ("force"); what = of_force
+      case ("moment"); what = of_moment
+      case ("violation"); what = of_violation
+      case ("violation_rate"); what = of_violation_rate
+      case ("coordinate", "displacement"); what = of_coordinate
+      case ("power"); what = of_power
+      case default; what = of_friction
+      end select
       do k = 1, self%n
          first = self%first_row + (k - 1)*self%n_row_item + 1
          last = first + self%n_row_item - 1
          associate (column => self%column(k))
-            select case (channel)
-            case ("force")
+            select case (what)
+            case (of_force)
                if (self%is_driver) then
                   values(1, column) = -lambda(first)
                else
                   call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
                   values(:, column) = force(:size(values, 1))
                end if
-            case ("moment")
+            case (of_moment)
                call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
                values(1, column) = merge(-moment(3), moment(3), self%is_driver)
-            case ("violation")
+            case (of_violation)
                values(1, column) = norm2(rows%phi(first:last))
-            case ("violation_rate")
+            case (of_violation_rate)
                values(1, column) = norm2(phi_dot(first:last))
-            case ("coordinate", "displacement")
+            case (of_coordinate)
                call self%coordinate(k, motion, value, rate)
                values(1, column) = value
-            case ("power")
+            case (of_power)
                values(1, column) = sum(lambda(first:last)*rows%phi_t(first:last))
             end select
          end associate
       end do
+      if (what /= of_friction) return
       do k = 1, self%friction%n
          associate (column => self%column(self%friction%item(k)))
             if (channel == "friction_moment") values(1, column) = self%friction%length(k)*self%friction%force(k)

@@ -32,6 +32,8 @@ module catalogue
    type :: group_t
       integer :: room = 0                     !! room, one of the above
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
+      logical :: is_wanted = .true.           !! someone reads the values; else they are not found
+      logical, allocatable :: has(:)          !! (items) which of them have the channel
       real(wp), allocatable :: data(:, :)     !! (components, items) current values, SI; NaN: the item has no such channel [any]
    end type group_t
 
@@ -178,17 +180,24 @@ contains
       integer, intent(in) :: group            !! number of the group
       integer, intent(in) :: item             !! number of the item in the group's room
 
-      associate (room => self%rooms(self%groups(group)%room))
-         has = len(room%channels(item)%s) == 0
-         if (.not. has) has = index(room%channels(item)%s, " "//self%groups(group)%channel%name//" ") > 0
-      end associate
+      has = self%groups(group)%has(item)
    end function catalogue_item_has
+
+   !> Whether an item of a room has a channel: it names its own, or has all of the room's.
+   pure logical function has_channel(room, channel, item) result(has)
+      type(room_t), intent(in) :: room        !! the room
+      character(*), intent(in) :: channel     !! name of the channel
+      integer, intent(in) :: item             !! number of the item
+
+      has = len(room%channels(item)%s) == 0
+      if (.not. has) has = index(room%channels(item)%s, " "//channel//" ") > 0
+   end function has_channel
 
    !> Make room for the values, all NaN; no more items come.
    subroutine catalogue_allocate_data(self)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
 
-      integer :: k
+      integer :: item, k
 
       self%rooms(room_bodies)%name = "bodies"
       self%rooms(room_joints)%name = "joints"
@@ -203,8 +212,9 @@ contains
       if (.not. allocated(self%groups)) allocate (self%groups(0))
       do k = 1, size(self%groups)
          associate (group => self%groups(k))
-            if (allocated(group%data)) deallocate (group%data)
+            if (allocated(group%data)) deallocate (group%data, group%has)
             allocate (group%data(group%channel%components, size(self%rooms(group%room)%names)), source=not_a_number())
+            group%has = [(has_channel(self%rooms(group%room), group%channel%name, item), item=1, size(group%data, 2))]
          end associate
       end do
    end subroutine catalogue_allocate_data

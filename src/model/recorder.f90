@@ -96,6 +96,7 @@ module recorder
    contains
       procedure(start_interface), deferred :: start
       procedure(sample_interface), deferred :: sample
+      procedure :: wants => wants_all
       procedure :: further_row => skip_further_row
       procedure :: strobe => skip_strobe
       procedure(event_interface), deferred :: event
@@ -151,6 +152,14 @@ module recorder
    end interface
 
 contains
+
+   !> Whether the values of a quantity are read, once the recorder has started: all are, unless a recorder knows better.
+   pure logical function wants_all(self, group) result(wants)
+      class(recorder_t), intent(in) :: self      !! the recorder
+      integer, intent(in) :: group               !! its group in the catalogue
+
+      wants = .true.
+   end function wants_all
 
    !> Keep the catalogue's current values as those of an instant of a contact, or of one at which a condition ends the run:
    !> nothing, unless a recorder wants them. Times do not fall from call to call of `sample` and `further_row`; where a force

@@ -2,7 +2,7 @@
 !>
 !> As in `hdf5_calls`, every procedure does nothing once `status` is negative, and shapes are given in Fortran's order.
 module hdf5_datasets
-   use hdf5, only: h5dclose_f, h5dwrite_f, h5tclose_f
+   use hdf5, only: h5dclose_f, h5dwrite_f, h5p_dataset_xfer_f, h5pclose_f, h5pcreate_f, h5pset_buffer_f, h5tclose_f
    use hdf5, only: hid_t, hsize_t, h5t_native_double, h5t_native_integer, h5t_std_i32le, h5t_ieee_f64le
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use hdf5_attributes, only: string_type, text_attribute
@@ -12,6 +12,8 @@ module hdf5_datasets
    implicit none (type, external)
    private
    public :: describe, integer_dataset, real_dataset, text_dataset
+
+   integer(hsize_t), parameter :: conversion = 65536_hsize_t  !! bytes in which strings are brought into the file's form; 1 MB is usual
 
 contains
 
@@ -39,7 +41,7 @@ contains
 
       type(c_ptr), target :: pointers(max(size(list), 1))
       character(kind=c_char, len=:), allocatable, target :: store
-      integer(hid_t) :: dataset, type_id
+      integer(hid_t) :: dataset, transfer, type_id
       integer :: at, closed, k, total
 
       call string_type(type_id, status)
@@ -60,7 +62,12 @@ contains
       else
          call new_dataset(file, path, type_id, [size(list, kind=hsize_t)], dataset, status)
       end if
-      if (status >= 0 .and. size(list) > 0) call h5dwrite_f(dataset, type_id, c_loc(pointers), status)
+      if (status >= 0 .and. size(list) > 0) then
+         call h5pcreate_f(h5p_dataset_xfer_f, transfer, status)
+         if (status >= 0) call h5pset_buffer_f(transfer, conversion, status)
+         if (status >= 0) call h5dwrite_f(dataset, type_id, c_loc(pointers), status, xfer_prp=transfer)
+         call h5pclose_f(transfer, closed)
+      end if
       call describe(dataset, "1", long_name, "none", status)
       if (dataset >= 0) call h5dclose_f(dataset, closed)
       call h5tclose_f(type_id, closed)

@@ -47,6 +47,7 @@ module run_recorder
       logical, private :: is_broken = .false.                 !! a file could not be written
    contains
       procedure :: start => start_run
+      procedure :: wants => run_wants
       procedure :: sample => sample_run
       procedure :: further_row => further_row_run
       procedure :: strobe => strobe_run
@@ -159,6 +160,21 @@ contains
       grown(size(grown)) = figure
       call move_alloc(grown, figures)
    end subroutine append_figure
+
+   !> Whether files, figures or statistics read the values of a quantity.
+   pure logical function run_wants(self, group) result(wants)
+      class(run_recorder_t), intent(in) :: self          !! the recorder, started
+      integer, intent(in) :: group                       !! its group in the catalogue
+
+      integer :: k
+
+      wants = self%selection%has_group(group)
+      if (allocated(self%statistics%channels)) wants = wants .or. any(self%statistics%channels%group == group)
+      if (allocated(self%statistics%spectra)) wants = wants .or. any(self%statistics%spectra%group == group)
+      do k = 1, size(self%figures)
+         if (allocated(self%figures(k)%scalars)) wants = wants .or. any(self%figures(k)%scalars%group == group)
+      end do
+   end function run_wants
 
    !> Keep the current values.
    subroutine sample_run(self, t, catalogue, error)

@@ -197,9 +197,12 @@ contains
       type(energy_t) :: energy
       integer :: k
 
-      if (system%ledger%has_energies) energy = energy_of(system, y)
+      if (system%ledger%has_energies .and. any(catalogue%groups%is_wanted .and. catalogue%groups%room == room_energy)) then
+         energy = energy_of(system, y)
+      end if
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
+            if (.not. group%is_wanted) cycle
             select case (group%room)
             case (room_bodies)
                call system%linkage%coordinates%report(group%channel%name, system%linkage%motion, group%data)
