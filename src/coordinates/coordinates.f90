@@ -170,13 +170,13 @@ module coordinates
          real(wp), intent(out) :: a(self%n_v)       !! (n_v) derivatives of its rates [any]
       end subroutine acceleration_interface
 
-      !> Kinetic energy of a body.
-      pure function energy_interface(mass, motion, body) result(energy)
+      !> Kinetic energy of all bodies.
+      pure function energy_interface(n, mass, motion) result(energy)
          import :: motion_t, wp
          implicit none (type, external)
-         real(wp), intent(in) :: mass(:)        !! (n_v) its masses [kg or kg.m^2]
+         integer, intent(in) :: n               !! number of bodies
+         real(wp), intent(in) :: mass(:, :)     !! (n_v, n) their masses [kg or kg.m^2]
          type(motion_t), intent(in) :: motion   !! the motion
-         integer, intent(in) :: body            !! the body
          real(wp) :: energy                     !! kinetic energy [J]
       end function energy_interface
 

@@ -281,14 +281,19 @@ contains
       a(3) = motion%alpha(3, body)
    end subroutine planar_find_acceleration
 
-   !> (m v^2 + I omega^2) / 2.
-   pure function planar_kinetic_energy(mass, motion, body) result(energy)
-      real(wp), intent(in) :: mass(:)        !! (3) mass, mass, moment of inertia [kg, kg, kg.m^2]
-      type(motion_t), intent(in) :: motion   !! the motion
-      integer, intent(in) :: body            !! the body
-      real(wp) :: energy                     !! kinetic energy [J]
+   !> Sum of (m v^2 + I omega^2)/2, body by body.
+   pure function planar_kinetic_energy(n, mass, motion) result(energy)
+      integer, intent(in) :: n                !! number of bodies
+      real(wp), intent(in) :: mass(:, :)      !! (3, n) mass, mass, moment of inertia [kg, kg, kg.m^2]
+      type(motion_t), intent(in) :: motion    !! the motion
+      real(wp) :: energy                      !! kinetic energy [J]
 
-      energy = 0.5_wp*(mass(1)*(motion%v(1, body)**2 + motion%v(2, body)**2) + mass(3)*motion%omega(3, body)**2)
+      integer :: k
+
+      energy = 0.0_wp
+      do k = 1, n
+         energy = energy + 0.5_wp*(mass(1, k)*(motion%v(1, k)**2 + motion%v(2, k)**2) + mass(3, k)*motion%omega(3, k)**2)
+      end do
    end function planar_kinetic_energy
 
    !> Two forces and a moment.

@@ -74,10 +74,8 @@ contains
       integer :: k
 
       associate (motion => system%linkage%motion, mass => system%linkage%mass, gravity => system%loading%gravity)
-         do k = 1, system%linkage%bodies%n
-            energy%kinetic = energy%kinetic + system%linkage%coordinates%kinetic_energy(mass(:, k), motion, k)
-            energy%potential = energy%potential - system%linkage%bodies%mass(k)*dot_product(gravity, motion%r(:, k))
-         end do
+         energy%kinetic = system%linkage%coordinates%kinetic_energy(system%linkage%bodies%n, mass, motion)
+         energy%potential = potential_energy(system%linkage%bodies%n, system%linkage%bodies%mass, gravity, motion%r)
       end associate
       do k = 1, size(system%loading%forces)
          energy%elastic = energy%elastic + system%loading%forces(k)%set%elastic_energy(system%linkage%motion)
@@ -87,6 +85,21 @@ contains
          energy%elastic = energy%elastic + system%loose%sets(k)%set%elastic_energy(system%linkage%motion)
       end do
    end subroutine add_mechanical
+
+   !> Sum of -m g . r, body by body.
+   pure real(wp) function potential_energy(n, mass, gravity, r) result(total)
+      integer, intent(in) :: n               !! number of bodies
+      real(wp), intent(in) :: mass(n)        !! (n) masses [kg]
+      real(wp), intent(in) :: gravity(3)     !! (3) acceleration of gravity, world frame [m/s^2]
+      real(wp), intent(in) :: r(3, 0:n)      !! (3, 0:n) centres of mass, world frame [m]
+
+      integer :: k
+
+      total = 0.0_wp
+      do k = 1, n
+         total = total - mass(k)*(gravity(1)*r(1, k) + gravity(2)*r(2, k) + gravity(3)*r(3, k))
+      end do
+   end function potential_energy
 
    !> Energies at a state. Works without a ledger too; then the work terms are zero.
    function energy_of(system, y) result(energy)
