@@ -12,7 +12,7 @@ module driver_conflict
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use scene, only: scene_t
-   use text, only: append_text, starts_with, text_t
+   use text, only: append_text, piece, starts_with, text_t
    implicit none (type, external)
    private
    public :: name_conflict
@@ -56,7 +56,7 @@ contains
          if (k == size(guilty)) names = names//" and '"//guilty(k)%s//"'"
       end do
       was = error%message
-      if (index(was, new_line("a")) > 0) was = was(1:index(was, new_line("a")) - 1)
+      if (index(was, new_line("a")) > 0) was = piece(was, 1, index(was, new_line("a")) - 1)
       call set_error(error, exit_assembly, names//" contradict each other at the start"//new_line("a")// &
                      "  = the mechanism can be assembled without any one of them, not with all: "//was//new_line("a")// &
                      "  = remove one, or let them prescribe positions and speeds that agree")

@@ -6,7 +6,7 @@ module options
    use kinds, only: least_tolerance, wp
    use numbers, only: number_length, read_number
    use spelling, only: nearest_word
-   use text, only: append_text, join, split_blank, starts_with, text_t, to_text
+   use text, only: append_text, join, piece, split_blank, starts_with, text_t, to_text
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
@@ -88,7 +88,7 @@ contains
          sign = index(word, "=")
          if (sign > 0) then
             value = word(sign + 1:)
-            word = word(1:sign - 1)
+            word = piece(word, 1, sign - 1)
          else if (allocated(value)) then
             deallocate (value)
          end if

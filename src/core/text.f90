@@ -8,7 +8,8 @@ module text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: append_text, counted, exact_text, join, lower, printable, real_text, replace, split_blank, starts_with, text_t, to_text
+  public :: append_text, counted, exact_text, join, lower, piece, printable, real_text, replace, split_blank, starts_with, text_t, &
+      to_text
 
    !> A string of any length, so that lists of strings may be ragged.
    type :: text_t
@@ -82,7 +83,7 @@ contains
       read (image(at + 1:), *) power
       figures = image(1:1)//image(3:at - 1)
       at = verify(figures, "0", back=.true.)
-      figures = figures(1:max(at, 1))
+      figures = piece(figures, 1, max(at, 1))
       s = sign//placed(figures, power)
    end function real_text
 
@@ -150,6 +151,21 @@ contains
          small(i:i) = achar(code)
       end do
    end function lower
+
+   !> A piece of a string, for the string itself to become it: `s = s(2:)` as it stands makes the room of `s` smaller before it is
+   !> read (gfortran), and where the room moves reads what is no longer there.
+   pure function piece(string, first, last) result(s)
+      character(*), intent(in) :: string       !! the string
+      integer, intent(in) :: first             !! first character of the piece
+      integer, intent(in), optional :: last    !! last one; absent: that of the string
+      character(:), allocatable :: s           !! the piece
+
+      if (present(last)) then
+         s = string(first:last)
+      else
+         s = string(first:)
+      end if
+   end function piece
 
    !> All strings of a list in one, with a separator between them.
    pure function join(list, separator) result(s)

@@ -14,7 +14,7 @@ module quantities
    use kind_info, only: column_t, dim_none, dim_t, same_dimension
    use kinds, only: wp
    use numbers, only: number_length
-   use text, only: lower
+   use text, only: lower, piece
    use tokens, only: token_brace, token_t
    use units, only: parse_unit, read_quantity, unit_t
    implicit none (type, external)
@@ -58,7 +58,7 @@ contains
       help = ""
       k = index(message, ": did you mean")
       if (k > 0) help = message(k + 2:)
-      if (k > 0) message = message(1:k - 1)
+      if (k > 0) message = piece(message, 1, k - 1)
       at = location
       at%first = location%first + first - 1
       at%last = location%first + last - 1

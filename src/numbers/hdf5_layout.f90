@@ -15,7 +15,7 @@ module hdf5_layout
    use output_plan, only: output_plan_t
    use posix, only: host_name, utc_time
    use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
-   use text, only: text_t
+   use text, only: piece, text_t
    implicit none (type, external)
    private
    public :: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
@@ -124,7 +124,7 @@ contains
          next = next + at
       end do
       if (len(path) == 0) path = "/unnamed"
-      path = path(2:)
+      path = piece(path, 2)
    end function link_path
 
    !> The time, a dimension scale for all that grows.

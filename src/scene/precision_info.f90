@@ -10,7 +10,7 @@ module precision_info
    use kinds, only: least_tolerance, wp
    use section_info, only: dynamic_info
    use spelling, only: nearest_word
-   use text, only: append_text, split_blank, text_t
+   use text, only: append_text, piece, split_blank, text_t
    implicit none (type, external)
    private
    public :: check_precision, check_setting_word, precision_section, setting_t, settings_of
@@ -76,7 +76,7 @@ contains
 
       info = dynamic_info()
       words = info%columns(column_of(info, trim(key)))%choices
-      if (index(words, "auto ") == 1) words = words(6:)
+      if (index(words, "auto ") == 1) words = piece(words, 6)
    end function choices_of
 
    !> The word that names a setting.
