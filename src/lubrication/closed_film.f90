@@ -15,7 +15,7 @@ module closed_film
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: closed_film_t, fit_long, fit_short, positive_part
+   public :: closed_film_t, fit_long, fit_short, narrowing_side, positive_part
 
    integer, parameter :: parameter_scale = own_parameters + 1  !! s [N.s]
 
@@ -113,6 +113,21 @@ contains
          end associate
       end do
    end subroutine closed_force
+
+   !> Which half of the gap narrows, for half films: the sign of Om, smooth over |w| < 0.01 eps |eps'| or so, since such films jump
+   !> there while the journal moves along the line of centres, and a motion would stick in the jump.
+   pure real(wp) function narrowing_side(eps, eps_dot, w) result(side)
+      real(wp), intent(in) :: eps       !! eccentricity ratio [1]
+      real(wp), intent(in) :: eps_dot   !! its rate [1/s]
+      real(wp), intent(in) :: w         !! eps Om [rad/s]
+
+      real(wp), parameter :: part = 1.0e-2_wp  ! of eps eps' over which the sign changes [1]
+      real(wp) :: size
+
+      size = sqrt(w*w + (part*eps*eps_dot)**2)
+      side = 1.0_wp
+      if (size > tiny(1.0_wp)) side = w/size
+   end function narrowing_side
 
    !> Where a pressure that goes with a sin(theta) - b cos(theta) is positive, half the film from theta_1 = atan2(b, a) on, in
    !> Sommerfeld's variable, cos x = (cos theta + eps)/(1 + eps cos theta), sin x = sqrt(q) sin theta/(1 + eps cos theta): the ends

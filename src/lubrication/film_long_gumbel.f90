@@ -7,10 +7,11 @@
 !> Source: Flores et al. (2008), eqs. (5.12), (5.13): Reynolds' equation with p(0) = p(pi) = 0, for Om >= 0; mirrored at the line of
 !> centres for Om < 0, where the other half narrows. `form = book` takes the half from 0 to pi at any Om.
 !> Limits: the half is fixed by the sign of Om, not by where the pressure is positive: right for eps' = 0, far off for fast
-!> squeezing and suction for fast parting; the force jumps where Om changes its sign while eps' does not vanish.
+!> squeezing and suction for fast parting; the force would jump where Om changes its sign while eps' does not vanish, and
+!> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 !> It depends on the direction of n even for e -> 0, where that is no direction: its damping is 3.57 along n and 18.85 across.
 module film_long_gumbel
-   use closed_film, only: closed_film_t, fit_long
+   use closed_film, only: closed_film_t, fit_long, narrowing_side
    use film_law, only: film_bearing_t, n_film_parameter
    use item, only: item_t
    use kind_info, only: add_word, kind_info_t
@@ -76,7 +77,8 @@ contains
       q = (1.0_wp - eps)*(1.0_wp + eps)
       root = sqrt(q)
       s = 2.0_wp + eps*eps
-      side = merge(1.0_wp, sign(1.0_wp, w), self%is_book)
+      side = 1.0_wp
+      if (.not. self%is_book) side = narrowing_side(eps, eps_dot, w)
       f_r = -12.0_wp*(eps*side*w/(s*q) + eps_dot/(q*root)*(0.5_wp*pi - 8.0_wp/(pi*s)))
       f_t = 12.0_wp*side*(0.5_wp*pi*side*w/(s*root) + 2.0_wp*eps*eps_dot/(s*q))
    end subroutine long_gumbel_components

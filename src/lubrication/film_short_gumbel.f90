@@ -7,9 +7,10 @@
 !> Source: Flores et al. (2008), eqs. (5.3), (5.8), (5.9), which hold for Om >= 0; mirrored at the line of centres for Om < 0,
 !> where the other half narrows. `form = book` takes the half from 0 to pi at any Om.
 !> Limits: the half is fixed by the sign of Om, not by where the pressure is positive: right for eps' = 0, far off for fast
-!> squeezing and suction for fast parting; the force jumps where Om changes its sign while eps' does not vanish.
+!> squeezing and suction for fast parting; the force would jump where Om changes its sign while eps' does not vanish, and
+!> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 module film_short_gumbel
-   use closed_film, only: closed_film_t, fit_short
+   use closed_film, only: closed_film_t, fit_short, narrowing_side
    use film_law, only: film_bearing_t, n_film_parameter
    use item, only: item_t
    use kind_info, only: add_word, kind_info_t
@@ -74,7 +75,8 @@ contains
 
       q = (1.0_wp - eps)*(1.0_wp + eps)
       root = sqrt(q)
-      side = merge(1.0_wp, sign(1.0_wp, w), self%is_book)
+      side = 1.0_wp
+      if (.not. self%is_book) side = narrowing_side(eps, eps_dot, w)
       f_r = -0.5_wp*(pi*eps_dot*(1.0_wp + 2.0_wp*eps*eps)/root + 2.0_wp*eps*side*w)/(q*q)
       f_t = 0.5_wp*side*(4.0_wp*eps*eps_dot + 0.5_wp*pi*side*w*root)/(q*q)
    end subroutine short_gumbel_components
