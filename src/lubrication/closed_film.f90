@@ -87,7 +87,7 @@ contains
       real(wp), intent(in) :: parameters(n_film_parameter, n)    !! (n_film_parameter, n) from `fit` [any]
       real(wp), intent(out) :: f(2, n)                           !! (2, n) forces on the journals, world frame [N]
 
-      real(wp) :: distance, f_r, f_t, n_x, n_y, speed, w
+      real(wp) :: distance, f_r, f_t, n_x, n_y, per_c, per_distance, speed, w
       integer :: k
 
       do k = 1, n
@@ -96,8 +96,9 @@ contains
             n_x = 1.0_wp
             n_y = 0.0_wp
             if (distance > tiny(1.0_wp)) then
-               n_x = e(1)/distance
-               n_y = e(2)/distance
+               per_distance = 1.0_wp/distance
+               n_x = e(1)*per_distance
+               n_y = e(2)*per_distance
             else
                speed = sqrt(e_dot(1)**2 + e_dot(2)**2)
                if (speed > tiny(1.0_wp)) then
@@ -105,9 +106,10 @@ contains
                   n_y = e_dot(2)/speed
                end if
             end if
-            w = (motion(k)%speed_sum*distance - 2.0_wp*(e_dot(2)*n_x - e_dot(1)*n_y))/c
-            call self%components(parameters(:, k), min(distance/c, parameters(parameter_eps_max, k)), &
-                                 (e_dot(1)*n_x + e_dot(2)*n_y)/c, w, f_r, f_t)
+            per_c = 1.0_wp/c
+            w = (motion(k)%speed_sum*distance - 2.0_wp*(e_dot(2)*n_x - e_dot(1)*n_y))*per_c
+            call self%components(parameters(:, k), min(distance*per_c, parameters(parameter_eps_max, k)), &
+                                 (e_dot(1)*n_x + e_dot(2)*n_y)*per_c, w, f_r, f_t)
             f(1, k) = parameters(parameter_scale, k)*(f_r*n_x - f_t*n_y)
             f(2, k) = parameters(parameter_scale, k)*(f_r*n_y + f_t*n_x)
          end associate
@@ -136,20 +138,23 @@ contains
       use kinds, only: pi
       real(wp), intent(in) :: eps        !! eccentricity ratio, below 1 [1]
       real(wp), intent(in) :: root_q     !! sqrt(1 - eps^2) [1]
-      real(wp), intent(in) :: a, b       !! as above, not both zero [any]
+      real(wp), intent(in) :: a, b       !! as above, the sum of their squares not zero [any]
       real(wp), intent(out) :: sine(2)   !! (2) sin x0, sin x1 [1]
       real(wp), intent(out) :: cosine(2) !! (2) cos x0, cos x1 [1]
       real(wp), intent(out) :: width     !! x1 - x0 [rad]
 
-      real(wp) :: c, r, s
+      real(wp) :: c, r, s, first, second
 
-      r = 1.0_wp/hypot(a, b)
+      r = 1.0_wp/sqrt(a*a + b*b)
       c = a*r
       s = b*r
-      sine(1) = root_q*s/(1.0_wp + eps*c)
-      sine(2) = -root_q*s/(1.0_wp - eps*c)
-      cosine(1) = (eps + c)/(1.0_wp + eps*c)
-      cosine(2) = (eps - c)/(1.0_wp - eps*c)
+      r = 1.0_wp/((1.0_wp + eps*c)*(1.0_wp - eps*c))
+      first = (1.0_wp - eps*c)*r
+      second = (1.0_wp + eps*c)*r
+      sine(1) = root_q*s*first
+      sine(2) = -root_q*s*second
+      cosine(1) = (eps + c)*first
+      cosine(2) = (eps - c)*second
       width = atan2(-2.0_wp*root_q*eps*s, eps*eps*(1.0_wp + s*s) - 1.0_wp)
       if (width <= 0.0_wp) width = width + 2.0_wp*pi
    end subroutine positive_part

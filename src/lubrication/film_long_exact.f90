@@ -59,11 +59,11 @@ contains
       real(wp), intent(out) :: f_r  !! along n [1/s]
       real(wp), intent(out) :: f_t  !! along t [1/s]
 
-      real(wp) :: a, cosine(2), product, q, root, sine(2), step_cosine, step_square, width
+      real(wp) :: a, cosine(2), per_q, product, q, root, sine(2), step_cosine, step_square, width
 
       f_r = 0.0_wp
       f_t = 0.0_wp
-      if (.not. (abs(w) > tiny(1.0_wp) .or. abs(eps_dot) > tiny(1.0_wp))) return
+      if (.not. w*w + eps_dot*eps_dot > sqrt(tiny(1.0_wp))) return
       q = (1.0_wp - eps)*(1.0_wp + eps)
       root = sqrt(q)
       a = w/(2.0_wp + eps*eps)
@@ -71,9 +71,10 @@ contains
       step_cosine = cosine(2) - cosine(1)
       step_square = sine(2)**2 - sine(1)**2
       product = sine(2)*cosine(2) - sine(1)*cosine(1)
-      f_r = -6.0_wp*(a*(step_square - eps*step_cosine)/q + eps_dot*(width - product)/(q*root))
-      f_t = 6.0_wp*(a*(q*width - eps*(sine(2) - sine(1)) + product)/(q*root) &
-                    + eps_dot*(step_square + 2.0_wp*eps*step_cosine)/(q*q))
+      per_q = 1.0_wp/q
+      f_r = -6.0_wp*per_q*(a*(step_square - eps*step_cosine) + eps_dot*(width - product)*root*per_q)
+      f_t = 6.0_wp*(a*(q*width - eps*(sine(2) - sine(1)) + product)*root*per_q**2 &
+                    + eps_dot*(step_square + 2.0_wp*eps*step_cosine)*per_q**2)
    end subroutine long_exact_components
 
 end module film_long_exact

@@ -61,19 +61,20 @@ contains
       real(wp), intent(out) :: f_r  !! along n [1/s]
       real(wp), intent(out) :: f_t  !! along t [1/s]
 
-      real(wp) :: cosine(2), i02, i11, i20, product, q, root, sine(2), step_sine, width
+      real(wp) :: cosine(2), i02, i11, i20, per_q, product, q, root, sine(2), step_sine, width
 
       f_r = 0.0_wp
       f_t = 0.0_wp
-      if (.not. (abs(w) > tiny(1.0_wp) .or. abs(eps_dot) > tiny(1.0_wp))) return
+      if (.not. w*w + eps_dot*eps_dot > sqrt(tiny(1.0_wp))) return
       q = (1.0_wp - eps)*(1.0_wp + eps)
       root = sqrt(q)
       call positive_part(eps, root, w, 2.0_wp*eps_dot, sine, cosine, width)
       step_sine = sine(2) - sine(1)
       product = sine(2)*cosine(2) - sine(1)*cosine(1)
-      i20 = 0.5_wp*(width - product)/(q*root)
-      i02 = (0.5_wp*(width + product) - 2.0_wp*eps*step_sine + eps*eps*width)/(q*q*root)
-      i11 = (0.5_wp*(sine(2)**2 - sine(1)**2) + eps*(cosine(2) - cosine(1)))/(q*q)
+      per_q = 1.0_wp/q
+      i20 = 0.5_wp*(width - product)*root*per_q**2
+      i02 = (0.5_wp*(width + product) - 2.0_wp*eps*step_sine + eps*eps*width)*root*per_q**3
+      i11 = (0.5_wp*(sine(2)**2 - sine(1)**2) + eps*(cosine(2) - cosine(1)))*per_q**2
       f_r = 0.5_wp*(w*i11 - 2.0_wp*eps_dot*i02)
       f_t = 0.5_wp*(w*i20 - 2.0_wp*eps_dot*i11)
    end subroutine short_exact_components

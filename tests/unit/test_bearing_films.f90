@@ -60,8 +60,8 @@ contains
    !> A state with an eccentricity and its rate: the housing anywhere, the shaft where the pin is to be.
    function state_of(system, e, e_dot, angle, omega) result(y)
       type(mechanism_t), intent(in) :: system      !! the system
-      real(wp), intent(in) :: e(2), e_dot(2)       !! (2) eccentricity [m] and its rate [m/s], world frame
-      real(wp), intent(in) :: angle(2), omega(2)   !! (2) angles [rad] and speeds [rad/s] of both bodies
+      real(wp), intent(in) :: e(2), e_dot(2)       !! (2) eccentricity, world frame, and its rate [m or m/s]
+      real(wp), intent(in) :: angle(2), omega(2)   !! (2) angles and speeds of both bodies [rad or rad/s]
       real(wp), allocatable :: y(:)                !! (n) state [any]
 
       real(wp), parameter :: r(2) = [0.2_wp, -0.1_wp], v(2) = [0.7_wp, 0.4_wp]
