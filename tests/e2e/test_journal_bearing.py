@@ -160,3 +160,24 @@ def test_grades(gudgeon, grade, temperature, viscosity):
     done = call(gudgeon, "explain", written(scratch(), text))
     said = float(re.search(r"viscosity (\S+) Pa.s", done.stdout).group(1))
     assert_close(said, viscosity, relative=2e-3, what=grade)
+
+
+@pytest.mark.parametrize("film", [*EQUILIBRIA, "long_sommerfeld", "short_sommerfeld"])
+def test_static_equilibrium(gudgeon, film):
+    """Where the journal comes to rest, without a motion: full films too, from which no motion gets there."""
+    expected = {"long_sommerfeld": (0.0841696123391651, 0), "short_sommerfeld": (0.0602981603934902, 0), **EQUILIBRIA}[film]
+    run = film_run(gudgeon, BEARING, "--analysis", "static", film=film)
+    assert_close(ratio(run)[-1], expected, absolute=1e-9, what=f"{film}: equilibrium")
+    assert_close(run.item("clearances/film_force", "bearing")[-1], (0, LOAD), absolute=1e-9, what="load")
+
+
+def test_static_equilibrium_near_the_wall(gudgeon):
+    """A hundred times the load: Newton's iteration from the middle stays within the clearance."""
+    run = film_run(gudgeon, BEARING, "--analysis", "static", film="short_exact", load="3000N")
+    eps = run.item("clearances/eccentricity_ratio", "bearing").ravel()[-1]
+    assert 0.8 < eps < 1
+    force = run.item("clearances/film_force", "bearing")[-1]
+    assert_close(force, (0, 3000 + 0.13 * 9.81), absolute=1e-6, what="load")
+    scale = VISCOSITY * LENGTH**3 * RADIUS / CLEARANCE**2 * SPEED
+    q = 1 - eps**2
+    assert_close(math.hypot(*force) / scale, eps / (4 * q**2) * math.sqrt(16 * eps**2 + math.pi**2 * q), relative=1e-9, what="Ocvirk")
