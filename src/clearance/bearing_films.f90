@@ -143,7 +143,23 @@ contains
       end do
    end subroutine measure_films
 
-   include "eccentricity.inc"
+   !> Centres of bearing and journal from the centres of mass of their bodies, the eccentricity and its rate, world frame.
+   pure subroutine find_eccentricity(body, s_bearing, s_journal, n_body, r, rot, v, omega, s_i, s_j, e, e_dot)
+      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(out) :: s_i(2), s_j(2)            !! (2) centres of bearing and journal [m]
+      real(wp), intent(out) :: e(2), e_dot(2)            !! (2) the journal's from the bearing's, and its rate [m or m/s]
+
+      integer :: i, j
+
+      include "eccentricity.inc"
+   end subroutine find_eccentricity
 
    !> Add forces and moments of the films to the loads.
    pure subroutine add_film_loads(n, law, parameters, place, films, f, s, body, n_body, omega, force, moment, power)

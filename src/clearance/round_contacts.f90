@@ -50,22 +50,18 @@ module round_contacts
 
 contains
 
-   !> Add the contact forces of the touching contacts, and those of films.
+   !> Add the contact forces of the touching contacts.
    subroutine round_evaluate(self, motion, loads, losses)
       class(round_contacts_t), intent(inout) :: self        !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(loads_t), intent(inout) :: loads                 !! loads on the bodies
       real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
 
-      if (allocated(self%laws%films)) then
-         if (self%laws%films%acts) call self%laws%films%bear(self%items%body, self%items%s_i, self%items%s_j, motion, loads)
-      end if
       include "point_way.inc"
    end subroutine round_evaluate
 
    include "press.inc"
    include "planar_loads.inc"
-   include "eccentricity.inc"
 
    !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
    subroutine measure_touching(self, motion)
@@ -139,8 +135,9 @@ contains
       real(wp), intent(out) :: distance                  !! of the centres, negative beside a disc [m]
 
       real(wp) :: e(2), e_dot(2), normal(2), s_i(2), s_j(2), speed
+      integer :: i, j
 
-      call find_eccentricity(body, s_bearing, s_journal, n_body, r, rot, v, omega, s_i, s_j, e, e_dot)
+      include "eccentricity.inc"
       distance = journal%side*sqrt(e(1)**2 + e(2)**2)
       if (abs(distance) > tiny(1.0_wp)) then
          normal(1) = e(1)/distance
