@@ -256,13 +256,11 @@ contains
       call system%find_contact(number, k, i)
       if (system%loose%functions%kind_of(number) /= touch_function) then
          is_over = system%loose%functions%kind_of(number) == slip_function
-         if (system%loose%functions%kind_of(number) == transition_function) then
-            call system%loose%sets(k)%set%cross_transition(i)
-         else if (is_over) then
-            call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
-         else
-            call handle_turn(system, method%t, method%step%y1, k, i)
-         end if
+         select case (system%loose%functions%kind_of(number))
+         case (slip_function); call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
+         case (turn_function); call handle_turn(system, method%t, method%step%y1, k, i)
+         case (transition_function); call system%loose%sets(k)%set%cross_transition(i)
+         end select
          step_hint = step_in_contact()
          return
       end if

@@ -76,6 +76,22 @@ contains
                                   system%ledger%is_kept)
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_grips(system)
+      call add_event_functions(system)
+      system%n_event = system%loose%functions%n
+      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
+                        .and. system%friction%rubbing%n == 0
+      ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
+      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
+         system%is_large = .false.
+      end if
+   end subroutine new_system
+
+   !> The blocks of event functions that the contacts have.
+   subroutine add_event_functions(system)
+      type(mechanism_t), intent(inout) :: system  !! the system, its contacts and grips counted
+
+      integer :: k
+
       system%loose%functions%n_contact = system%loose%n_contact
       call system%loose%functions%add(touch_function)
       if (system%friction%grips%n_slip > 0) call system%loose%functions%add(slip_function)
@@ -85,14 +101,7 @@ contains
       if (any([(has_transition(system%loose%sets(k)%set), k=1, size(system%loose%sets))])) then
          call system%loose%functions%add(transition_function)
       end if
-      system%n_event = system%loose%functions%n
-      system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
-                        .and. system%friction%rubbing%n == 0
-      ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
-         system%is_large = .false.
-      end if
-   end subroutine new_system
+   end subroutine add_event_functions
 
    !> Whether films of a set go out over a transition.
    pure logical function has_transition(set)
