@@ -6,7 +6,7 @@
 module contact_watch
    use clearance_set, only: loss_contact, loss_friction
    use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, peak_t, trend_t
-   use contact_places, only: place_of_loss, slip_function, touch_function, turn_function
+   use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
@@ -256,11 +256,11 @@ contains
       call system%find_contact(number, k, i)
       if (system%loose%functions%kind_of(number) /= touch_function) then
          is_over = system%loose%functions%kind_of(number) == slip_function
-         if (is_over) then
-            call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
-         else
-            call handle_turn(system, method%t, method%step%y1, k, i)
-         end if
+         select case (system%loose%functions%kind_of(number))
+         case (slip_function); call handle_slip(system, method%t, method%step%y1, k, i, is_over, row)
+         case (turn_function); call handle_turn(system, method%t, method%step%y1, k, i)
+         case (transition_function); call system%loose%sets(k)%set%cross_transition(i)
+         end select
          step_hint = step_in_contact()
          return
       end if

@@ -2,6 +2,7 @@
 !>
 !> of a contact: a penetration beyond the clearance, the range of its law or a part of the surfaces' size; an impact too
 !> fast for a quasi-static law; a force at which the pressure is beyond the strength of the material;
+!> of a film: how thin it becomes (`film_watch`);
 !> of a body: its speed, its way from the start in sizes of the scene; of the ledger: energy made of nothing.
 !>
 !> Sources: of the limits of laws see `surfaces` and `normal_law`, of the pressure `contact_pressure`. Limits: peaks are those of
@@ -9,6 +10,7 @@
 module guards
    use clearance_set, only: clearance_set_t
    use contact_pressure, only: force_at_pressure
+   use film_watch, only: film_watch_t
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
@@ -58,6 +60,7 @@ module guards
       real(wp) :: size = 0.0_wp                  !! of the scene [m]
       real(wp), allocatable :: start(:, :)       !! (2, bodies) centres at the start [m]
       type(breach_t), allocatable :: travel(:)   !! (bodies) ways beyond
+      type(film_watch_t) :: films                !! how thin films become
       character(:), allocatable :: reason        !! why the run must end; unallocated: it need not
    contains
       procedure :: share => guards_share
@@ -148,6 +151,7 @@ contains
       integer, intent(in) :: bodies(:)         !! (bodies of the part) their numbers in the whole
       integer, intent(in) :: contacts(:)       !! (contacts of the part) their numbers in the whole
 
+      call self%films%gather(part%films, contacts)
       if (.not. allocated(part%breach) .or. .not. allocated(self%breach)) return
       self%breach(:, contacts) = part%breach
       self%travel(bodies) = part%travel
@@ -158,6 +162,7 @@ contains
       class(guards_t), intent(inout) :: self         !! the guards
       type(mechanism_t), intent(in) :: system    !! the system, its motion that of the start
 
+      call self%films%begin(system)
       if (.not. self%is_set) return
       allocate (self%breach(n_contact_guard, system%loose%n_contact), self%travel(system%linkage%bodies%n))
       self%start = system%linkage%motion%r(1:2, 1:system%linkage%bodies%n)
@@ -173,6 +178,7 @@ contains
       integer :: c, k, m
 
       if (.not. self%is_set) return
+      call self%films%look(system, t)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (set%n_touching == 0) cycle
@@ -315,6 +321,7 @@ contains
       integer :: c, g, i, k
 
       if (.not. allocated(self%breach)) return
+      call self%films%warn(system, warnings)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             do i = 1, set%n

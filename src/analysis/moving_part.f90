@@ -6,6 +6,7 @@ module moving_part
    use contact_places, only: touch_function
    use contact_watch, only: contact_watch_t, new_contact_watch
    use errors, only: error_t
+   use film_end, only: film_that_ended
    use guards, only: guards_t
    use instants, only: instants_t
    use integrator, only: advance_failed_evaluation, integrator_t
@@ -13,7 +14,7 @@ module moving_part
    use mechanism, only: mechanism_t
    use mechanism_energy, only: energy_of, energy_t
    use recorder, only: event_t, recorder_t
-   use run_failure, only: constraints_lost, describe_failure, events_without_end
+   use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended
    use run_tally, only: run_tally_t
    use slip_watch, only: decide_next, note_jumps
    use velocity_jumps, only: velocity_jumps_t
@@ -140,6 +141,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or no way to go on
 
       type(event_t) :: row
+      character(:), allocatable :: ended
       real(wp) :: cpu_0, cpu_1, hint, step_hint
       integer :: k, status
       logical :: is_over
@@ -150,6 +152,11 @@ contains
          part%t_event = method%t
          if (part%n_idle > most_idle + idle_each*system%n_event) then
             call describe_failure(system, method, events_without_end, error)
+            return
+         end if
+         ended = film_that_ended(system, method)
+         if (ended /= "") then
+            call describe_failure(system, method, film_ended, error, ended)
             return
          end if
          step_hint = 0.0_wp

@@ -9,13 +9,14 @@ module run_failure
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: constraints_lost, describe_failure, events_without_end, guard_reached, time_used_up
+   public :: constraints_lost, describe_failure, events_without_end, film_ended, guard_reached, time_used_up
 
    ! failures beside those of `advance`
    integer, parameter :: constraints_lost = -100    !! a violation beyond all measure
    integer, parameter :: events_without_end = -101  !! event follows event while hardly any time passes
    integer, parameter :: guard_reached = -102       !! what no mechanism does, as the guards say
    integer, parameter :: time_used_up = -103        !! the processor time allowed
+   integer, parameter :: film_ended = -104          !! a film that nothing helps to hold surfaces apart
 
 contains
 
@@ -48,7 +49,7 @@ contains
          message = "the constraints are lost: a joint is open by a tenth of the size of the bodies, or an angle is off by a radian"
       case (events_without_end)
          message = "one event follows another at '"//last_event(system, method)//"' and no time passes"
-      case (guard_reached)
+      case (guard_reached, film_ended)
          message = reason
       case (advance_no_memory)
          message = "there is no memory for the matrices of the method, of "//to_text(system%n)//" states"
@@ -164,6 +165,8 @@ contains
          words = "try a smaller tolerance"
       case (guard_reached)
          words = "look for loads, drivers or clearances that no mechanism has, or set the guard otherwise in section [guards]"
+      case (film_ended)
+         words = "take level = hybrid, which goes on with dry contact, or a lubricant of more viscosity"
       case (advance_failed_evaluation)
          words = "look for a dead point, or for a load or driver that does not exist at that time"
       case default

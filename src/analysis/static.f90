@@ -23,6 +23,7 @@ module static
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use scene, only: scene_t
    use static_kinsol, only: polish
+   use static_film, only: settle_in_films
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, &
       square_frequencies
    use static_relaxation, only: least_unbalance, relax
@@ -76,13 +77,11 @@ contains
       call look_at(system, q)
       call check_loads(system, error)
       if (allocated(error)) return
-      call relax(system, max(rough, equilibrium%tolerance), most, q, balance, equilibrium%steps, is_settled)
-      if (is_settled) then
-         call try_to_polish(system, q, balance, equilibrium)
-         if (.not. equilibrium%is_polished) then
-            call relax(system, equilibrium%tolerance, most, q, balance, equilibrium%steps, is_settled)
-            if (is_settled) call relax(system, to_round_off, equilibrium%steps + n_last, q, balance, equilibrium%steps, is_exact)
-         end if
+      if (system%loose%has_films) then
+         call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
+         is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system)
+      else
+         call relax_and_polish()
       end if
       equilibrium%unbalanced = norm2(balance%load)/max(load_scale(system), tiny(1.0_wp))
       if (.not. is_settled) then
@@ -94,6 +93,21 @@ contains
       call classify(system, balance, equilibrium)
       call cpu_time(cpu_1)
       equilibrium%cpu_seconds = cpu_1 - cpu_0
+
+   contains
+
+      !> Downhill, then by KINSOL, then downhill again if that did not help.
+      subroutine relax_and_polish()
+         call relax(system, max(rough, equilibrium%tolerance), most, q, balance, equilibrium%steps, is_settled)
+         if (is_settled) then
+            call try_to_polish(system, q, balance, equilibrium)
+            if (.not. equilibrium%is_polished) then
+               call relax(system, equilibrium%tolerance, most, q, balance, equilibrium%steps, is_settled)
+               if (is_settled) call relax(system, to_round_off, equilibrium%steps + n_last, q, balance, equilibrium%steps, is_exact)
+            end if
+         end if
+      end subroutine relax_and_polish
+
    end subroutine find_equilibrium
 
    !> Loads that are no finite numbers have no equilibrium.
@@ -175,6 +189,10 @@ contains
       integer :: n_flat, n_steep
 
       equilibrium%warning = ""
+      if (system%loose%has_films) then
+         equilibrium%words = "steady, with the speeds of the drivers; whether it is stable a motion in time shows"
+         return
+      end if
       associate (stiffness => balance%stiffness)
          if (size(stiffness) == 0) then
             equilibrium%words = "stable: no body can move"

@@ -3,7 +3,8 @@
 !> $$ r = g(q) - \Phi_q^T \lambda = 0, \quad \Phi(q, 0) = 0 $$
 !>
 !> with velocities and accelerations zero and forces at t = 0. Loose joints act by the elastic force of their
-!> penetration. Positions are scaled, lengths by the size of the bodies, angles by a radian, so that
+!> penetration. Where joints have lubricant films, which carry nothing without a speed, velocities are the least that the drivers
+!> ask for. Positions are scaled, lengths by the size of the bodies, angles by a radian, so that
 !> every entry of r and of the tangent stiffness K = -dr/dq (lambda held) is a moment.
 !>
 !> The equilibrium is stable if the symmetric part of N^T K N is positive definite, N the motions that the
@@ -17,6 +18,7 @@ module static_problem
    use lapack, only: dsyev, dsygv
    use mobility, only: split_space
    use mechanism, only: mechanism_t
+   use prescribed_motion, only: newton_t, solve_rates
    implicit none (type, external)
    private
    public :: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, square_frequencies
@@ -29,6 +31,7 @@ module static_problem
       real(wp), allocatable :: load(:)        !! (n_v bodies) what is out of balance, r [N.m]
       real(wp), allocatable :: free(:, :)     !! (n_v bodies, freedoms) motions that the rows leave free, N [1]
       real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
+      real(wp), allocatable :: tangent(:, :)  !! (freedoms, freedoms) free tangent stiffness, of films not symmetric, N^T K N [N.m]
       real(wp), allocatable :: modes(:, :)    !! (n_v bodies, freedoms) the motions that belong to them [1]
       integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
    end type balance_t
@@ -48,10 +51,13 @@ contains
       class(mechanism_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
 
-      real(wp) :: delta(system%loose%n_contact), rate(system%loose%n_contact), rest(size(system%linkage%mass))
-      integer :: k
+      type(newton_t) :: newton
+      real(wp), dimension(size(system%linkage%mass)) :: rest, turning
+      real(wp), dimension(system%loose%n_contact) :: delta, rate
+      integer :: k, outcome
 
       rest = 0.0_wp
+      if (system%loose%has_films) call solve_rates(system%linkage, 0.0_wp, newton, q, rest, turning, outcome)
       call evaluate_rows(system%linkage, 0.0_wp, q, rest)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
@@ -142,6 +148,7 @@ contains
       call look_at(system, q)
       balance%n_evaluations = balance%n_evaluations + int(2*n + 1, i8)
       k_free = matmul(transpose(balance%free), slope)
+      balance%tangent = k_free
       k_free = 0.5_wp*(k_free + transpose(k_free))
       if (allocated(balance%stiffness)) deallocate (balance%stiffness)
       allocate (balance%stiffness(n), source=0.0_wp)

@@ -4,7 +4,7 @@
 !> the whole is put together, for reports. A mechanism whose bodies are all joined is one part, and its state is that of the
 !> integrator.
 module whole_motion
-   use contact_places, only: n_loss, n_quadratures, place_of_joint_loss, place_of_loss
+   use contact_places, only: n_loss, n_quadratures, place_of_film_loss, place_of_joint_loss, place_of_loss
    use friction_law, only: memory_bristle
    use guards, only: guards_t
    use instants, only: instants_t
@@ -303,6 +303,11 @@ contains
       if (system%friction%rubbing%n > 0) then
          from = system%in_state(place_of_joint_loss(system%loose%n_contact))
          to = whole%in_state(place_of_joint_loss(whole%loose%n_contact))
+         y(to) = y(to) + own(from)
+      end if
+      if (system%loose%has_films) then
+         from = system%in_state(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0))
+         to = whole%in_state(place_of_film_loss(whole%loose%n_contact, whole%friction%rubbing%n > 0))
          y(to) = y(to) + own(from)
       end if
       from = system%in_state(0)

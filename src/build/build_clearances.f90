@@ -3,6 +3,7 @@
 !> Rows that say `level = ideal`, or all of them in the ideal twin, become the joint that their geometry is without
 !> clearance; a geometry that is none keeps its contact.
 module build_clearances
+   use bearing_films, only: new_bearing_films
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t, clearance_slot_t
    use columns, only: cell_index, cell_text, find_column
@@ -12,7 +13,10 @@ module build_clearances
    use joint_set, only: joint_set_t, joint_slot_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use law_absent, only: law_absent_t
+   use law_faded, only: law_faded_t, new_law_faded
    use mechanism, only: mechanism_t
+   use normal_law, only: normal_law_t
    use scene, only: scene_t
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
    implicit none (type, external)
@@ -80,8 +84,12 @@ contains
       share_laws = .true.
       do c = 1, size(info%columns)
          select case (info%columns(c)%name)
-         case ("law", "face_law", "friction")
+         case ("law", "face_law", "friction", "film")
             share_laws = share_laws .and. item%values(c)%index == other%values(c)%index
+         case ("level")
+            share_laws = share_laws .and. item%values(c)%text == other%values(c)%text
+         case ("e_t0")
+            share_laws = share_laws .and. .not. abs(item%values(c)%number - other%values(c)%number) > 0.0_wp
          end select
       end do
    end function share_laws
@@ -157,16 +165,18 @@ contains
       type(mechanism_t), intent(inout) :: system  !! joints and contacts are counted
 
       class(friction_law_t), allocatable :: friction
+      class(normal_law_t), allocatable :: law
       type(tie_t), allocatable :: ties(:)
-      integer :: face_law, friction_law, i, normal_law
+      integer :: face_law, film, friction_law, i
 
       call new_clearance_set(kind, slot%set)
-      normal_law = cell_index(scene%clearances(kind)%info, items(1), "law")
+      call choose_law(scene, scene%clearances(kind)%info, items(1), law)
       friction_law = cell_index(scene%clearances(kind)%info, items(1), "friction")
+      if (cell_text(scene%clearances(kind)%info, items(1), "level") == "lubricated") friction_law = 0  ! nothing touches
       face_law = cell_index(scene%clearances(kind)%info, items(1), "face_law")
       if (friction_law > 0) allocate (friction, source=scene%frictions(friction_law)%law)
       ties = [(tie_of(scene, scene%clearances(kind)%info, items(i)), i=1, size(items))]
-      call slot%set%new(items, ties%point(1), ties%point(2), scene%points, scene%laws(normal_law)%law, friction)
+      call slot%set%new(items, ties%point(1), ties%point(2), scene%points, law, friction)
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
       slot%set%items%leaves = [(0, i=1, size(items))]
       allocate (slot%set%items%way(2, size(items)), source=0.0_wp)
@@ -177,9 +187,44 @@ contains
       slot%set%before%contacts = system%loose%n_contact
       system%loose%n = system%loose%n + slot%set%n
       system%loose%n_contact = system%loose%n_contact + slot%set%n_contact
+      film = cell_index(scene%clearances(kind)%info, items(1), "film")
+      if (film > 0) then
+         allocate (slot%set%laws%films)
+         call new_bearing_films(items, scene%lubrication%films(film)%law, scene%lubrication%viscosity, slot%set%laws%films)
+         system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
+      end if
       call slot%set%prepare(items)
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set
+
+   !> The normal law of a row: none where a film alone holds the surfaces apart, or the row names none; one that comes in by degrees
+   !> where a film goes out by degrees.
+   subroutine choose_law(scene, info, item, law)
+      type(scene_t), intent(in) :: scene                     !! the scene
+      type(kind_info_t), intent(in) :: info                  !! the geometry
+      type(item_t), intent(in) :: item                       !! the row
+      class(normal_law_t), allocatable, intent(out) :: law   !! its law
+
+      type(law_faded_t), allocatable :: faded
+      integer :: number
+
+      number = cell_index(info, item, "law")
+      if (cell_text(info, item, "level") == "lubricated") number = 0
+      if (number == 0) then
+         allocate (law_absent_t :: law)
+         law%name = "none"
+         return
+      end if
+      if (cell_text(info, item, "level") == "hybrid") then
+         if (item%number("e_t0") > 0.0_wp) then
+            allocate (faded)
+            call new_law_faded(scene%laws(number)%law, item%number("e_t0"), faded)
+            call move_alloc(faded, law)
+            return
+         end if
+      end if
+      allocate (law, source=scene%laws(number)%law)
+   end subroutine choose_law
 
    !> What a joint leaves of the freedom of its bodies.
    subroutine look_at_joint(scene, number, leaves, way)

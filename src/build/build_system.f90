@@ -5,7 +5,8 @@ module build_system
    use build_clearances, only: add_clearances, levels_as_written, levels_ideal, levels_loose
    use build_known, only: choose_bodies, reduction_t, set_guided, set_known, start_angles
    use build_linkage, only: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
-   use contact_places, only: n_loss, n_quadratures, slip_function, touch_function, turn_function
+   use clearance_set, only: clearance_set_t
+   use contact_places, only: n_loss, place_of_film_loss, slip_function, touch_function, transition_function, turn_function
    use find_known, only: has_smooth_cells
    use force_registry, only: n_force_kinds, new_force_set
    use friction_law, only: memory_bristle, memory_slip
@@ -70,16 +71,12 @@ contains
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
       allocate (system%loose%losses(n_loss, system%loose%n_contact), source=0.0_wp)
-      system%n_quadrature = merge(n_quadratures(system%loose%n_contact) + merge(1, 0, system%friction%rubbing%n > 0), 0, &
+      system%n_quadrature = merge(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0) &
+                                  - merge(0, 1, system%loose%has_films), 0, &
                                   system%ledger%is_kept)
       system%n = system%linkage%n_position + system%linkage%n_rate + system%n_quadrature
       call count_grips(system)
-      system%loose%functions%n_contact = system%loose%n_contact
-      call system%loose%functions%add(touch_function)
-      if (system%friction%grips%n_slip > 0) call system%loose%functions%add(slip_function)
-      if (any([(system%loose%sets(k)%set%laws%normal%jumps_at_turn, k=1, size(system%loose%sets))])) then
-         call system%loose%functions%add(turn_function)
-      end if
+      call add_event_functions(system)
       system%n_event = system%loose%functions%n
       system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
                         .and. system%friction%rubbing%n == 0
@@ -88,6 +85,31 @@ contains
          system%is_large = .false.
       end if
    end subroutine new_system
+
+   !> The blocks of event functions that the contacts have.
+   subroutine add_event_functions(system)
+      type(mechanism_t), intent(inout) :: system  !! the system, its contacts and grips counted
+
+      integer :: k
+
+      system%loose%functions%n_contact = system%loose%n_contact
+      call system%loose%functions%add(touch_function)
+      if (system%friction%grips%n_slip > 0) call system%loose%functions%add(slip_function)
+      if (any([(system%loose%sets(k)%set%laws%normal%jumps_at_turn, k=1, size(system%loose%sets))])) then
+         call system%loose%functions%add(turn_function)
+      end if
+      if (any([(has_transition(system%loose%sets(k)%set), k=1, size(system%loose%sets))])) then
+         call system%loose%functions%add(transition_function)
+      end if
+   end subroutine add_event_functions
+
+   !> Whether films of a set go out over a transition.
+   pure logical function has_transition(set)
+      class(clearance_set_t), intent(in) :: set  !! the set
+
+      has_transition = .false.
+      if (allocated(set%laws%films)) has_transition = set%laws%films%fades()
+   end function has_transition
 
    !> Room for friction that remembers: a state for each contact with bristles.
    subroutine count_grips(system)

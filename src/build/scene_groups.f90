@@ -245,6 +245,7 @@ contains
       one%materials = scene%materials
       one%laws = scene%laws
       one%frictions = scene%frictions
+      one%lubrication = scene%lubrication
       one%analysis = scene%analysis
       one%settings%dynamic = scene%settings%dynamic
       do k = 1, n_joint_kinds

@@ -1,6 +1,10 @@
 !> Planar: a revolute joint with clearance, a journal (pin) of body j loose in a bearing (hole) of body i.
 !>
-!> Equations: `round_contacts`; forces: `point_contacts`. The law is fitted to an internal contact of radii R and R - c.
+!> Equations: `round_contacts`; forces: `point_contacts`; films: `bearing_films`. The law is fitted to an internal contact of radii
+!> R and R - c. `level` says what there is between the surfaces: dry contact (`clearance`), a film that holds them apart
+!> (`lubricated`: the run ends where e = eps_max c), or both (`hybrid`): with e_t0 the film goes out and the contact comes in
+!> between e = c and c + e_t0, and the film has the clearance c + e_t1, eq. (5.23); without it the film keeps its shape beyond
+!> eps_max and the contact adds to it.
 !>
 !> Signs: the reported force is that on the journal, world frame; the friction force is its component along t = R90 n; the
 !> eccentricity is the journal's centre from the bearing's, world frame.
@@ -12,6 +16,7 @@ module clearance_revolute
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels
+   use revolute_level, only: add_film_channels, add_film_columns, find_level_mistake
    use round_contacts, only: round_contacts_t
    use surfaces, only: set_materials, shape_internal, surfaces_t
    use text, only: to_text
@@ -36,25 +41,27 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "clearance.revolute"
-      info%help = "a pin loose in a hole: dry contact of a journal in a bearing"
+      info%help = "a pin loose in a hole: dry contact or lubricant film of a journal in a bearing"
       info%source = "Flores et al. (2008), section 4.2"
       call add_reference(info, "bearing", "points", "centre of the hole")
       call add_reference(info, "journal", "points", "centre of the pin")
       call add_number(info, "bearing_radius", dim_length, "radius of the hole", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "clearance", dim_length, "radial clearance, radius of the hole less that of the pin", &
                       lower=0.0_wp, open_lower=.true.)
-      call add_reference(info, "material", "material", "material of hole and pin")
+      call add_reference(info, "material", "material", "material of hole and pin, for dry contact", default="none")
       call add_reference(info, "journal_material", "material", "material of the pin, if another", default="none")
-      call add_word(info, "level", "fidelity: an ideal pin joint, or clearance", default="clearance", &
-                    choices="ideal clearance")
-      call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
+      call add_word(info, "level", "fidelity: an ideal pin joint, dry contact, a film, or a film and dry contact", &
+                    default="clearance", choices="ideal clearance lubricated hybrid")
+      call add_reference(info, "law", "contact.", "normal law of dry contact, a row of a contact table", default="none")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_word(info, "form", "formulas: corrected, or as the book prints them", default="corrected", &
                     choices="corrected book")
       call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: not known", &
                       default="0 m", lower=0.0_wp)
+      call add_film_columns(info)
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing")
       call add_channel(info, "force", "N", "world", 2, "force on the journal")
+      call add_film_channels(info)
       call add_contact_channels(info, "journal")
    end function revolute_info
 
@@ -81,6 +88,7 @@ contains
             journal%radius_i = item%number("bearing_radius")
             journal%radius_j = journal%radius_i - self%items%clearance(k)
             journal%clearance = self%items%clearance(k)
+            if (item%word("level") == "lubricated") journal%clearance = item%number("eps_max")*journal%clearance
             journal%is_book = item%word("form") == "book"
             if (journal%is_book) journal%share = 0.0_wp
          end associate
@@ -103,10 +111,11 @@ contains
       material = item%reference("material")
       journal_material = item%reference("journal_material")
       if (journal_material == 0) journal_material = material
+      if (material == 0) return
       call set_materials(pair, materials(material), materials(journal_material))
    end subroutine revolute_describe
 
-   !> The journal must have a radius.
+   !> The journal must have a radius, and the row what its level needs.
    subroutine revolute_mistake(item, column, message, help)
       type(item_t), intent(in) :: item                       !! the row
       integer, intent(out) :: column                         !! column at fault, 0: all is well
@@ -117,11 +126,14 @@ contains
       message = ""
       help = ""
       associate (radius => item%number("bearing_radius"), clearance => item%number("clearance"))
-         if (clearance < radius) return
-         column = place_of(item, "clearance")
-         message = "clearance must be less than bearing_radius"
-         help = "the journal's radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
+         if (.not. clearance < radius) then
+            column = place_of(item, "clearance")
+            message = "clearance must be less than bearing_radius"
+            help = "the journal's radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
+            return
+         end if
       end associate
+      call find_level_mistake(item, column, message, help)
    end subroutine revolute_mistake
 
 end module clearance_revolute

@@ -6,6 +6,7 @@
 !> surfaces that are apart (`acts_apart`, as a film has), a contact that is free acts too, wherever that force is positive; onset
 !> and end are still where the surfaces meet, and friction is that of surfaces which touch.
 module clearance_set
+   use bearing_films, only: bearing_films_t
    use bodies, only: material_t, points_t
    use contact_grip, only: new_grip, tangent_t
    use contact_states, only: contact_states_t
@@ -50,6 +51,7 @@ module clearance_set
       class(normal_law_t), allocatable :: normal       !! normal law of all items
       class(normal_law_t), allocatable :: face         !! normal law of faces, where the geometry has some; unallocated: none
       class(friction_law_t), allocatable :: friction   !! friction law of all items; unallocated: none
+      type(bearing_films_t), allocatable :: films      !! lubricant films of the items; unallocated: none
    end type clearance_laws_t
 
    !> All items that share a geometry and its laws.
@@ -292,7 +294,7 @@ contains
    end subroutine clearance_fit_law
 
    !> How fast a contact that has begun swings: as an impact with its speed, or as one that gets as deep as it is, which one that
-   !> begins overlapping is without any speed. 0 if that is not known.
+   !> begins overlapping is without any speed. 0 if that is not known. And whether it begins beyond the transition of a film.
    pure subroutine clearance_note_swing(self, k, delta)
       class(clearance_set_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                       !! contact of the set
@@ -307,6 +309,9 @@ contains
          time = self%laws%normal%contact_time(self%laws%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
       end associate
       if (time > 0.0_wp) self%contact(k)%swing = pi/time
+      if (allocated(self%laws%films)) then
+         if (self%laws%films%fades()) self%contact(k)%is_dry = delta > self%laws%films%place(item)%depth
+      end if
    end subroutine clearance_note_swing
 
    !> Keep how a contact lies at a motion, for its friction, which remembers; its forces are left alone.

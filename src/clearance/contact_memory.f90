@@ -9,7 +9,7 @@ module contact_memory
    integer, parameter :: approaches = 1        !! course: the penetration grows
    integer, parameter :: parts = -1            !! course: it falls
    integer, parameter :: rests = 0             !! course: a load between both forces keeps it from either
-   integer, parameter :: n_contact_memory = 12  !! numbers of a contact in a checkpoint
+   integer, parameter :: n_contact_memory = 13  !! numbers of a contact in a checkpoint
 
    !> One contact.
    type :: contact_memory_t
@@ -22,6 +22,7 @@ module contact_memory
       integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
       real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
       real(wp) :: swing = 0.0_wp                !! how fast it swings, pi over the time of an impact [rad/s]
+      logical :: is_dry = .false.               !! beyond the transition of a film, which is gone there
       logical :: is_cut_off = .false.           !! without a force at the end of the last step: see `cut_off`
       real(wp) :: held = 0.0_wp                 !! what it had lost and still stored there together [J]
       real(wp) :: amends = 0.0_wp               !! what its loss is beyond the quadrature of the ledger [J]
@@ -43,6 +44,7 @@ contains
                             self%rest_speed, self%swing, self%held, self%amends])
       call put(row, place, self%course)
       call put(row, place, self%is_cut_off)
+      call put(row, place, self%is_dry)
    end subroutine contact_save
 
    !> Read it.
@@ -63,6 +65,7 @@ contains
       call get(row, place, self%amends)
       call get(row, place, self%course)
       call get(row, place, self%is_cut_off)
+      call get(row, place, self%is_dry)
    end subroutine contact_load
 
 end module contact_memory

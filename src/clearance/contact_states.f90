@@ -45,6 +45,7 @@ module contact_states
       procedure :: note_depth
       procedure :: note_force
       procedure :: set_course
+      procedure :: cross_transition
       procedure :: slip_as
       procedure :: note_decision
       procedure :: stick_with
@@ -194,6 +195,14 @@ contains
 
       self%contact(k)%peak_force = max(self%contact(k)%peak_force, force)
    end subroutine note_force
+
+   !> A contact crosses the end of the transition from a film, one way or the other.
+   pure subroutine cross_transition(self, k)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+
+      self%contact(k)%is_dry = .not. self%contact(k)%is_dry
+   end subroutine cross_transition
 
    !> A contact goes on in another course: it approaches, parts, or rests.
    pure subroutine set_course(self, k, course, rest_speed)

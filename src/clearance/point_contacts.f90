@@ -23,7 +23,7 @@ module point_contacts
    use point_contact, only: contact_work_t, most_of_item, new_work, point_contact_t
    implicit none (type, external)
    private
-   public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_watch
+   public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t

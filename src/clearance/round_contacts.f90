@@ -11,6 +11,8 @@
 !> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
 !> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
 module round_contacts
+   use bearing_films, only: film_state_t
+   use catalogue, only: state_contact, state_film, state_mixed
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
@@ -19,7 +21,7 @@ module round_contacts
    use normal_law, only: n_law_parameter, normal_law_t
    use planar_contacts, only: planar_sliding
    use point_contact, only: point_contact_t
-   use point_contacts, only: point_contacts_t
+   use point_contacts, only: point_contacts_t, point_report
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t
@@ -42,6 +44,7 @@ module round_contacts
       procedure :: measure => measure_one
       procedure :: penetration_acceleration => round_penetration_acceleration
       procedure :: turning => round_turning
+      procedure :: report => round_report
       procedure :: report_item => round_report_item
    end type round_contacts_t
 
@@ -134,16 +137,7 @@ contains
       real(wp) :: e(2), e_dot(2), normal(2), s_i(2), s_j(2), speed
       integer :: i, j
 
-      i = body(1)
-      j = body(2)
-      s_i(1) = rot(1, 1, i)*s_bearing(1) + rot(1, 2, i)*s_bearing(2)
-      s_i(2) = rot(2, 1, i)*s_bearing(1) + rot(2, 2, i)*s_bearing(2)
-      s_j(1) = rot(1, 1, j)*s_journal(1) + rot(1, 2, j)*s_journal(2)
-      s_j(2) = rot(2, 1, j)*s_journal(1) + rot(2, 2, j)*s_journal(2)
-      e(1) = r(1, j) + s_j(1) - r(1, i) - s_i(1)
-      e(2) = r(2, j) + s_j(2) - r(2, i) - s_i(2)
-      e_dot(1) = v(1, j) - omega(3, j)*s_j(2) - v(1, i) + omega(3, i)*s_i(2)
-      e_dot(2) = v(2, j) + omega(3, j)*s_j(1) - v(2, i) - omega(3, i)*s_i(1)
+      include "eccentricity.inc"
       distance = journal%side*sqrt(e(1)**2 + e(2)**2)
       if (abs(distance) > tiny(1.0_wp)) then
          normal(1) = e(1)/distance
@@ -249,6 +243,36 @@ contains
       e = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
       distance = sqrt(e(1)**2 + e(2)**2)
    end subroutine find_centres
+
+   !> Values of a channel: of films here, and what they add to those of contacts.
+   subroutine round_report(self, channel, motion, values)
+      class(round_contacts_t), intent(in) :: self  !! the set
+      character(*), intent(in) :: channel          !! name of the channel
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+      real(wp), intent(inout) :: values(:, :)      !! (components, all items or contacts) values [any]
+
+      type(film_state_t) :: film
+      integer :: k
+
+      call point_report(self, channel, motion, values)
+      if (.not. allocated(self%laws%films)) return
+      do k = 1, self%n
+         film = self%laws%films%state_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
+         associate (item => self%before%items + k, contact => self%before%contacts + k, c => self%items%clearance(k))
+            select case (channel)
+            case ("force"); values(1:2, item) = values(1:2, item) + film%force
+            case ("film_force"); values(1:2, item) = film%force
+            case ("film_torque"); values(1, item) = film%torque
+            case ("eccentricity_ratio"); values(1, item) = norm2(film%e)/c
+            case ("film_thickness"); values(1, item) = max(c - norm2(film%e), 0.0_wp)
+            case ("state")
+               if (film%share > 0.0_wp) then
+                  values(1, contact) = real(merge(state_mixed, state_film, nint(values(1, contact)) == state_contact), wp)
+               end if
+            end select
+         end associate
+      end do
+   end subroutine round_report
 
    !> The eccentricity: the journal's centre from the bearing's, world frame.
    subroutine round_report_item(self, channel, item, motion, contacts, f_n, f_t, value)

@@ -6,7 +6,7 @@ module explain_dropped
    use kind_info, only: cell_reference
    use kinds, only: wp
    use mechanism, only: mechanism_t
-   use scene, only: analysis_kinematic, scene_t, table_t
+   use scene, only: analysis_kinematic, scene_t, table_lubricants, table_t
    implicit none (type, external)
    private
    public :: say_dropped
@@ -19,7 +19,8 @@ contains
       type(mechanism_t), intent(in) :: system   !! its system
 
       integer :: k
-      logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials)))
+      logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials), &
+                                         size(scene%lubrication%films), size(scene%lubrication%viscosity)))
 
       call say("")
       call say("dropped")
@@ -40,6 +41,16 @@ contains
       call find_used(scene, "material", is_used)
       do k = 1, size(scene%materials)
          if (.not. is_used(k)) call drop("material '"//scene%materials(k)%name%s//"': used by no joint")
+      end do
+      call find_used(scene, "film.", is_used)
+      do k = 1, size(scene%lubrication%films)
+         if (.not. is_used(k)) call drop("film '"//scene%lubrication%films(k)%law%name//"': used by no joint")
+      end do
+      call find_used(scene, "lubricant", is_used)
+      do k = 1, size(scene%lubrication%viscosity)
+         if (.not. is_used(k)) then
+            call drop("lubricant '"//scene%tables%base(table_lubricants)%items(k)%name//"': used by no joint")
+         end if
       end do
       if (.not. system%ledger%is_kept) call drop("energy ledger: off")
       if (scene%analysis == analysis_kinematic .and. size(system%linkage%ideal) > 0) then

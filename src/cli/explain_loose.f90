@@ -2,6 +2,8 @@
 module explain_loose
    use clearance_set, only: clearance_set_t
    use console, only: say
+   use film_law, only: parameter_length, parameter_radius, parameter_viscosity
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use load, only: loaded_t
    use mechanism, only: mechanism_t
@@ -39,10 +41,12 @@ contains
                words = ""
                if (set%traits%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%items%clearance(i))//" mm, "
                call say(set%names(i)%s//": "//words//"law "//law//", "//set%laws%normal%story(set%laws%parameters(:, c)), 2)
+               call explain_film(set, i)
                last = set%before%contacts + i*set%n_contact_item
                if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
                if (loaded%scene%analysis /= analysis_dynamic) cycle
+               if (is_film_alone(set)) cycle
                do v = 1, size(speeds)
                   if (.not. contact_time(loaded%system, set, c, speeds(v)) > 0.0_wp) then
                      call say("no impact of free bodies: drivers move both, or the law stores nothing", 4)
@@ -58,6 +62,49 @@ contains
          end associate
       end do
    end subroutine explain_loose_joints
+
+   !> Whether a film alone is between the surfaces.
+   pure logical function is_film_alone(set)
+      class(clearance_set_t), intent(in) :: set     !! the joint's set
+
+      is_film_alone = .false.
+      if (allocated(set%laws%films)) is_film_alone = set%laws%films%is_alone
+   end function is_film_alone
+
+   !> The film of a joint: its kind, what it is fitted to, and how it acts.
+   subroutine explain_film(set, item)
+      class(clearance_set_t), intent(in) :: set     !! the joint's set
+      integer, intent(in) :: item                   !! item of the set
+
+      character(:), allocatable :: words
+      type(kind_info_t) :: info
+
+      if (.not. allocated(set%laws%films)) return
+      associate (films => set%laws%films, p => set%laws%films%parameters(:, item), place => set%laws%films%place(item))
+         info = films%law%info()
+         if (.not. films%acts) then
+            call say("film "//films%law%name//" ("//info%name//"): does not act at this level", 4)
+            return
+         end if
+         call say("film "//films%law%name//" ("//info%name//"): "//info%help, 4)
+         call say("viscosity "//to_text(p(parameter_viscosity))//" Pa.s, length "//to_text(1.0e3_wp*p(parameter_length))// &
+                  " mm, journal radius "//to_text(1.0e3_wp*p(parameter_radius))//" mm, L/D = "// &
+                  real_text(0.5_wp*p(parameter_length)/p(parameter_radius), 4), 4)
+         if (films%law%story(p) /= "") call say(films%law%story(p), 4)
+         words = "entrained by the sum of the inertial angular speeds"
+         if (place%is_relative) words = "entrained by the speed of the journal against the bearing, as in the book"
+         if (place%has_torque) words = words//"; the moments of its shear act"
+         call say(words, 4)
+         if (films%is_alone) then
+            call say("nothing else holds the surfaces apart: the run ends at an eccentricity of "// &
+                     real_text(films%eps_max(item), 8)//" of the clearance", 4)
+         else if (place%depth > 0.0_wp) then
+            call say("goes out over e_t0 = "//to_text(1.0e3_wp*place%depth)//" mm beyond the clearance, as the contact comes in", 4)
+         else
+            call say("keeps its shape beyond "//real_text(films%eps_max(item), 8)//" of the clearance; the contact adds to it", 4)
+         end if
+      end associate
+   end subroutine explain_film
 
    !> A duration in fixed steps, or what variable steps do with it.
    function steps_of(duration, step) result(words)

@@ -45,7 +45,7 @@ contains
          kinds(n + k)%name = "integrator."//kinds(n + k)%name
          kinds(n + k)%is_table = .false.
       end do
-      kinds(n + n_integrator_kinds + 1) = energy_info(with_works=.true.)
+      kinds(n + n_integrator_kinds + 1) = energy_info(with_works=.true., with_films=.true.)
    end subroutine known_kinds
 
    !> `gudgeon list`: one line per kind.

@@ -4,6 +4,8 @@ module kind_list
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
+   use film_law, only: film_law_t
+   use film_registry, only: n_film_kinds, new_film_law
    use force_registry, only: n_force_kinds, new_force_set
    use force_set, only: force_set_t
    use friction_law, only: friction_law_t
@@ -13,13 +15,14 @@ module kind_list
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
+   use lubricant, only: lubricant_info
    use normal_law, only: normal_law_t
    use precision_info, only: precision_section
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
    private
-   public :: all_kinds, clearance_info, force_info, friction_info, function_info, joint_info, law_info
+   public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, law_info
 
 contains
 
@@ -89,14 +92,25 @@ contains
       info = law%info()
    end function friction_info
 
+   !> What film number k says of itself.
+   function film_info(k) result(info)
+      integer, intent(in) :: k   !! number in the registry
+      type(kind_info_t) :: info  !! the kind
+
+      class(film_law_t), allocatable :: law
+
+      call new_film_law(k, law)
+      info = law%info()
+   end function film_info
+
    !> All kinds.
    subroutine all_kinds(kinds)
       type(kind_info_t), allocatable, intent(out) :: kinds(:)  !! (kinds) in the order of the manual
 
       integer :: k, n
 
-      allocate (kinds(13 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
-                      + n_friction_kinds))
+      allocate (kinds(14 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+                      + n_friction_kinds + n_film_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
       kinds(3) = points_info()
@@ -127,6 +141,12 @@ contains
          kinds(n + k) = friction_info(k)
       end do
       n = n + n_friction_kinds
+      kinds(n + 1) = lubricant_info()
+      n = n + 1
+      do k = 1, n_film_kinds
+         kinds(n + k) = film_info(k)
+      end do
+      n = n + n_film_kinds
       kinds(n + 1) = dynamic_info()
       kinds(n + 2) = kinematic_info()
       kinds(n + 3) = static_info()

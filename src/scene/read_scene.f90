@@ -15,10 +15,12 @@ module read_scene
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use option_check, only: check_options
    use precision_info, only: check_precision, precision_section
+   use lubricant, only: lubricant_info, viscosity_of_row
+   use read_films, only: check_lubricants, films_from_deck
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
-      scene_t, section_t, settings_t, table_bodies, table_materials, table_points
+      scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points
    use scene_checks, only: check_meaning, check_names, report_doubled
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use settings, only: check_sections, has_section, read_settings
@@ -38,6 +40,7 @@ contains
 
       type(kind_info_t), allocatable :: kinds(:)
       type(directory_t) :: directory
+      integer :: k
 
       call all_kinds(kinds)
       call check_sections(deck, kinds, diagnostics)
@@ -52,13 +55,16 @@ contains
       call add_names(scene%tables%base(table_bodies)%items, directory%bodies)
       call add_names(scene%tables%base(table_points)%items, directory%points)
       call add_names(scene%tables%base(table_materials)%items, directory%materials)
+      call add_names(scene%tables%base(table_lubricants)%items, directory%lubricants)
       call add_joints(scene, directory)
       call read_laws(deck, scene, directory, diagnostics)
+      call films_from_deck(deck, scene, directory, diagnostics)
       if (size(scene%tables%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
          call diagnostics%add(location_of_end(deck), "no bodies", "a scene needs at least one", "add a table [bodies]")
       end if
       call resolve_tables(directory, scene, diagnostics)
       call check_names(scene, diagnostics)
+      call check_lubricants(scene, diagnostics)
       if (diagnostics%count() > 0) return
 
       scene%title = scene%settings%header%word("title")
@@ -66,6 +72,9 @@ contains
       call new_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
       call new_points(scene%tables%base(table_points)%items, scene%points)
       call new_materials(scene%tables%base(table_materials)%items, scene%materials)
+      associate (items => scene%tables%base(table_lubricants)%items)
+         scene%lubrication%viscosity = [(viscosity_of_row(items(k)), k=1, size(items))]
+      end associate
       call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck
 
@@ -145,6 +154,7 @@ contains
       scene%tables%base(table_bodies)%info = bodies_info()
       scene%tables%base(table_points)%info = points_info()
       scene%tables%base(table_materials)%info = material_info()
+      scene%tables%base(table_lubricants)%info = lubricant_info()
       do k = 1, n_base
          call read_items(deck, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do

@@ -19,6 +19,8 @@ module references
       type(text_t), allocatable :: kinds(:)       !! their kinds
       type(text_t), allocatable :: laws(:)        !! normal laws
       type(text_t), allocatable :: frictions(:)   !! friction laws
+      type(text_t), allocatable :: lubricants(:)  !! lubricants
+      type(text_t), allocatable :: films(:)       !! films
    end type directory_t
 
 contains
@@ -68,6 +70,10 @@ contains
             call look_up_all(directory%laws, "law", "contact laws", .false.)
          case ("friction.")
             call look_up_all(directory%frictions, "friction", "friction laws", .false.)
+         case ("lubricant")
+            call look_up_all(directory%lubricants, "lubricant", "lubricants", .false.)
+         case ("film.")
+            call look_up_all(directory%films, "film", "films", .false.)
          case default
             call look_up_joints(info%columns(c)%refers_to)
          end select

@@ -4,6 +4,8 @@ module scene
    use clearance_registry, only: n_clearance_kinds
    use contact_registry, only: n_friction_kinds, n_law_kinds
    use friction_law, only: friction_slot_t
+   use film_law, only: film_slot_t
+   use film_registry, only: n_film_kinds
    use force_registry, only: n_force_kinds
    use function_registry, only: n_function_kinds
    use item, only: item_t
@@ -15,12 +17,13 @@ module scene
    private
    public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
    public :: friction_slot_t, law_slot_t, n_base, scene_t, section_t, settings_t, table_t
-   public :: table_bodies, table_materials, table_points
+   public :: table_bodies, table_lubricants, table_materials, table_points
 
    integer, parameter :: table_bodies = 1     !! base table: bodies
    integer, parameter :: table_points = 2     !! base table: points
    integer, parameter :: table_materials = 3  !! base table: materials
-   integer, parameter :: n_base = 3           !! base tables
+   integer, parameter :: table_lubricants = 4 !! base table: lubricants
+   integer, parameter :: n_base = 4           !! base tables
 
    integer, parameter :: analysis_dynamic = 1    !! motion in time under forces
    integer, parameter :: analysis_kinematic = 2  !! motion prescribed by drivers
@@ -63,11 +66,18 @@ module scene
 
    !> Tables that became something else when they were read: kept for the echo, and for what is told of them.
    type :: tables_t
-      type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials
+      type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials, lubricants
       type(table_t) :: functions(n_function_kinds)     !! (kinds) named functions
       type(table_t) :: laws(n_law_kinds)               !! (kinds) normal laws
       type(table_t) :: frictions(n_friction_kinds)     !! (kinds) friction laws
+      type(table_t) :: films(n_film_kinds)             !! (kinds) films
    end type tables_t
+
+   !> What lubricates joints.
+   type :: lubrication_t
+      type(film_slot_t), allocatable :: films(:)   !! (films) lubricant films
+      real(wp), allocatable :: viscosity(:)        !! (lubricants) dynamic viscosities [Pa.s]
+   end type lubrication_t
 
    !> What a deck means.
    type :: scene_t
@@ -78,6 +88,7 @@ module scene
       type(material_t), allocatable :: materials(:)          !! (materials) elastic materials
       type(law_slot_t), allocatable :: laws(:)               !! (laws) normal laws
       type(friction_slot_t), allocatable :: frictions(:)     !! (laws) friction laws
+      type(lubrication_t) :: lubrication                     !! films and lubricants
       type(table_t) :: joints(n_joint_kinds)                 !! (kinds) joints and drivers
       type(table_t) :: forces(n_force_kinds)                 !! (kinds) force elements
       type(table_t) :: clearances(n_clearance_kinds)         !! (kinds) joints with clearance

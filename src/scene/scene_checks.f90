@@ -1,10 +1,12 @@
 !> What tables cannot say of themselves: names that are doubled or reserved, joints of a body with itself, journals that do not fit.
 module scene_checks
+   use bearing_films, only: film_bearing_of
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
    use columns, only: cell_index, cell_text, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
+   use film_law, only: n_film_parameter
    use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
@@ -241,15 +243,17 @@ contains
       type(kind_info_t) :: law_info
       type(surfaces_t) :: pair
       real(wp) :: parameters(n_law_parameter)
-      integer :: face_law
+      integer :: face_law, law_number
 
       column = 0
       message = ""
       help = ""
       if (cell_text(info, item, "level") == "ideal") return
       call set%describe(item, scene%materials, pair)
-      call scene%laws(cell_index(info, item, "law"))%law%fit(pair, parameters, message, help)
+      law_number = cell_index(info, item, "law")
+      if (law_number > 0) call scene%laws(law_number)%law%fit(pair, parameters, message, help)
       if (message /= "") column = column_of(info, "law")
+      if (column == 0) call check_film(scene, info, item, column, message, help)
       if (column > 0) return
       face_law = cell_index(info, item, "face_law")
       if (face_law == 0) return
@@ -264,6 +268,24 @@ contains
       end associate
       if (message /= "") column = column_of(info, "face_law")
    end subroutine check_law
+
+   !> The film of a loose joint must fit its bearing.
+   subroutine check_film(scene, info, item, column, message, help)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(kind_info_t), intent(in) :: info                 !! the geometry
+      type(item_t), intent(in) :: item                      !! the row
+      integer, intent(inout) :: column                      !! column at fault, 0: all is well
+      character(:), allocatable, intent(inout) :: message   !! what is wrong
+      character(:), allocatable, intent(inout) :: help      !! what would be right
+
+      real(wp) :: parameters(n_film_parameter)
+      integer :: film
+
+      film = cell_index(info, item, "film")
+      if (film == 0 .or. cell_text(info, item, "level") == "clearance") return
+      call scene%lubrication%films(film)%law%fit(film_bearing_of(item, scene%lubrication%viscosity), parameters, message, help)
+      if (message /= "") column = column_of(info, "film")
+   end subroutine check_film
 
    !> Where the deck puts a point at the start.
    pure function start_position(scene, point) result(p)

@@ -1,17 +1,18 @@
 !> Where what belongs to a contact lies: its losses among the quadratures of the ledger, its functions among the event functions.
 !>
 !> Quadratures: the works and what dampers lose, then n_loss of each contact: lost by damping, lost by friction (`clearance_set`);
-!> last what friction in ideal joints takes, if any rub.
+!> then what friction in ideal joints takes, if any rub; last what lubricant films take, if there are any.
 !> Event functions come in blocks, each in the order of the contacts: one of every contact for its onset and end, one for slip and
-!> stick if any friction can stick, one for turns of the penetration if any normal law jumps there.
+!> stick if any friction can stick, one for turns of the penetration if any normal law jumps there, one for the
+!> end of the transition from a film if any film has one.
 !>
 !> Contacts are counted through all sets. Limits: a block has a function for every contact, whether it needs one or not.
 module contact_places
    use clearance_set, only: loss_contact, loss_friction
    implicit none (type, external)
    private
-   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_joint_loss, place_of_loss
-   public :: slip_function, touch_function, turn_function, work_drive, work_load, work_stabilisation
+   public :: event_functions_t, lost_damper, n_loss, n_quadratures, place_of_film_loss, place_of_joint_loss, place_of_loss
+   public :: slip_function, touch_function, transition_function, turn_function, work_drive, work_load, work_stabilisation
 
    integer, parameter :: work_drive = 1          !! quadrature: work of the drivers
    integer, parameter :: work_load = 2           !! quadrature: work of applied loads
@@ -23,7 +24,8 @@ module contact_places
    integer, parameter :: touch_function = 1      !! of a contact: its penetration, for onset and end
    integer, parameter :: slip_function = 2       !! its friction, for slip that ends and sticking that gives way
    integer, parameter :: turn_function = 3       !! the rate of its penetration, for turns and for rest that ends
-   integer, parameter :: n_function = 3          !! kinds of functions
+   integer, parameter :: transition_function = 4 !! its penetration less the depth over which a film goes out
+   integer, parameter :: n_function = 4          !! kinds of functions
 
    !> Which blocks of event functions there are.
    type :: event_functions_t
@@ -31,6 +33,7 @@ module contact_places
       integer :: n = 0                                !! functions
       logical :: has_slip = .false.                   !! there is a block for slip and stick
       logical :: has_turn = .false.                   !! there is a block for turns
+      logical :: has_transition = .false.             !! there is a block for transitions from films
       integer, private :: before(n_function) = -1     !! functions before the block of a kind; -1: there is none
    contains
       procedure :: add => functions_add
@@ -48,12 +51,20 @@ contains
       n = n_work + n_loss*n_contact
    end function n_quadratures
 
-   !> Number of the quadrature of what friction in ideal joints takes, the last one, if any of them rub.
+   !> Number of the quadrature of what friction in ideal joints takes, if any of them rub.
    pure integer function place_of_joint_loss(n_contact) result(place)
       integer, intent(in) :: n_contact  !! contacts of all sets
 
       place = n_quadratures(n_contact) + 1
    end function place_of_joint_loss
+
+   !> Number of the quadrature of what films take, the last one, if there are any.
+   pure integer function place_of_film_loss(n_contact, rubs) result(place)
+      integer, intent(in) :: n_contact  !! contacts of all sets
+      logical, intent(in) :: rubs       !! any ideal joint rubs
+
+      place = n_quadratures(n_contact) + merge(2, 1, rubs)
+   end function place_of_film_loss
 
    !> Number of the quadrature of a loss.
    pure integer function place_of_loss(contact, loss) result(place)
@@ -72,6 +83,7 @@ contains
       self%n = self%n + self%n_contact
       self%has_slip = self%has_slip .or. kind == slip_function
       self%has_turn = self%has_turn .or. kind == turn_function
+      self%has_transition = self%has_transition .or. kind == transition_function
    end subroutine functions_add
 
    !> Number of a function of a contact; of contact 0: functions before the block.

@@ -5,8 +5,8 @@
 !> b = gamma - 2 alpha Phi' - beta^2 Phi,  Phi' = Phi_q v + Phi_t,  less Phi_q a of the bodies whose motion is known.
 !>
 !> Ledger: z = ( drive work, load work, stabilisation work, lost in dampers; per contact: lost by damping, lost by
-!> friction; lost by friction in ideal joints, if any rub ), with the powers lambda^T Phi_t, f . v, -lambda^T Phi', c l'^2,
-!> (F_N - F_elastic) delta', F_T |v_T|, and F_T |v| of joints.
+!> friction; lost by friction in ideal joints, if any rub; taken by films, if there are any ), with the powers lambda^T Phi_t, f .
+!> v, -lambda^T Phi', c l'^2, (F_N - F_elastic) delta', F_T |v_T|, and F_T |v| of joints.
 !>
 !> Events: one function per contact of a loose joint, the penetration while free, its negative while touching; with friction
 !> that sticks, another one per contact (`mechanism_friction`). Contacts with bristles have a state each, after the rates.
@@ -32,6 +32,7 @@ module mechanism
       type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
       integer :: n = 0                                 !! loose joints in all
       integer :: n_contact = 0                         !! contacts of all of them
+      logical :: has_films = .false.                   !! lubricant films act in some
       real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
       type(event_functions_t) :: functions             !! which event functions their contacts have
    end type loose_t

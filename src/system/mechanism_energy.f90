@@ -1,11 +1,12 @@
 !> The energy ledger of a planar scene at one state.
 !>
-!> residual = E - E_0 - (drive + load + stabilisation work) + (lost in contacts, by friction and in dampers),
+!> residual = E - E_0 - (drive + load + stabilisation work) + (lost in contacts, by friction, in dampers and films),
 !> E = kinetic + potential + elastic. It is zero but for the error of the integration: an error
 !> measure that needs no reference solution.
 module mechanism_energy
    use clearance_set, only: loss_contact, loss_friction
-   use contact_places, only: lost_damper, place_of_joint_loss, place_of_loss, work_drive, work_load, work_stabilisation
+   use contact_places, only: lost_damper, place_of_film_loss, place_of_joint_loss, place_of_loss, work_drive, work_load, &
+      work_stabilisation
    use cut_off, only: lost_by_damping
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -24,6 +25,7 @@ module mechanism_energy
       real(wp) :: dissipated_contact = 0.0_wp   !! lost by damping in contacts [J]
       real(wp) :: dissipated_friction = 0.0_wp  !! lost by friction [J]
       real(wp) :: dissipated_damper = 0.0_wp    !! lost in dampers [J]
+      real(wp) :: dissipated_film = 0.0_wp      !! taken by lubricant films [J]
    contains
       procedure :: mechanical
       procedure :: balance
@@ -44,7 +46,7 @@ contains
       class(energy_t), intent(in) :: self  !! energies
 
       balance = self%mechanical() - (self%drive_work + self%load_work + self%stabilisation_work) &
-                + self%dissipated_contact + self%dissipated_friction + self%dissipated_damper
+                + self%dissipated_contact + self%dissipated_friction + self%dissipated_damper + self%dissipated_film
    end function balance
 
    !> Size of what the balance adds up, for its round-off.
@@ -53,7 +55,7 @@ contains
 
       magnitude = self%kinetic + abs(self%potential) + abs(self%elastic) + abs(self%drive_work) + abs(self%load_work) &
                   + abs(self%stabilisation_work) + abs(self%dissipated_contact) + abs(self%dissipated_friction) &
-                  + abs(self%dissipated_damper)
+                  + abs(self%dissipated_damper) + abs(self%dissipated_film)
    end function magnitude
 
    !> Mechanical energy of the present motion.
@@ -128,6 +130,9 @@ contains
       end do
       if (system%friction%rubbing%n > 0) then
          energy%dissipated_friction = energy%dissipated_friction + y(first + place_of_joint_loss(system%loose%n_contact))
+      end if
+      if (system%loose%has_films) then
+         energy%dissipated_film = y(first + place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0))
       end if
    end function energy_of
 

@@ -2,6 +2,7 @@
 submodule(mechanism) mechanism_evaluation
    use guided_motion, only: guided_rates, set_guided_acceleration
    use loading, only: start_loads
+   use motion, only: loads_t, motion_t
    implicit none (type, external)
 
 contains
@@ -60,7 +61,7 @@ contains
       if (self%linkage%rows%n_solve > 0) call self%linkage%evaluate_rows(t)
    end procedure evaluate_terms
 
-   !> Loads of gravity, force elements and touching contacts at the present motion.
+   !> Loads of gravity, force elements, touching contacts and films at the present motion.
    module procedure mechanism_evaluate_loads
       real(wp) :: inside
       integer :: k
@@ -75,8 +76,27 @@ contains
          do k = 1, size(self%loose%sets)
             call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%losses)
          end do
+         if (self%loose%has_films) call evaluate_films(self%loose, motion, loading%loads)
          call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
       end associate
    end procedure mechanism_evaluate_loads
+
+   !> Loads of lubricant films.
+   subroutine evaluate_films(loose, motion, loads)
+      type(loose_t), intent(inout) :: loose    !! loose joints, some of them with films
+      type(motion_t), intent(in) :: motion     !! positions and velocities
+      type(loads_t), intent(inout) :: loads    !! loads on the bodies, added to
+
+      integer :: k
+
+      do k = 1, size(loose%sets)
+         associate (set => loose%sets(k)%set)
+            if (.not. allocated(set%laws%films)) cycle
+            if (set%laws%films%acts) then
+               call set%laws%films%bear(set%items%body, set%items%s_i, set%items%s_j, motion, loads)
+            end if
+         end associate
+      end do
+   end subroutine evaluate_films
 
 end submodule mechanism_evaluation

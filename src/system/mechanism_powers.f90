@@ -1,7 +1,8 @@
 !> The powers of the ledger, as of the last evaluation.
 submodule(mechanism) mechanism_powers
    use clearance_set, only: loss_contact, loss_friction
-   use contact_places, only: lost_damper, n_loss, place_of_joint_loss, place_of_loss, work_drive, work_load, work_stabilisation
+   use contact_places, only: lost_damper, n_loss, place_of_film_loss, place_of_joint_loss, place_of_loss, work_drive, work_load, &
+      work_stabilisation
    use known_motion, only: power_of_known
    implicit none (type, external)
 
@@ -37,6 +38,14 @@ contains
          place = place + n_loss
       end do
       if (self%friction%rubbing%n > 0) power(place_of_joint_loss(self%loose%n_contact)) = self%friction%rubbing%power
+      if (.not. self%loose%has_films) return
+      place = place_of_film_loss(self%loose%n_contact, self%friction%rubbing%n > 0)
+      power(place) = 0.0_wp
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
+            if (allocated(set%laws%films)) power(place) = power(place) + set%laws%films%power
+         end associate
+      end do
    end procedure ledger_rates
 
 end submodule mechanism_powers

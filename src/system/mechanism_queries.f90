@@ -1,7 +1,7 @@
 !> What is asked of a planar scene beside its evaluation: event functions.
 submodule(mechanism) mechanism_queries
    use contact_memory, only: rests
-   use contact_places, only: touch_function, turn_function
+   use contact_places, only: touch_function, transition_function, turn_function
    use gap_noise, only: find_gap_noise
    implicit none (type, external)
 
@@ -16,6 +16,7 @@ contains
       end if
       if (self%loose%functions%has_turn .and. size(g) > self%loose%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
+      if (self%loose%functions%has_transition .and. size(g) > self%loose%n_contact) call transition_events(self, g, rate)
    end procedure mechanism_events
 
    !> The same at the present motion.
@@ -23,6 +24,7 @@ contains
       if (self%friction%grips%n_slip > 0 .and. size(g) > self%loose%n_contact) call self%friction_events(t, y, g, rate)
       if (self%loose%functions%has_turn .and. size(g) > self%loose%n_contact) call turn_events(self, t, y, g, rate)
       call contact_events(self, g, rate)
+      if (self%loose%functions%has_transition .and. size(g) > self%loose%n_contact) call transition_events(self, g, rate)
    end procedure mechanism_last_events
 
    !> Event functions of contacts whose law jumps where the penetration turns: the rate of the penetration falls to zero while they
@@ -102,6 +104,35 @@ contains
       end do
    end subroutine contact_events
 
+   !> Event functions of transitions from films: the penetration less the depth of the transition, its negative beyond it.
+   subroutine transition_events(self, g, rate)
+      class(mechanism_t), intent(in) :: self     !! the system
+      real(wp), intent(inout) :: g(:)            !! (n_event) event functions, those of contacts set, of transitions set here [m]
+      real(wp), intent(inout) :: rate(:)         !! (n_event) their rates [m/s]
+
+      real(wp) :: side
+      integer :: i, k, number, place
+
+      do k = 1, size(self%loose%sets)
+         associate (set => self%loose%sets(k)%set)
+            do i = 1, set%n_contact
+               number = set%before%contacts + i
+               place = self%loose%functions%place(transition_function, number)
+               g(place) = -1.0_wp
+               rate(place) = 0.0_wp
+               if (.not. allocated(set%laws%films)) cycle
+               if (.not. set%laws%films%fades()) cycle
+               side = merge(-1.0_wp, 1.0_wp, set%contact(i)%is_touching)
+               g(place) = side*g(number) - set%laws%films%place(set%item_of(i))%depth
+               rate(place) = side*rate(number)
+               if (.not. set%contact(i)%is_dry) cycle
+               g(place) = -g(place)
+               rate(place) = -rate(place)
+            end do
+         end associate
+      end do
+   end subroutine transition_events
+
    !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
    module procedure mechanism_event_noise
       real(wp) :: rate_noise(self%loose%n_contact), shared
@@ -119,6 +150,10 @@ contains
             end associate
          end associate
       end do
+      if (self%loose%functions%has_transition) then
+         turns = self%loose%functions%place(transition_function, 0)
+         noise(turns + 1:turns + self%loose%n_contact) = noise(:self%loose%n_contact)
+      end if
       if (self%loose%functions%has_turn) then
          turns = self%loose%functions%place(turn_function, 0)
          noise(turns + 1:turns + self%loose%n_contact) = rate_noise

@@ -3,12 +3,14 @@ module mechanism_report
    use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
       room_joints
    use bodies, only: bodies_info
+   use clearance_set, only: clearance_set_t
    use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
+   use revolute_level, only: film_channels
    implicit none (type, external)
    private
    public :: build_catalogue, energy_info, fill_catalogue, report_state
@@ -19,8 +21,9 @@ module mechanism_report
 contains
 
    !> The channels of the ledger; without its works only the energies, which are functions of the state.
-   function energy_info(with_works) result(info)
+   function energy_info(with_works, with_films) result(info)
       logical, intent(in) :: with_works   !! whether works and losses are integrated
+      logical, intent(in) :: with_films   !! whether there are lubricant films
       type(kind_info_t) :: info           !! name and channels
 
       info%name = "energy"
@@ -37,6 +40,7 @@ contains
       call add_channel(info, "dissipated_contact", "J", "none", 1, "lost by damping in contacts since the start")
       call add_channel(info, "dissipated_friction", "J", "none", 1, "lost by friction since the start")
       call add_channel(info, "dissipated_damper", "J", "none", 1, "lost in dampers since the start")
+      if (with_films) call add_channel(info, "dissipated_film", "J", "none", 1, "taken by lubricant films since the start")
       call add_channel(info, "residual", "J", "none", 1, "what does not add up, at the end of the step that holds the sample")
    end function energy_info
 
@@ -63,7 +67,7 @@ contains
       call add_joint_items(system, .true., catalogue)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
-            info = set%info()
+            info = loose_info(set)
             call split_channels(info, joint_info, contact_info)
             call catalogue%add_kind(room_clearances, joint_info)
             call catalogue%add_kind(room_contacts, contact_info)
@@ -93,7 +97,7 @@ contains
       end do
       if (system%ledger%has_energies) then
          call catalogue%add_item(room_energy, "energy")
-         call catalogue%add_kind(room_energy, energy_info(system%ledger%is_kept))
+         call catalogue%add_kind(room_energy, energy_info(system%ledger%is_kept, system%loose%has_films))
       end if
       call catalogue%allocate_data()
    end subroutine build_catalogue
@@ -140,6 +144,19 @@ contains
       info%channels = pack(info%channels, [(index(friction_channels, " "//info%channels(k)%name//" ") == 0, &
                                             k=1, size(info%channels))])
    end function joint_info
+
+   !> What a set of loose joints announces, with the channels of films or without.
+   function loose_info(set) result(info)
+      class(clearance_set_t), intent(in) :: set   !! the set
+      type(kind_info_t) :: info                   !! what is reported
+
+      integer :: k
+
+      info = set%info()
+      if (allocated(set%laws%films)) return
+      info%channels = pack(info%channels, [(index(film_channels, " "//info%channels(k)%name//" ") == 0, &
+                                            k=1, size(info%channels))])
+   end function loose_info
 
    !> The channels of a joint with clearance that is taken as ideal.
    subroutine ideal_info(info)
@@ -309,6 +326,7 @@ contains
       case ("dissipated_contact"); value = energy%dissipated_contact
       case ("dissipated_friction"); value = energy%dissipated_friction
       case ("dissipated_damper"); value = energy%dissipated_damper
+      case ("dissipated_film"); value = energy%dissipated_film
       case default; value = residual
       end select
    end function energy_value

@@ -31,6 +31,7 @@ DECKS = [
     for folder in FOLDERS
     for path in sorted((ROOT / folder).glob("*.deck"))
     if re.search(r"(?m)^\s*\[clearance\.", text_of(path)) and re.search(r"(?m)^\s*\[analysis\.dynamic\]", text_of(path))
+    and not re.search(r"(?m)^\s*\[lubricant\]", text_of(path))  # films hold these surfaces apart
 ]
 
 

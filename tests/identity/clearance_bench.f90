@@ -113,7 +113,7 @@ contains
       type(text_t), allocatable :: words(:)
       character(:), allocatable :: help, message
       real(wp) :: delta(n_all), parameters(n_law_parameter), rate(n_all)
-      integer :: c, k, m
+      integer :: c, k, level, m
 
       call new_clearance_set(kind, bench%set)
       info = bench%set%info()
@@ -142,6 +142,7 @@ contains
          call friction%prepare(law_item)
       end if
       c = column_number(info, "form") + column_number(info, "faces")
+      level = column_number(info, "level")
       words = split_blank("corrected")
       if (c > 0) words = split_blank(info%columns(c)%choices)
       bench%has_form = form <= size(words)
@@ -171,6 +172,7 @@ contains
          call set_number(info, "guide_start", 0.0_wp, items(k))
          call set_number(info, "guide_end", 0.0_wp, items(k))
          if (c > 0) items(k)%values(c)%text = words(form)%s
+         if (level > 0) items(k)%values(level)%text = "clearance"
          points%body(2*k - 1:2*k) = [body_i(k), body_j(k)]
          points%s(1:2, 2*k - 1) = random%vector(2, -0.05_wp, 0.05_wp)
          points%s(1:2, 2*k) = random%vector(2, -0.05_wp, 0.05_wp)

@@ -1,0 +1,169 @@
+!> How thin the films of a run become, against what is safe: looked at on the ends of steps.
+!>
+!> h_min = c - e, eq. (5.33). Limits: 2.5 um (machined surfaces); 1.5e-4 of the journal's diameter; twenty times the roughness,
+!> where it is given.
+!>
+!> Sources: Flores et al. (2008), section 5.8, with B. J. Hamrock, Fundamentals of Fluid Film Lubrication (1994), for 2.5 um, and
+!> R. M. Phelan, Fundamentals of Mechanical Design (1970), for that of the diameter. Limits: of steps, so that a least film between
+!> two ends is told a little too thick.
+module film_watch
+   use film_law, only: parameter_radius
+   use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use text, only: append_text, real_text, text_t
+   implicit none (type, external)
+   private
+   public :: film_watch_t
+
+   integer, parameter :: limit_machined = 1    !! least film of machined surfaces
+   integer, parameter :: limit_diameter = 2    !! one that grows with the journal
+   integer, parameter :: limit_roughness = 3   !! one that grows with the roughness
+   integer, parameter :: n_limit = 3           !! limits of a film
+
+   real(wp), parameter :: machined = 2.5e-6_wp     !! least film of machined surfaces [m]
+   real(wp), parameter :: of_diameter = 1.5e-4_wp  !! least film over the journal's diameter [1]
+   real(wp), parameter :: of_roughness = 20.0_wp   !! least film over the roughness [1]
+
+   !> The film of a joint.
+   type :: thin_film_t
+      logical :: is_watched = .false.                  !! it has a film that acts
+      logical :: is_below(n_limit) = .false.           !! (limits) it was thinner
+      real(wp) :: first(n_limit) = 0.0_wp              !! (limits) when it was so first [s]
+      real(wp) :: film_at_end = 0.0_wp                 !! thickness where a film that is alone ends; 0 of others [m]
+      real(wp) :: limit(n_limit) = 0.0_wp              !! (limits) the limits, 0: none [m]
+      real(wp) :: least = huge(1.0_wp)                 !! least thickness [m]
+      real(wp) :: time = 0.0_wp                        !! when that was [s]
+   end type thin_film_t
+
+   !> The films of all loose joints.
+   type :: film_watch_t
+      type(thin_film_t), allocatable :: joint(:)   !! (contacts) films, each of one contact; unallocated: no joint has one
+      real(wp), allocatable :: delta(:), rate(:)   !! (contacts) penetrations [m] and their rates [m/s]
+   contains
+      procedure :: begin => watch_begin
+      procedure :: look => watch_look
+      procedure :: gather => watch_gather
+      procedure :: warn => watch_warn
+   end type film_watch_t
+
+contains
+
+   !> Before the first step.
+   subroutine watch_begin(self, system)
+      class(film_watch_t), intent(out) :: self   !! the watch
+      type(mechanism_t), intent(in) :: system    !! the system
+
+      integer :: i, k
+
+      if (.not. system%loose%has_films) return
+      allocate (self%joint(system%loose%n_contact), self%delta(system%loose%n_contact), self%rate(system%loose%n_contact))
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
+            if (.not. allocated(set%laws%films)) cycle
+            do i = 1, set%n
+               associate (joint => self%joint(set%before%contacts + i), films => set%laws%films)
+                  joint%is_watched = films%acts
+                  if (films%is_alone) joint%film_at_end = set%items%clearance(i)*(1.0_wp - films%eps_max(i))
+                  joint%limit(limit_machined) = machined
+                  joint%limit(limit_diameter) = of_diameter*2.0_wp*films%parameters(parameter_radius, i)
+                  joint%limit(limit_roughness) = of_roughness*films%roughness(i)
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine watch_begin
+
+   !> After a step.
+   subroutine watch_look(self, system, t)
+      class(film_watch_t), intent(inout) :: self   !! the watch
+      type(mechanism_t), intent(in) :: system      !! the system, its motion that at the end of the step
+      real(wp), intent(in) :: t                    !! time there [s]
+
+      real(wp) :: thickness
+      integer :: i, k, limit
+
+      if (.not. allocated(self%joint)) return
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
+            if (.not. allocated(set%laws%films)) cycle
+            call set%gaps(system%linkage%motion, self%delta, self%rate)
+            do i = 1, set%n
+               associate (joint => self%joint(set%before%contacts + i))
+                  thickness = joint%film_at_end - self%delta(set%before%contacts + i)
+                  if (.not. joint%is_watched .or. thickness >= joint%least) cycle
+                  joint%least = thickness
+                  joint%time = t
+                  do limit = 1, n_limit
+                     if (joint%is_below(limit) .or. thickness >= joint%limit(limit)) cycle
+                     joint%is_below(limit) = .true.
+                     joint%first(limit) = t
+                  end do
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine watch_look
+
+   !> What the watch of a part of the mechanism has seen.
+   subroutine watch_gather(self, part, contacts)
+      class(film_watch_t), intent(inout) :: self   !! watch of the whole, begun
+      type(film_watch_t), intent(in) :: part       !! watch of the part
+      integer, intent(in) :: contacts(:)           !! (contacts of the part) their numbers in the whole
+
+      if (allocated(part%joint) .and. allocated(self%joint)) self%joint(contacts) = part%joint
+   end subroutine watch_gather
+
+   !> Append a warning for each joint whose film was thinner than what is safe.
+   subroutine watch_warn(self, system, warnings)
+      class(film_watch_t), intent(in) :: self                    !! the watch
+      type(mechanism_t), intent(in) :: system                    !! the system
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+
+      character(:), allocatable :: words
+      integer :: i, k, limit
+
+      if (.not. allocated(self%joint)) return
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
+            if (.not. allocated(set%laws%films)) cycle
+            do i = 1, set%n
+               associate (joint => self%joint(set%before%contacts + i))
+                  if (.not. any(joint%is_below)) cycle
+                  words = "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name//"': as thin as "// &
+                          micrometres(max(joint%least, 0.0_wp))//" at t = "//real_text(joint%time, 6)//" s"
+                  do limit = 1, n_limit
+                     if (joint%is_below(limit)) words = words//"; below "//limit_words(limit, joint%limit(limit))// &
+                                                        " first at "//real_text(joint%first(limit), 6)//" s"
+                  end do
+                  call append_text(warnings, words)
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine watch_warn
+
+   !> A limit in words.
+   function limit_words(limit, value) result(words)
+      integer, intent(in) :: limit         !! which one
+      real(wp), intent(in) :: value        !! the limit [m]
+      character(:), allocatable :: words   !! with its value
+
+      select case (limit)
+      case (limit_machined)
+         words = micrometres(value)//" (machined surfaces, Hamrock)"
+      case (limit_diameter)
+         words = micrometres(value)//" (1.5e-4 of the journal's diameter, Phelan)"
+      case default
+         words = micrometres(value)//" (20 times the roughness)"
+      end select
+   end function limit_words
+
+   !> A thickness in words.
+   function micrometres(length) result(words)
+      real(wp), intent(in) :: length        !! [m]
+      character(:), allocatable :: words    !! in um
+
+      words = real_text(1.0e6_wp*length, 4)//" um"
+   end function micrometres
+
+end module film_watch

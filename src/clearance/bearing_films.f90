@@ -1,0 +1,252 @@
+!> Planar: the films of journals in bearings: their motion, what they do to the bodies, and the power that they take.
+!>
+!> on body j: F at the journal's centre, T_J;   on body i: -F at the journal's centre, or, with the moments of shear, -F at the
+!> bearing's centre and T_B:
+!> lost = -(F.v_J + T_J w_J - F.v_B + T_B w_B),   v_B the velocity of body i where -F acts
+!>
+!> Over a transition of depth d (e_t0) film and contact share the force: film times (c + d - e)/d between e = c and c + d, none
+!> beyond, and its clearance is c + e_t1, so that it stays finite.
+!>
+!> Signs: forces and moments on the journal. Source: Flores et al. (2008), eqs. (5.23)-(5.32). Without the moments of shear what is
+!> lost may be negative: the shaft that would give the energy back is not asked for its moment. Limits: journals in the plane.
+module bearing_films
+   use film_law, only: film_bearing_t, film_law_t, film_motion_t, n_film_parameter
+   use item, only: item_t
+   use kinds, only: wp
+   use motion, only: loads_t, motion_t
+   implicit none (type, external)
+   private
+   public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
+
+   !> How a film acts in a joint.
+   type :: film_place_t
+      real(wp) :: clearance = 0.0_wp      !! c of the joint [m]
+      real(wp) :: depth = 0.0_wp          !! d: of the transition to dry contact; 0: there is none [m]
+      logical :: has_torque = .false.     !! moments of shear act too
+      logical :: is_relative = .false.    !! entrained by the difference of the speeds, as the book has it, not by their sum
+   end type film_place_t
+
+   !> What a film does at a motion.
+   type :: film_state_t
+      real(wp) :: e(2) = 0.0_wp           !! (2) eccentricity, world frame [m]
+      real(wp) :: force(2) = 0.0_wp       !! (2) on the journal, world frame [N]
+      real(wp) :: torque = 0.0_wp         !! moment of shear on the journal [N.m]
+      real(wp) :: share = 0.0_wp          !! part of the film in the transition [1]
+   end type film_state_t
+
+   !> Films of the items of a set.
+   type :: bearing_films_t
+      class(film_law_t), allocatable :: law           !! the film of all items
+      logical :: acts = .false.                       !! it acts; otherwise it is there for its channels only
+      logical :: is_alone = .false.                   !! there is no dry contact
+      real(wp) :: power = 0.0_wp                      !! taken in the last evaluation by all items [W]
+      real(wp), allocatable :: eps_max(:)             !! (n) eccentricity over clearance where it ends if it is alone [1]
+      real(wp), allocatable :: roughness(:)           !! (n) of the surfaces, 0: not known [m]
+      real(wp), allocatable :: parameters(:, :)       !! (n_film_parameter, n) fitted to the bearings [any]
+      type(film_place_t), allocatable :: place(:)     !! (n) how they act
+      type(film_motion_t), allocatable :: motion(:)   !! (n) of an evaluation
+      real(wp), allocatable :: f(:, :)                !! (2, n) of an evaluation [N]
+      real(wp), allocatable :: s(:, :, :)             !! (2, 2, n) centres of bearing and journal, of an evaluation [m]
+   contains
+      procedure :: bear => films_bear
+      procedure :: state_of => films_state_of
+      procedure :: fades => films_fade
+   end type bearing_films_t
+
+contains
+
+   !> The bearing that a row describes, as films see it.
+   pure function film_bearing_of(item, viscosity) result(bearing)
+      type(item_t), intent(in) :: item        !! the row of a revolute joint with clearance
+      real(wp), intent(in) :: viscosity(:)    !! (lubricants) dynamic viscosities [Pa.s]
+      type(film_bearing_t) :: bearing         !! the bearing
+
+      bearing%radius = item%number("bearing_radius") - item%number("clearance")
+      bearing%clearance = item%number("clearance")
+      if (item%word("level") == "hybrid") bearing%clearance = bearing%clearance + item%number("e_t1")
+      bearing%length = item%number("length")
+      if (item%reference("lubricant") > 0) bearing%viscosity = viscosity(item%reference("lubricant"))
+      bearing%eps_max = item%number("eps_max")
+   end function film_bearing_of
+
+   !> Films of the rows of a set.
+   subroutine new_bearing_films(items, law, viscosity, films)
+      type(item_t), intent(in) :: items(:)       !! (n) rows
+      class(film_law_t), intent(in) :: law       !! their film
+      real(wp), intent(in) :: viscosity(:)       !! (lubricants) dynamic viscosities [Pa.s]
+      type(bearing_films_t), intent(out) :: films !! the films
+
+      character(:), allocatable :: help, message
+      integer :: k, n
+
+      n = size(items)
+      allocate (films%law, source=law)
+      allocate (films%parameters(n_film_parameter, n), films%eps_max(n), films%roughness(n), films%place(n), films%motion(n))
+      allocate (films%f(2, n), films%s(2, 2, n))
+      films%acts = items(1)%word("level") == "lubricated" .or. items(1)%word("level") == "hybrid"
+      films%is_alone = items(1)%word("level") == "lubricated"
+      do k = 1, n
+         call law%fit(film_bearing_of(items(k), viscosity), films%parameters(:, k), message, help)
+         films%roughness(k) = items(k)%number("roughness")
+         films%eps_max(k) = items(k)%number("eps_max")
+         films%place(k)%clearance = items(k)%number("clearance")
+         if (items(k)%word("level") == "hybrid") films%place(k)%depth = items(k)%number("e_t0")
+         films%place(k)%has_torque = items(k)%flag("film_torque")
+         films%place(k)%is_relative = items(k)%word("entrain") == "book"
+      end do
+   end subroutine new_bearing_films
+
+   !> Add what the films do to the loads, and find the power that they take.
+   subroutine films_bear(self, body, s_i, s_j, motion, loads)
+      class(bearing_films_t), intent(inout) :: self        !! the films
+      integer, intent(in), contiguous :: body(:, :)        !! (2, n) bodies of bearing and journal
+      real(wp), intent(in), contiguous :: s_i(:, :)        !! (3, n) centre of the bearing, frame of its body [m]
+      real(wp), intent(in), contiguous :: s_j(:, :)        !! (3, n) centre of the journal, frame of its body [m]
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+      type(loads_t), intent(inout) :: loads                !! loads on the bodies
+
+      integer :: n
+
+      n = size(body, 2)
+      call measure_films(n, self%place, body, s_i, s_j, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
+                         motion%angle, self%motion, self%s)
+      call self%law%force(n, self%motion, self%parameters, self%f)
+      call add_film_loads(n, self%law, self%parameters, self%place, self%motion, self%f, self%s, body, ubound(motion%angle, 1), &
+                          motion%omega, loads%force, loads%moment, self%power)
+   end subroutine films_bear
+
+   !> Motion of the bearings.
+   pure subroutine measure_films(n, place, body, s_bearing, s_journal, n_body, r, rot, v, omega, angle, films, s)
+      integer, intent(in) :: n                            !! number of bearings
+      type(film_place_t), intent(in) :: place(n)          !! (n) how the films act
+      integer, intent(in) :: body(2, n)                   !! (2, n) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3, n)             !! (3, n) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3, n)             !! (3, n) centre of the journal, frame of its body [m]
+      integer, intent(in) :: n_body                       !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)              !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)         !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)              !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)          !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(in) :: angle(0:n_body)             !! (0:bodies) angles [rad]
+      type(film_motion_t), intent(inout) :: films(n)      !! (n) motion of the bearings
+      real(wp), intent(inout) :: s(2, 2, n)               !! (2, 2, n) centres of bearing and journal, from those of mass [m]
+
+      integer :: k
+
+      do k = 1, n
+         call find_eccentricity(body(:, k), s_bearing(:, k), s_journal(:, k), n_body, r, rot, v, omega, s(:, 1, k), s(:, 2, k), &
+                                films(k)%e, films(k)%e_dot)
+         films(k)%speed_difference = omega(3, body(2, k)) - omega(3, body(1, k))
+         films(k)%speed_sum = omega(3, body(2, k)) + omega(3, body(1, k))
+         if (place(k)%is_relative) films(k)%speed_sum = films(k)%speed_difference
+         films(k)%angle = angle(body(1, k))
+      end do
+   end subroutine measure_films
+
+   !> Centres of bearing and journal from the centres of mass of their bodies, the eccentricity and its rate, world frame.
+   pure subroutine find_eccentricity(body, s_bearing, s_journal, n_body, r, rot, v, omega, s_i, s_j, e, e_dot)
+      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(out) :: s_i(2), s_j(2)            !! (2) centres of bearing and journal [m]
+      real(wp), intent(out) :: e(2), e_dot(2)            !! (2) the journal's from the bearing's, and its rate [m or m/s]
+
+      integer :: i, j
+
+      include "eccentricity.inc"
+   end subroutine find_eccentricity
+
+   !> Add forces and moments of the films to the loads.
+   pure subroutine add_film_loads(n, law, parameters, place, films, f, s, body, n_body, omega, force, moment, power)
+      integer, intent(in) :: n                                  !! number of bearings
+      class(film_law_t), intent(in) :: law                      !! the film
+      real(wp), intent(in) :: parameters(n_film_parameter, n)   !! (n_film_parameter, n) of the bearings [any]
+      type(film_place_t), intent(in) :: place(n)                !! (n) how the films act
+      type(film_motion_t), intent(in) :: films(n)               !! (n) motion of the bearings
+      real(wp), intent(in) :: f(2, n)                           !! (2, n) forces of the whole films [N]
+      real(wp), intent(in) :: s(2, 2, n)                        !! (2, 2, n) centres of bearing and journal, from those of mass [m]
+      integer, intent(in) :: body(2, n)                         !! (2, n) bodies of bearing and journal
+      integer, intent(in) :: n_body                             !! number of bodies
+      real(wp), intent(in) :: omega(3, 0:n_body)                !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(inout) :: force(3, 0:n_body)             !! (3, 0:bodies) forces [N]
+      real(wp), intent(inout) :: moment(3, 0:n_body)            !! (3, 0:bodies) moments about the centres of mass [N.m]
+      real(wp), intent(out) :: power                            !! taken by all films [W]
+
+      real(wp) :: f_j(2), m_b, share, t_b, t_j
+      integer :: i, j, k
+
+      power = 0.0_wp
+      do k = 1, n
+         i = body(1, k)
+         j = body(2, k)
+         share = share_of(place(k), films(k)%e)
+         if (.not. share > 0.0_wp) cycle
+         f_j(1) = share*f(1, k)
+         f_j(2) = share*f(2, k)
+         if (place(k)%has_torque) then
+            call law%torques(films(k), parameters(:, k), f(:, k), t_j, t_b)
+            t_j = share*t_j
+            m_b = share*t_b
+         else
+            t_j = 0.0_wp
+            m_b = -(films(k)%e(1)*f_j(2) - films(k)%e(2)*f_j(1))
+         end if
+         force(1, i) = force(1, i) - f_j(1)
+         force(2, i) = force(2, i) - f_j(2)
+         force(1, j) = force(1, j) + f_j(1)
+         force(2, j) = force(2, j) + f_j(2)
+         moment(3, i) = moment(3, i) - (s(1, 1, k)*f_j(2) - s(2, 1, k)*f_j(1)) + m_b
+         moment(3, j) = moment(3, j) + (s(1, 2, k)*f_j(2) - s(2, 2, k)*f_j(1)) + t_j
+         power = power - (f_j(1)*films(k)%e_dot(1) + f_j(2)*films(k)%e_dot(2)) - t_j*omega(3, j) - m_b*omega(3, i)
+      end do
+   end subroutine add_film_loads
+
+   !> Whether films go out over a transition, which items of a set share.
+   pure logical function films_fade(self)
+      class(bearing_films_t), intent(in) :: self  !! the films
+
+      films_fade = self%acts .and. self%place(1)%depth > 0.0_wp
+   end function films_fade
+
+   !> Part of a film in the transition to dry contact.
+   pure real(wp) function share_of(place, e) result(share)
+      type(film_place_t), intent(in) :: place  !! how the film acts
+      real(wp), intent(in) :: e(2)             !! (2) eccentricity [m]
+
+      share = 1.0_wp
+      if (place%depth > 0.0_wp) then
+         share = min(max((place%clearance + place%depth - sqrt(e(1)**2 + e(2)**2))/place%depth, 0.0_wp), 1.0_wp)
+      end if
+   end function share_of
+
+   !> What the film of one item does at a motion.
+   function films_state_of(self, k, body, s_i, s_j, motion) result(state)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_i(3)              !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_j(3)              !! (3) centre of the journal, frame of its body [m]
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(film_state_t) :: state                 !! what it does
+
+      type(film_motion_t) :: one(1)
+      real(wp) :: f(2, 1), s(2, 2, 1), t_b
+
+      call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
+                         ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, one, s)
+      state%e = one(1)%e
+      if (.not. self%acts) return
+      state%share = share_of(self%place(k), one(1)%e)
+      call self%law%force(1, one, self%parameters(:, k:k), f)
+      state%force = state%share*f(:, 1)
+      if (.not. self%place(k)%has_torque) return
+      call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%torque, t_b)
+      state%torque = state%share*state%torque
+   end function films_state_of
+
+end module bearing_films

@@ -1,0 +1,93 @@
+!> What the levels of a revolute joint with clearance need: columns and channels of films, and what a row must have.
+module revolute_level
+   use item, only: item_t, place_of
+   use kind_info, only: add_channel, add_flag, add_number, add_reference, add_word, dim_length, dim_none, kind_info_t
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: add_film_channels, add_film_columns, film_channels, find_level_mistake
+
+   character(*), parameter :: film_channels = " film_force film_torque film_thickness eccentricity_ratio "
+      !! channels of joints that have a film
+
+contains
+
+   !> Columns of a film.
+   subroutine add_film_columns(info)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+
+      call add_reference(info, "film", "film.", "lubricant film, a row of a film table, or none", default="none")
+      call add_reference(info, "lubricant", "lubricant", "what the film consists of, a row of [lubricant]", default="none")
+      call add_word(info, "entrain", "speed that entrains the film: sum of the inertial speeds, or that of journal against " &
+                    //"bearing, as in the book", default="inertial", choices="inertial book")
+      call add_flag(info, "film_torque", "moments of the shear in the film on journal and bearing", default="off")
+      call add_number(info, "eps_max", dim_none, "eccentricity over clearance where a lubricated run ends, and beyond which a " &
+                      //"film keeps its shape", default="0.99999", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
+      call add_number(info, "roughness", dim_length, "roughness of the surfaces, a twentieth of the least film that is safe; " &
+                      //"0: not known", default="0 m", lower=0.0_wp)
+      call add_number(info, "e_t0", dim_length, "hybrid: way beyond the clearance over which the film goes out and the contact " &
+                      //"comes in; 0: both add up", default="0 m", lower=0.0_wp)
+      call add_number(info, "e_t1", dim_length, "hybrid: what the film has more of clearance, more than e_t0", default="0 m", &
+                      lower=0.0_wp)
+   end subroutine add_film_columns
+
+   !> Channels of a film.
+   subroutine add_film_channels(info)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+
+      call add_channel(info, "film_force", "N", "world", 2, "force of the film on the journal")
+      call add_channel(info, "film_torque", "N.m", "world", 1, "moment of the shear in the film on the journal, where it acts")
+      call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity")
+      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance")
+   end subroutine add_film_channels
+
+   !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.
+   subroutine find_level_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! column at fault, 0: all is well
+      character(:), allocatable, intent(out) :: message      !! what is wrong
+      character(:), allocatable, intent(out) :: help         !! what would be right
+
+      character(:), allocatable :: level
+
+      column = 0
+      message = ""
+      help = ""
+      level = item%word("level")
+      if (level == "ideal") return
+      if (level /= "lubricated") then
+         if (item%reference("law") == 0) call find("law", "no law of contact", "name a row of a contact table in column law")
+         if (item%reference("material") == 0) call find("material", "no material", "name a row of [material] in column material")
+      end if
+      if (level /= "clearance") then
+         if (item%reference("film") == 0) call find("film", "no film", "name a row of a film table in column film")
+         if (item%reference("lubricant") == 0) then
+            call find("lubricant", "no lubricant", "name a row of [lubricant] in column lubricant")
+         end if
+         if (.not. item%number("length") > 0.0_wp) call find("length", "no length", "give the length of the bearing along its axis")
+      end if
+      if (level /= "hybrid") return
+      if (.not. item%number("e_t1") > item%number("e_t0") .and. item%number("e_t0") > 0.0_wp) then
+         call find("e_t1", "an e_t1 that is not greater than e_t0", "the film must be gone at c + e_t0, before it ends at c + e_t1")
+      end if
+      if (.not. item%number("e_t1") < item%number("clearance")) then
+         call find("e_t1", "an e_t1 that is not less than the clearance", "e_t0 and e_t1 are small beside the clearance")
+      end if
+
+   contains
+
+      !> The first mistake stands.
+      subroutine find(name, what, advice)
+         character(*), intent(in) :: name    !! column at fault
+         character(*), intent(in) :: what    !! what the joint has or lacks
+         character(*), intent(in) :: advice  !! what would be right
+
+         if (column > 0) return
+         column = place_of(item, name)
+         message = "joint '"//item%name//"' with level = "//level//" has "//what
+         help = advice
+      end subroutine find
+
+   end subroutine find_level_mistake
+
+end module revolute_level

@@ -1,0 +1,162 @@
+!> Films whose force is a closed form: components along and across the line of centres.
+!>
+!> F = s [ f_r(eps, eps', w) n + f_t(eps, eps', w) t ],   eps' = e'.n/c,   w = eps Om = ((w_J + w_B)|e| - 2 e'.t)/c
+!> s = mu L R^3/c^2 of a long bearing, mu L^3 R/c^2 of a short one.
+!>
+!> With e = 0 the direction n is that of e', and with both zero any: forms that are isotropic there do not see it. Only the product
+!> w is formed, never gamma', so that nothing is divided by e. Beyond eps_max the form has eps_max for eps, but eps' and w as they
+!> are, so that F.v <= 0 stays.
+!>
+!> Source: Flores et al. (2008), eqs. (5.6)-(5.18), (5.24)-(5.30). Limits: of each form; one length, no grooves.
+module closed_film
+   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
+      parameter_clearance, parameter_eps_max
+   use item, only: item_t
+   use kinds, only: pi, wp
+   implicit none (type, external)
+   private
+   public :: closed_film_t, fit_long, fit_short, narrowing_side, positive_part
+
+   integer, parameter :: parameter_scale = own_parameters + 1  !! s [N.s]
+
+   !> A film in closed form.
+   type, abstract, extends(film_law_t) :: closed_film_t
+      logical :: is_book = .false.  !! as the book prints it
+   contains
+      procedure :: prepare => closed_prepare
+      procedure :: force => closed_force
+      procedure(components_interface), deferred :: components
+   end type closed_film_t
+
+   abstract interface
+      !> Components of the force on the journal over the scale.
+      pure subroutine components_interface(self, parameters, eps, eps_dot, w, f_r, f_t)
+         import :: closed_film_t, n_film_parameter, wp
+         implicit none (type, external)
+         class(closed_film_t), intent(in) :: self  !! the film
+         real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+         real(wp), intent(in) :: eps               !! eccentricity ratio, below 1 [1]
+         real(wp), intent(in) :: eps_dot           !! its rate [1/s]
+         real(wp), intent(in) :: w                 !! eps Om [rad/s]
+         real(wp), intent(out) :: f_r              !! along n, from the bearing's centre to the journal's [1/s]
+         real(wp), intent(out) :: f_t              !! along t = z x n [1/s]
+      end subroutine components_interface
+   end interface
+
+contains
+
+   !> A row without columns of its own.
+   subroutine closed_prepare(self, item)
+      class(closed_film_t), intent(inout) :: self  !! the film
+      type(item_t), intent(in) :: item             !! the row
+
+      self%name = item%name
+   end subroutine closed_prepare
+
+   !> Parameters of a long bearing.
+   subroutine fit_long(bearing, parameters, message, help)
+      type(film_bearing_t), intent(in) :: bearing            !! the bearing
+      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
+      character(:), allocatable, intent(out) :: message      !! empty: any bearing will do
+      character(:), allocatable, intent(out) :: help         !! empty
+
+      message = ""
+      help = ""
+      call basic_parameters(bearing, parameters)
+      parameters(parameter_scale) = bearing%viscosity*bearing%length*bearing%radius**3/bearing%clearance**2
+   end subroutine fit_long
+
+   !> Parameters of a short bearing.
+   subroutine fit_short(bearing, parameters, message, help)
+      type(film_bearing_t), intent(in) :: bearing            !! the bearing
+      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
+      character(:), allocatable, intent(out) :: message      !! empty: any bearing will do
+      character(:), allocatable, intent(out) :: help         !! empty
+
+      message = ""
+      help = ""
+      call basic_parameters(bearing, parameters)
+      parameters(parameter_scale) = bearing%viscosity*bearing%length**3*bearing%radius/bearing%clearance**2
+   end subroutine fit_short
+
+   !> Forces of n bearings.
+   pure subroutine closed_force(self, n, motion, parameters, f)
+      class(closed_film_t), intent(in) :: self                   !! the film
+      integer, intent(in) :: n                                   !! number of bearings
+      type(film_motion_t), intent(in) :: motion(n)               !! (n) their motion
+      real(wp), intent(in) :: parameters(n_film_parameter, n)    !! (n_film_parameter, n) from `fit` [any]
+      real(wp), intent(out) :: f(2, n)                           !! (2, n) forces on the journals, world frame [N]
+
+      real(wp) :: distance, f_r, f_t, n_x, n_y, per_c, per_distance, speed, w
+      integer :: k
+
+      do k = 1, n
+         associate (e => motion(k)%e, e_dot => motion(k)%e_dot, c => parameters(parameter_clearance, k))
+            distance = sqrt(e(1)**2 + e(2)**2)
+            n_x = 1.0_wp
+            n_y = 0.0_wp
+            if (distance > tiny(1.0_wp)) then
+               per_distance = 1.0_wp/distance
+               n_x = e(1)*per_distance
+               n_y = e(2)*per_distance
+            else
+               speed = sqrt(e_dot(1)**2 + e_dot(2)**2)
+               if (speed > tiny(1.0_wp)) then
+                  n_x = e_dot(1)/speed
+                  n_y = e_dot(2)/speed
+               end if
+            end if
+            per_c = 1.0_wp/c
+            w = (motion(k)%speed_sum*distance - 2.0_wp*(e_dot(2)*n_x - e_dot(1)*n_y))*per_c
+            call self%components(parameters(:, k), min(distance*per_c, parameters(parameter_eps_max, k)), &
+                                 (e_dot(1)*n_x + e_dot(2)*n_y)*per_c, w, f_r, f_t)
+            f(1, k) = parameters(parameter_scale, k)*(f_r*n_x - f_t*n_y)
+            f(2, k) = parameters(parameter_scale, k)*(f_r*n_y + f_t*n_x)
+         end associate
+      end do
+   end subroutine closed_force
+
+   !> Which half of the gap narrows, for half films: the sign of Om, smooth over |w| < 0.01 eps |eps'| or so, since such films jump
+   !> there while the journal moves along the line of centres, and a motion would stick in the jump.
+   pure real(wp) function narrowing_side(eps, eps_dot, w) result(side)
+      real(wp), intent(in) :: eps       !! eccentricity ratio [1]
+      real(wp), intent(in) :: eps_dot   !! its rate [1/s]
+      real(wp), intent(in) :: w         !! eps Om [rad/s]
+
+      real(wp), parameter :: part = 1.0e-2_wp  ! of eps eps' over which the sign changes [1]
+      real(wp) :: size
+
+      size = sqrt(w*w + (part*eps*eps_dot)**2)
+      side = 1.0_wp
+      if (size > tiny(1.0_wp)) side = w/size
+   end function narrowing_side
+
+   !> Where a pressure that goes with a sin(theta) - b cos(theta) is positive, half the film from theta_1 = atan2(b, a) on, in
+   !> Sommerfeld's variable, cos x = (cos theta + eps)/(1 + eps cos theta), sin x = sqrt(q) sin theta/(1 + eps cos theta): the ends
+   !> x0 and x1 by their sines and cosines, and their distance x1 - x0, between 0 and 2 pi.
+   pure subroutine positive_part(eps, root_q, a, b, sine, cosine, width)
+      use kinds, only: pi
+      real(wp), intent(in) :: eps        !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: root_q     !! sqrt(1 - eps^2) [1]
+      real(wp), intent(in) :: a, b       !! as above, the sum of their squares not zero [any]
+      real(wp), intent(out) :: sine(2)   !! (2) sin x0, sin x1 [1]
+      real(wp), intent(out) :: cosine(2) !! (2) cos x0, cos x1 [1]
+      real(wp), intent(out) :: width     !! x1 - x0 [rad]
+
+      real(wp) :: c, r, s, first, second
+
+      r = 1.0_wp/sqrt(a*a + b*b)
+      c = a*r
+      s = b*r
+      r = 1.0_wp/((1.0_wp + eps*c)*(1.0_wp - eps*c))
+      first = (1.0_wp - eps*c)*r
+      second = (1.0_wp + eps*c)*r
+      sine(1) = root_q*s*first
+      sine(2) = -root_q*s*second
+      cosine(1) = (eps + c)*first
+      cosine(2) = (eps - c)*second
+      width = atan2(-2.0_wp*root_q*eps*s, eps*eps*(1.0_wp + s*s) - 1.0_wp)
+      if (width <= 0.0_wp) width = width + 2.0_wp*pi
+   end subroutine positive_part
+
+end module closed_film

@@ -1,0 +1,170 @@
+!> The contract of film models: the force of a lubricant film on the journal of a bearing.
+!>
+!> What a film knows of the motion: e, the journal's centre from that of the bearing, and e' , both in the world frame and in the
+!> plane across the bearing's axis; sum and difference of the inertial angular speeds w_J and w_B; the angle of the bearing's body,
+!> in which grooves are fixed. Reynolds' equation knows less: e and the velocity that squeezes,
+!>
+!> v = e' - (w_J + w_B)/2 z x e,
+!>
+!> so that a bearing which turns as a rigid body has no pressure, and no film divides by e. In terms of eps = |e|/c, n = e/|e| and
+!> t = z x n: v.n = c eps', v.t = -c eps Om/2 with Om = w_J + w_B - 2 gamma'. A film that is dissipative has F.v <= 0.
+!>
+!> Signs: forces are those on the journal, world frame; the bearing gets the opposite ones. Moments: `torques`.
+!>
+!> An object is one row of a deck table. What depends on the bearing is fitted once to a column of parameters, so that one row
+!> serves bearings of different sizes. Beyond eps_max (of the bearing) the film's shape stays that of eps_max: forces are finite at
+!> every eccentricity. Source: Flores et al. (2008), chapter 5, with w_J + w_B for its relative speed: measured in the frame of the
+!> bearing, gamma' would be another one. Limits: axes parallel; viscosity the same everywhere.
+module film_law
+   use item, only: item_t
+   use kind_info, only: kind_info_t
+   use kinds, only: pi, wp
+   implicit none (type, external)
+   private
+   public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slot_t, n_film_parameter, own_parameters
+   public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
+
+   integer, parameter :: n_film_parameter = 32    !! numbers of a bearing that a film may keep
+   integer, parameter :: parameter_radius = 1     !! R, see `film_bearing_t` [m]
+   integer, parameter :: parameter_clearance = 2  !! c [m]
+   integer, parameter :: parameter_length = 3     !! L [m]
+   integer, parameter :: parameter_viscosity = 4  !! mu [Pa.s]
+   integer, parameter :: parameter_eps_max = 5    !! eccentricity ratio beyond which the film's shape stays the same [1]
+   integer, parameter :: own_parameters = 5       !! numbers that every film has; its own ones follow
+
+   !> A bearing, as films see it.
+   type :: film_bearing_t
+      real(wp) :: radius = 0.0_wp      !! R: of the journal [m]
+      real(wp) :: clearance = 0.0_wp   !! c: radius of the bearing less that of the journal [m]
+      real(wp) :: length = 0.0_wp      !! L: along the axis [m]
+      real(wp) :: viscosity = 0.0_wp   !! mu: dynamic viscosity [Pa.s]
+      real(wp) :: eps_max = 1.0_wp     !! eccentricity ratio beyond which the film's shape stays the same, below 1 [1]
+   end type film_bearing_t
+
+   !> What a film knows of the motion of a bearing.
+   type :: film_motion_t
+      real(wp) :: e(2) = 0.0_wp            !! (2) centre of the journal from that of the bearing, world frame [m]
+      real(wp) :: e_dot(2) = 0.0_wp        !! (2) its rate, world frame [m/s]
+      real(wp) :: speed_sum = 0.0_wp       !! w_J + w_B: inertial angular speeds of the bodies of journal and bearing [rad/s]
+      real(wp) :: speed_difference = 0.0_wp !! w_J - w_B [rad/s]
+      real(wp) :: angle = 0.0_wp           !! of the bearing's body [rad]
+   end type film_motion_t
+
+   !> One row of a table of films.
+   type, abstract :: film_law_t
+      character(:), allocatable :: name  !! name of the row
+   contains
+      procedure(info_interface), nopass, deferred :: info
+      procedure(prepare_interface), deferred :: prepare
+      procedure(fit_interface), deferred :: fit
+      procedure(force_interface), deferred :: force
+      procedure :: torques => film_torques
+      procedure :: mistake => film_mistake
+      procedure :: story => film_story
+   end type film_law_t
+
+   !> A place for a film of any kind.
+   type :: film_slot_t
+      class(film_law_t), allocatable :: law  !! the film
+   end type film_slot_t
+
+   abstract interface
+      !> What the kind says of itself.
+      function info_interface() result(info)
+         import :: kind_info_t
+         implicit none (type, external)
+         type(kind_info_t) :: info  !! name and columns
+      end function info_interface
+
+      !> Take the parameters from a row of the kind's table.
+      subroutine prepare_interface(self, item)
+         import :: film_law_t, item_t
+         implicit none (type, external)
+         class(film_law_t), intent(inout) :: self  !! the film
+         type(item_t), intent(in) :: item          !! the row
+      end subroutine prepare_interface
+
+      !> Parameters of the film in a bearing, or what is wrong with the bearing: the deck's reader asks this first.
+      subroutine fit_interface(self, bearing, parameters, message, help)
+         import :: film_bearing_t, film_law_t, n_film_parameter, wp
+         implicit none (type, external)
+         class(film_law_t), intent(in) :: self                  !! the film
+         type(film_bearing_t), intent(in) :: bearing            !! the bearing
+         real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) `basic_parameters`, then the film's own [any]
+         character(:), allocatable, intent(out) :: message      !! what is wrong, empty: the film fits
+         character(:), allocatable, intent(out) :: help         !! what would be right
+      end subroutine fit_interface
+
+      !> Forces of n bearings. Finite at any motion: e = 0, e' = 0 and no speed too. No allocation.
+      pure subroutine force_interface(self, n, motion, parameters, f)
+         import :: film_law_t, film_motion_t, n_film_parameter, wp
+         implicit none (type, external)
+         class(film_law_t), intent(in) :: self                       !! the film
+         integer, intent(in) :: n                                    !! number of bearings
+         type(film_motion_t), intent(in) :: motion(n)                !! (n) their motion
+         real(wp), intent(in) :: parameters(n_film_parameter, n)     !! (n_film_parameter, n) from `fit` [any]
+         real(wp), intent(out) :: f(2, n)                            !! (2, n) forces on the journals, world frame [N]
+      end subroutine force_interface
+   end interface
+
+contains
+
+   !> The parameters that every film has; the others are zero.
+   pure subroutine basic_parameters(bearing, parameters)
+      type(film_bearing_t), intent(in) :: bearing            !! the bearing
+      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
+
+      parameters = 0.0_wp
+      parameters(parameter_radius) = bearing%radius
+      parameters(parameter_clearance) = bearing%clearance
+      parameters(parameter_length) = bearing%length
+      parameters(parameter_viscosity) = bearing%viscosity
+      parameters(parameter_eps_max) = bearing%eps_max
+   end subroutine basic_parameters
+
+   !> Moments of the shear in the film of one bearing, about the centres of journal and bearing, where the forces F and -F act:
+   !>
+   !> T_J = -2 pi mu L R^3 (w_J - w_B)/(c sqrt(1 - eps^2)) - (e x F)_z/2
+   !> T_B = +2 pi mu L R^3 (w_J - w_B)/(c sqrt(1 - eps^2)) - (e x F)_z/2
+   !>
+   !> so that T_J + T_B + (e x F)_z = 0, and with the forces the film takes 2 pi mu L R^3 (w_J - w_B)^2/(c sqrt(1 - eps^2)) - F.v.
+   !> Exact for a long film all round: shear of both walls, of the drag and of the flow that pressure drives. Of the other films: a
+   !> journal that is wetted all round. A film that knows better overrides this.
+   pure subroutine film_torques(self, motion, parameters, f, t_j, t_b)
+      class(film_law_t), intent(in) :: self                    !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: f(2)                             !! (2) force on the journal, world frame [N]
+      real(wp), intent(out) :: t_j                             !! moment on the journal [N.m]
+      real(wp), intent(out) :: t_b                             !! moment on the bearing [N.m]
+
+      real(wp) :: drag, eps, half
+
+      associate (c => parameters(parameter_clearance))
+         eps = min(hypot(motion%e(1), motion%e(2))/c, parameters(parameter_eps_max))
+         drag = 2.0_wp*pi*parameters(parameter_viscosity)*parameters(parameter_length)*parameters(parameter_radius)**3/c &
+                *motion%speed_difference/sqrt((1.0_wp - eps)*(1.0_wp + eps))
+      end associate
+      half = 0.5_wp*(motion%e(1)*f(2) - motion%e(2)*f(1))
+      t_j = -drag - half
+      t_b = drag - half
+   end subroutine film_torques
+
+   !> What is wrong with the row as a whole, empty if nothing is; a film with such rules overrides this.
+   function film_mistake(self) result(message)
+      class(film_law_t), intent(in) :: self  !! the film
+      character(:), allocatable :: message   !! one line, empty: all is well
+
+      message = repeat("", len(self%name))
+   end function film_mistake
+
+   !> The parameters of a bearing in words, for `gudgeon explain`; blank: nothing beyond the bearing itself.
+   function film_story(self, parameters) result(words)
+      class(film_law_t), intent(in) :: self                 !! the film
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      character(:), allocatable :: words                    !! as "supplied at 2 bar"
+
+      words = repeat("", len(self%name) + size(parameters))
+   end function film_story
+
+end module film_law

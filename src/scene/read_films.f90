@@ -1,0 +1,81 @@
+!> The tables of films and lubricants.
+module read_films
+   use deck_types, only: deck_t
+   use diagnostics, only: diagnostics_t
+   use film_law, only: film_slot_t
+   use film_registry, only: n_film_kinds, new_film_law
+   use kind_list, only: film_info
+   use lubricant, only: lubricant_mistake
+   use references, only: add_names, directory_t
+   use scene, only: scene_t, table_lubricants
+   use scene_checks, only: report_doubled
+   use tables, only: read_items
+   implicit none (type, external)
+   private
+   public :: check_lubricants, films_from_deck
+
+contains
+
+   !> Films: one object per row, names unique over all kinds of films.
+   subroutine films_from_deck(deck, scene, directory, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck
+      type(scene_t), intent(inout) :: scene               !! films are set
+      type(directory_t), intent(inout) :: directory       !! names of the films are set
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: before, i, k, n
+
+      allocate (scene%lubrication%films(0), directory%films(0))
+      do k = 1, n_film_kinds
+         scene%tables%films(k)%info = film_info(k)
+         before = diagnostics%count()
+         call read_items(deck, scene%tables%films(k)%info, scene%tables%films(k)%items, diagnostics)
+         associate (items => scene%tables%films(k)%items)
+            n = size(scene%lubrication%films)
+            call grow_films(scene%lubrication%films, n + size(items))
+            call report_doubled(items, directory%films, diagnostics)
+            do i = 1, size(items)
+               call new_film_law(k, scene%lubrication%films(n + i)%law)
+               if (diagnostics%count() > before) cycle  ! no film is made of rows with mistakes
+               call scene%lubrication%films(n + i)%law%prepare(items(i))
+               if (scene%lubrication%films(n + i)%law%mistake() == "") cycle
+               call diagnostics%add(items(i)%location, scene%lubrication%films(n + i)%law%mistake(), "in this row")
+            end do
+            call add_names(items, directory%films)
+         end associate
+      end do
+   end subroutine films_from_deck
+
+   !> Rows of lubricants as a whole.
+   subroutine check_lubricants(scene, diagnostics)
+      type(scene_t), intent(in) :: scene                  !! tables
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      character(:), allocatable :: help, message
+      integer :: column, i
+
+      associate (items => scene%tables%base(table_lubricants)%items)
+         do i = 1, size(items)
+            call lubricant_mistake(items(i), column, message, help)
+            if (column == 0) cycle
+            call diagnostics%add(items(i)%location, message, "in this row", help)
+         end do
+      end associate
+   end subroutine check_lubricants
+
+   !> Longer list of films.
+   subroutine grow_films(films, n)
+      type(film_slot_t), allocatable, intent(inout) :: films(:)  !! list, grown
+      integer, intent(in) :: n                                   !! new length
+
+      type(film_slot_t), allocatable :: grown(:)
+      integer :: k
+
+      allocate (grown(n))
+      do k = 1, size(films)
+         call move_alloc(films(k)%law, grown(k)%law)
+      end do
+      call move_alloc(grown, films)
+   end subroutine grow_films
+
+end module read_films
