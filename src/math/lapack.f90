@@ -3,7 +3,7 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ddot, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dsyev, dsygv, dtrtrs
+   public :: ddot, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dpbtrf, dpbtrs, dsyev, dsygv, dtrtrs
 
    interface
       !> Sum of products.
@@ -149,6 +149,27 @@ module lapack
          real(wp), intent(inout) :: b(ldb, *)        !! (ldb, nrhs) right-hand sides, then solutions [any]
          integer, intent(out) :: info                !! 0: done
       end subroutine dgetrs
+
+      !> Cholesky factorisation of a symmetric positive definite band matrix.
+      subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: uplo            !! L: lower band
+         integer, intent(in) :: n, kd, ldab       !! order, diagonals beside the main one, leading dimension
+         real(wp), intent(inout) :: ab(ldab, *)   !! (ldab, n) band, then its factor [any]
+         integer, intent(out) :: info             !! 0: done; k: not positive definite
+      end subroutine dpbtrf
+
+      !> Solution from the factor of dpbtrf.
+      subroutine dpbtrs(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: uplo                   !! L: lower band
+         integer, intent(in) :: n, kd, nrhs, ldab, ldb   !! sizes
+         real(wp), intent(in) :: ab(ldab, *)             !! (ldab, n) factor [any]
+         real(wp), intent(inout) :: b(ldb, *)            !! (ldb, nrhs) right-hand sides, then solutions [any]
+         integer, intent(out) :: info                    !! 0: done
+      end subroutine dpbtrs
 
       !> Solution of triangular equations.
       subroutine dtrtrs(uplo, trans, diag, n, nrhs, a, lda, b, ldb, info)
