@@ -42,8 +42,8 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability certify fuzz figures studies lint format docs clean help
-.PHONY: objects binary test_program bench_programs fuzz_program
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability certify fuzz figures studies film-table lint format docs clean help
+.PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
 	$(inner)$(MODE) binary
@@ -115,6 +115,11 @@ studies:
 	$(inner)release binary
 	@scripts/make_studies $(BUILD)/gudgeon $(STUDIES)
 
+# The table of `finite` from films on a grid, some minutes
+film-table:
+	$(inner)release film_programs
+	@$(BUILD)/films/film_table > $(BUILD)/films/finite_table.inc && mv $(BUILD)/films/finite_table.inc src/lubrication/
+
 lint:
 	@scripts/lint $(abspath $(BUILD))
 
@@ -138,6 +143,7 @@ help:
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
+	@echo "make film-table   the table of the film 'finite' anew, some minutes"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
 	@echo "make install    program, man page, completions, decks below PREFIX=/usr/local; make uninstall takes them away again"
 	@echo "make test-debian  as root: 'make run && make test' in a bare Debian SUITE=trixie|bookworm in DIR=build/debian/SUITE"
@@ -160,7 +166,7 @@ else
 $(error MODE=$(MODE): release or debug)
 endif
 
-ifneq ($(filter binary test_program bench_programs fuzz_program objects,$(MAKECMDGOALS)),)
+ifneq ($(filter binary test_program bench_programs fuzz_program film_programs objects,$(MAKECMDGOALS)),)
 
 ifeq ($(shell command -v $(FC)),)
 $(error $(FC) not found: scripts/setup installs what is needed)
@@ -188,6 +194,8 @@ TEST_SOURCES := $(sort $(wildcard tests/unit/test_*.f90 tests/identity/test_*.f9
 TEST_HELPERS := $(sort $(filter-out $(TEST_SOURCES),$(wildcard tests/*.f90 tests/unit/*.f90 tests/identity/*.f90 \
                 tests/order/*.f90 tests/order/*.F90 tests/invariance/*.f90)))
 BENCH_MAINS := $(sort $(shell grep -li '^program ' /dev/null $(wildcard tests/bench/*.f90)))
+FILM_MAINS := $(sort $(shell grep -li '^program ' /dev/null $(wildcard tests/films/*.f90)))
+FILM_HELPERS := $(sort $(filter-out $(FILM_MAINS),$(wildcard tests/films/*.f90)))
 FUZZ_MAIN := tests/fuzz/many_decks.f90
 BENCH_HELPERS := $(sort $(filter-out $(BENCH_MAINS),$(wildcard tests/bench/*.f90)))
 GENERATED := $(B)/build_info.f90 $(B)/tests/run_tests.f90
@@ -197,6 +205,7 @@ OBJECTS := $(call object,$(SOURCES) $(C_SOURCES)) $(B)/obj/gen/build_info.o
 MAIN_OBJECT := $(call object,src/main)
 TEST_OBJECTS := $(call object,$(TEST_SOURCES) $(TEST_HELPERS)) $(B)/obj/gen/run_tests.o
 BENCH_PROGRAMS := $(BENCH_MAINS:tests/bench/%.f90=$(B)/bench/%)
+FILM_PROGRAMS := $(FILM_MAINS:tests/films/%.f90=$(B)/films/%)
 
 # Libraries: Debian's places, or prefixes.
 comma := ,
@@ -282,8 +291,9 @@ LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
 
 # Files that change only when their content does: flags, what is linked, build_info, the test program.
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
-$(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench \
-  $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) $(FUZZ_MAIN)))))
+$(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench $(B)/films \
+  $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) \
+  $(FILM_MAINS) $(FILM_HELPERS) $(FUZZ_MAIN)))))
 $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
   echo '$(OBJECTS) $(TEST_OBJECTS) $(LIBRARIES)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
@@ -291,7 +301,8 @@ $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAG
   awk -f scripts/testmain.awk $(TEST_SOURCES) > $(B)/tests/run_tests.f90.new; \
   $(call keep_if_equal,$(B)/tests/run_tests.f90))
 ifneq ($(shell awk -v obj=$(B)/obj -v mod=$(B)/mod -v gen=$(B) -f scripts/moddeps.awk $(SOURCES) $(MAIN) \
-  $(TEST_HELPERS) $(TEST_SOURCES) $(BENCH_HELPERS) $(BENCH_MAINS) $(FUZZ_MAIN) $(GENERATED) > $(B)/deps.mk || echo failed),)
+  $(TEST_HELPERS) $(TEST_SOURCES) $(BENCH_HELPERS) $(BENCH_MAINS) $(FILM_HELPERS) $(FILM_MAINS) $(FUZZ_MAIN) \
+  $(GENERATED) > $(B)/deps.mk || echo failed),)
 $(error the modules do not fit together, see above)
 endif
 
@@ -306,10 +317,11 @@ ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
 
-objects: $(OBJECTS) $(TEST_OBJECTS) $(if $(MAIN),$(MAIN_OBJECT)) $(call object,$(BENCH_MAINS) $(FUZZ_MAIN))
+objects: $(OBJECTS) $(TEST_OBJECTS) $(if $(MAIN),$(MAIN_OBJECT)) $(call object,$(BENCH_MAINS) $(FILM_MAINS) $(FUZZ_MAIN))
 binary: $(B)/gudgeon
 test_program: $(B)/tests/run_tests
 bench_programs: $(BENCH_PROGRAMS)
+film_programs: $(FILM_PROGRAMS)
 fuzz_program: $(B)/tests/many_decks
 
 $(B)/gudgeon: $(MAIN_OBJECT) $(OBJECTS) $(B)/objects
@@ -321,6 +333,10 @@ $(B)/tests/run_tests: $(TEST_OBJECTS) $(OBJECTS) $(B)/objects
 	@$(LINK)
 
 $(BENCH_PROGRAMS): $(B)/bench/%: $(B)/obj/tests/bench/%.o $(call object,$(BENCH_HELPERS)) $(OBJECTS) $(B)/objects
+	@echo "  LD $@"
+	@$(LINK)
+
+$(FILM_PROGRAMS): $(B)/films/%: $(B)/obj/tests/films/%.o $(call object,$(FILM_HELPERS) $(TEST_HELPERS)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
 	@$(LINK)
 

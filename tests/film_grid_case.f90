@@ -1,7 +1,7 @@
 !> Films on a grid, as tests ask for them.
 module film_grid_case
    use kinds, only: pi, wp
-   use reynolds_grid, only: film_state_t, new_reynolds_grid, reynolds_grid_t
+   use reynolds_grid, only: journal_state_t, new_reynolds_grid, reynolds_grid_t
    use reynolds_mesh, only: supply_t
    use reynolds_results, only: film_result_t, get_result
    implicit none (type, external)
@@ -40,7 +40,7 @@ contains
    !> A state without tilt whose centre is at rest, w_J + w_B = 1.
    pure function steady(e) result(state)
       real(wp), intent(in) :: e(2)  !! (2) eccentricity [1]
-      type(film_state_t) :: state   !! the state
+      type(journal_state_t) :: state   !! the state
 
       state%e = e
       state%v = -0.5_wp*[-e(2), e(1)]
@@ -49,7 +49,7 @@ contains
    !> What the film does in a state; the status must be 0.
    function result_of(grid, state) result(result)
       type(reynolds_grid_t), intent(inout) :: grid  !! the grid
-      type(film_state_t), intent(in) :: state       !! the state
+      type(journal_state_t), intent(in) :: state       !! the state
       type(film_result_t) :: result                 !! forces and flows
 
       integer :: status

@@ -22,7 +22,7 @@ module reynolds_grid
    use reynolds_mesh, only: divide_length, divide_ring, new_length, new_ring, section_list_t, supply_t
    implicit none (type, external)
    private
-   public :: boundary_full, boundary_reynolds, drag, film_state_t, new_reynolds_grid, reynolds_grid_t
+   public :: boundary_full, boundary_reynolds, drag, journal_state_t, new_reynolds_grid, reynolds_grid_t
 
    integer, parameter :: boundary_reynolds = 1  !! pressures are not below zero, rupture with dP/dn = 0
    integer, parameter :: boundary_full = 2      !! pressures of any sign
@@ -30,12 +30,12 @@ module reynolds_grid
    real(wp), parameter :: end_weight = 5.0_wp/6.0_wp  !! of the row at an end, see above [1]
 
    !> Where the journal is and how it moves, in the bearing's frame and parts of the clearance.
-   type :: film_state_t
+   type :: journal_state_t
       real(wp) :: e(2) = 0.0_wp  !! (2) eccentricity in the middle [1]
       real(wp) :: v(2) = 0.0_wp  !! (2) e' - (w_J + w_B)/2 z x e [1/s]
       real(wp) :: g(2) = 0.0_wp  !! (2) what the tilt adds to e at the end y = 1 [1]
       real(wp) :: w(2) = 0.0_wp  !! (2) g' - (w_J + w_B)/2 z x g [1/s]
-   end type film_state_t
+   end type journal_state_t
 
    !> A bearing, its grid and the film of the last solution.
    type :: reynolds_grid_t
@@ -46,7 +46,7 @@ module reynolds_grid
       real(wp), allocatable :: theta(:)         !! (0:n) edges of the columns, bearing's frame [rad]
       real(wp), allocatable :: y(:)             !! (0:m) edges of the rows, in half lengths from the middle [1]
       real(wp), allocatable :: weight(:)        !! (m) what the rows count in sources and forces, of the half length [1]
-      type(film_state_t) :: state               !! that of the solution
+      type(journal_state_t) :: state               !! that of the solution
       type(section_list_t), private :: ring     !! sections of the ring
       type(section_list_t), private :: length   !! sections of the half length
       integer, allocatable :: column(:)         !! (n) supply that a column is in, 0: none
@@ -96,7 +96,7 @@ contains
    !> The film of a state.
    subroutine solve(self, state, status)
       class(reynolds_grid_t), intent(inout) :: self  !! the grid
-      type(film_state_t), intent(in) :: state        !! the journal's state
+      type(journal_state_t), intent(in) :: state        !! the journal's state
       integer, intent(out) :: status                 !! 0: done; 3: the surfaces touch; others: see `complementarity`
 
       real(wp) :: eps, gamma
@@ -126,7 +126,7 @@ contains
 
    !> Direction of the least film; of the motion where the journal is in the middle.
    pure real(wp) function direction(state)
-      type(film_state_t), intent(in) :: state  !! the journal's state
+      type(journal_state_t), intent(in) :: state  !! the journal's state
 
       direction = 0.0_wp
       if (norm2(state%e) > tiny(1.0_wp)) then
@@ -243,7 +243,7 @@ contains
 
    !> The gap.
    pure real(wp) function height(state, y, u)
-      type(film_state_t), intent(in) :: state  !! the journal's state
+      type(journal_state_t), intent(in) :: state  !! the journal's state
       real(wp), intent(in) :: y                !! half lengths from the middle [1]
       real(wp), intent(in) :: u(2)             !! (2) direction from the centre, bearing's frame [1]
 

@@ -6,7 +6,7 @@ module test_film_tables
    use kinds, only: pi, wp
    use published_films, only: grooved, rotation_angle, rotation_eps, rotation_flow, rotation_load, rotation_ratio, squeeze_eps, &
       squeeze_load, squeeze_ratio
-   use reynolds_grid, only: boundary_reynolds, film_state_t, new_reynolds_grid, reynolds_grid_t
+   use reynolds_grid, only: boundary_reynolds, journal_state_t, new_reynolds_grid, reynolds_grid_t
    use reynolds_results, only: film_result_t
    use text, only: to_text
    implicit none (type, external)
@@ -64,7 +64,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(reynolds_grid_t) :: grid
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
       type(film_result_t) :: film
       character(:), allocatable :: cell
       integer :: i, k
@@ -136,7 +136,7 @@ contains
       real(wp), intent(out) :: k(2, 2)              !! (2, 2) stiffness [1]
       real(wp), intent(out) :: b(2, 2)              !! (2, 2) damping [1]
 
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
       type(film_result_t) :: high, low
       real(wp) :: move(2)
       integer :: i

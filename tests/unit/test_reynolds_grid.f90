@@ -6,7 +6,7 @@ module test_reynolds_grid
    use film_grid_case, only: at_widest_gap, make_grid, result_of, steady, two_grooves
    use fixed_random, only: random_t
    use kinds, only: pi, wp
-   use reynolds_grid, only: boundary_full, boundary_reynolds, film_state_t, new_reynolds_grid, reynolds_grid_t
+   use reynolds_grid, only: boundary_full, boundary_reynolds, journal_state_t, new_reynolds_grid, reynolds_grid_t
    use reynolds_mesh, only: supply_t
    use reynolds_results, only: film_result_t
    use text, only: to_text
@@ -36,7 +36,7 @@ contains
    pure function state_of(eps, v_r, v_t) result(state)
       real(wp), intent(in) :: eps       !! eccentricity ratio [1]
       real(wp), intent(in) :: v_r, v_t  !! velocity along and across e [1/s]
-      type(film_state_t) :: state       !! the state
+      type(journal_state_t) :: state       !! the state
 
       state%e = [eps, 0.0_wp]
       state%v = [v_r, v_t]
@@ -144,7 +144,7 @@ contains
 
       real(wp), parameter :: step = 1.0e-3_wp
       type(reynolds_grid_t) :: grid
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
       type(film_result_t) :: film
       type(random_t) :: random
       real(wp) :: change(2, 2), potential(-1:1), f(2), g(2, 2), v(2)
@@ -215,7 +215,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(reynolds_grid_t) :: grid
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
       type(film_result_t) :: film, other
       real(wp) :: turn(2, 2)
 
@@ -236,7 +236,7 @@ contains
 
       type(supply_t) :: none(0)
       type(reynolds_grid_t) :: half, whole
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
       type(film_result_t) :: film, other
 
       call make_grid(half, 1.0_wp, 60, 8, boundary_reynolds)
@@ -291,7 +291,7 @@ contains
       type(supply_t) :: supply(1)
       type(reynolds_grid_t) :: grid
       type(film_result_t) :: groove, hole, nearly
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
 
       state = steady([0.5_wp, 0.1_wp])
       supply%angle = 2.5_wp
@@ -320,7 +320,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(reynolds_grid_t) :: fresh, grid
-      type(film_state_t) :: state
+      type(journal_state_t) :: state
       type(film_result_t) :: cold, warm
       type(random_t) :: random
       integer :: k
