@@ -95,8 +95,9 @@ module film_law
          character(:), allocatable, intent(out) :: help         !! what would be right
       end subroutine fit_interface
 
-      !> Forces of n bearings. Finite at any motion: e = 0, e' = 0 and no speed too. No allocation.
-      pure subroutine force_interface(self, n, motion, parameters, f)
+      !> Forces of n bearings. Finite at any motion: e = 0, e' = 0 and no speed too. No allocation. Not pure: a film on a grid has
+      !> a workspace, of which the forces do not depend.
+      subroutine force_interface(self, n, motion, parameters, f)
          import :: film_law_t, film_motion_t, n_film_parameter, wp
          implicit none (type, external)
          class(film_law_t), intent(in) :: self                       !! the film

@@ -2,6 +2,7 @@
 module film_registry
    use film_butenschoen, only: film_butenschoen_t
    use film_finite, only: film_finite_t
+   use film_grid, only: film_grid_t
    use film_law, only: film_law_t
    use film_long_exact, only: film_long_exact_t
    use film_long_gumbel, only: film_long_gumbel_t
@@ -15,7 +16,7 @@ module film_registry
    private
    public :: n_film_kinds, new_film_law
 
-   integer, parameter :: n_film_kinds = 10  !! number of films
+   integer, parameter :: n_film_kinds = 11  !! number of films
 
 contains
 
@@ -35,6 +36,7 @@ contains
       case (8); allocate (film_squeeze_t :: law)
       case (9); allocate (film_butenschoen_t :: law)
       case (10); allocate (film_finite_t :: law)
+      case (11); allocate (film_grid_t :: law)
       end select
    end subroutine new_film_law
 

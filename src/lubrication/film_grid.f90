@@ -1,0 +1,209 @@
+!> Bearing of finite length, from Reynolds' equation on a grid: the judge of the other films, and the one with grooves.
+!>
+!> F = mu L R^3/c^2 f(e/c, v/c; L/D),   v = e' - (w_J + w_B)/2 z x e,   f: `reynolds_grid`
+!>
+!> Pressures are not below zero, with dp/dn = 0 where the film ruptures and forms again (`boundary = reynolds`), or of any sign
+!> (`full`). Lubricant comes in from the ends without pressure, and from supplies: along the line of the widest gap, or at equal
+!> distances around the bearing, fixed in it, as grooves (length 1) or holes (length and width the same way along the surface).
+!>
+!> Signs: on the journal; angles in the frame of the bearing's body. Beyond eps_max the film has the shape of eps_max in the
+!> direction of e, and v as it is. Source: Reynolds (1886). Limits: any L/D; some hundred times as dear as `finite`.
+!>
+!> Grids are made when the film is fitted to a bearing, one for each L/D, and stay as long as the program: all copies of the film
+!> share them, each solution begins with the wet cells of the one before and does not depend on it.
+module film_grid
+   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
+      parameter_clearance, parameter_eps_max
+   use item, only: item_t
+   use kind_info, only: add_number, add_word, dim_angle, dim_none, dim_pressure, kind_info_t
+   use kinds, only: two_pi, wp
+   use reynolds_grid, only: boundary_full, boundary_reynolds, journal_state_t, new_reynolds_grid, reynolds_grid_t
+   use reynolds_mesh, only: supply_t
+   use reynolds_results, only: film_result_t, get_result
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: film_grid_t
+
+   integer, parameter :: parameter_scale = own_parameters + 1     !! mu L R^3/c^2 [N.s]
+   integer, parameter :: parameter_ratio = own_parameters + 2     !! L/D [1]
+   integer, parameter :: parameter_pressure = own_parameters + 3  !! P of the supplies [1/s]
+   integer, parameter :: columns_of(3) = [80, 160, 240]           !! of the words of `resolution`
+   integer, parameter :: rows_of(3) = [10, 16, 24]                !! rows of the half length
+   real(wp), parameter :: same_ratio = 1.0e-12_wp                 !! difference of L/D that is none [1]
+
+   !> Grids that films share.
+   type :: grid_pool_t
+      type(reynolds_grid_t), allocatable :: grid(:)  !! the grids
+   end type grid_pool_t
+
+   !> A bearing of finite length.
+   type, extends(film_law_t) :: film_grid_t
+      type(grid_pool_t), pointer :: pool => null()  !! grids, one for each L/D
+      type(supply_t), allocatable :: supply(:)      !! where lubricant comes in, pressures in Pa
+      integer :: resolution = 2                     !! coarse, normal, fine
+      integer :: boundary = boundary_reynolds       !! where pressures end
+   contains
+      procedure, nopass :: info => grid_info
+      procedure :: prepare => grid_prepare
+      procedure :: fit => grid_fit
+      procedure :: force => grid_force
+      procedure :: mistake => grid_mistake
+      procedure :: story => grid_story
+   end type film_grid_t
+
+contains
+
+   !> What the kind says of itself.
+   function grid_info() result(info)
+      type(kind_info_t) :: info  !! name and columns
+
+      info%name = "film.grid"
+      info%help = "bearing of any length with grooves or holes: Reynolds' equation on a grid; exact to some 0.1 %, and slow"
+      info%source = "Reynolds (1886)"
+      call add_word(info, "boundary", "pressures not below zero, or of both signs", default="reynolds", choices="reynolds full")
+      call add_word(info, "resolution", "80 x 10, 160 x 16 or 240 x 24 cells on half the length", default="normal", &
+                    choices="coarse normal fine")
+      call add_word(info, "supply", "where lubricant comes in beside the ends: along the widest gap, or fixed in the bearing", &
+                    default="none", choices="none widest_gap fixed")
+      call add_number(info, "number", dim_none, "how many fixed supplies, at equal distances", default="1", lower=1.0_wp, &
+                      upper=12.0_wp)
+      call add_number(info, "angle", dim_angle, "of the first, in the frame of the bearing's body", default="0")
+      call add_number(info, "width", dim_angle, "of a supply around the bearing; 0: a line", default="0", lower=0.0_wp, &
+                      upper=two_pi, open_upper=.true.)
+      call add_number(info, "length", dim_none, "of a supply, part of the bearing's length; 1: from end to end", default="1", &
+                      lower=0.0_wp, upper=1.0_wp, open_lower=.true.)
+      call add_number(info, "pressure", dim_pressure, "of the lubricant there, above that at the ends", default="0", lower=0.0_wp)
+   end function grid_info
+
+   !> Take the columns.
+   subroutine grid_prepare(self, item)
+      class(film_grid_t), intent(inout) :: self  !! the film
+      type(item_t), intent(in) :: item           !! the row
+
+      integer :: k, n
+
+      self%name = item%name
+      self%boundary = merge(boundary_full, boundary_reynolds, item%word("boundary") == "full")
+      self%resolution = findloc(["coarse", "normal", "fine  "] == item%word("resolution"), .true., dim=1)
+      select case (item%word("supply"))
+      case ("widest_gap")
+         self%supply = [supply_t(pressure=item%number("pressure"), is_at_widest_gap=.true.)]
+      case ("fixed")
+         n = nint(item%number("number"))
+         self%supply = [(supply_t(angle=item%number("angle") + two_pi*(k - 1)/n, width=item%number("width"), &
+                                  length=item%number("length"), pressure=item%number("pressure")), k=1, n)]
+      case default
+         allocate (self%supply(0))
+      end select
+      allocate (self%pool)
+      allocate (self%pool%grid(0))
+   end subroutine grid_prepare
+
+   !> Supplies that leave no film between them.
+   function grid_mistake(self) result(message)
+      class(film_grid_t), intent(in) :: self  !! the film
+      character(:), allocatable :: message    !! one line, empty: all is well
+
+      message = ""
+      if (sum(self%supply%width) > 0.9_wp*two_pi) message = to_text(size(self%supply)) &
+                                                            //" supplies as wide as this leave no film: 324 deg is the most for all"
+   end function grid_mistake
+
+   !> Parameters for a bearing, and its grid.
+   subroutine grid_fit(self, bearing, parameters, message, help)
+      class(film_grid_t), intent(in) :: self                 !! the film
+      type(film_bearing_t), intent(in) :: bearing            !! the bearing
+      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
+      character(:), allocatable, intent(out) :: message      !! empty: any bearing will do
+      character(:), allocatable, intent(out) :: help         !! empty
+
+      integer :: number
+
+      message = ""
+      help = ""
+      call basic_parameters(bearing, parameters)
+      parameters(parameter_scale) = bearing%viscosity*bearing%length*bearing%radius**3/bearing%clearance**2
+      if (size(self%supply) > 0) parameters(parameter_pressure) = self%supply(1)%pressure*bearing%clearance**2 &
+                                                                  /(bearing%viscosity*bearing%radius**2)
+      parameters(parameter_ratio) = 0.5_wp*bearing%length/bearing%radius
+      call find_grid(self, parameters(parameter_ratio), number)
+   end subroutine grid_fit
+
+   !> Number of the grid of an L/D; it is made if it is not there.
+   subroutine find_grid(self, ratio, number)
+      class(film_grid_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: ratio           !! L/D [1]
+      integer, intent(out) :: number          !! of the grid
+
+      type(reynolds_grid_t), allocatable :: grids(:)
+      integer :: n
+
+      n = size(self%pool%grid)
+      do number = 1, n
+         if (abs(self%pool%grid(number)%ratio - ratio) <= same_ratio*ratio) return
+      end do
+      allocate (grids(n + 1))
+      grids(:n) = self%pool%grid
+      call new_reynolds_grid(grids(number), ratio, columns_of(self%resolution), rows_of(self%resolution), self%boundary, &
+                             self%supply, .false.)
+      call move_alloc(grids, self%pool%grid)
+   end subroutine find_grid
+
+   !> Forces of n bearings. Should the pressures not be found, those of the last step are taken.
+   subroutine grid_force(self, n, motion, parameters, f)
+      class(film_grid_t), intent(in) :: self                   !! the film
+      integer, intent(in) :: n                                 !! number of bearings
+      type(film_motion_t), intent(in) :: motion(n)             !! (n) their motion
+      real(wp), intent(in) :: parameters(n_film_parameter, n)  !! (n_film_parameter, n) from `fit` [any]
+      real(wp), intent(out) :: f(2, n)                         !! (2, n) forces on the journals, world frame [N]
+
+      type(film_result_t) :: film
+      real(wp) :: cosine, sine
+      integer :: k, number, status
+
+      do k = 1, n
+         call find_grid(self, parameters(parameter_ratio, k), number)
+         associate (grid => self%pool%grid(number))
+            grid%supply%pressure = parameters(parameter_pressure, k)
+            call grid%solve(state_of(motion(k), parameters(:, k)), status)
+            call get_result(grid, film)
+         end associate
+         cosine = cos(motion(k)%angle)
+         sine = sin(motion(k)%angle)
+         f(1, k) = parameters(parameter_scale, k)*(cosine*film%f(1) - sine*film%f(2))
+         f(2, k) = parameters(parameter_scale, k)*(sine*film%f(1) + cosine*film%f(2))
+      end do
+   end subroutine grid_force
+
+   !> The motion in the frame of the bearing's body and parts of the clearance, the journal within eps_max.
+   pure function state_of(motion, parameters) result(state)
+      type(film_motion_t), intent(in) :: motion             !! the motion
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) of the bearing [any]
+      type(journal_state_t) :: state                        !! the state
+
+      real(wp) :: e(2), size_of_e, v(2)
+
+      associate (c => parameters(parameter_clearance), eps_max => parameters(parameter_eps_max), cosine => cos(motion%angle), &
+                 sine => sin(motion%angle))
+         v = [motion%e_dot(1) + 0.5_wp*motion%speed_sum*motion%e(2), motion%e_dot(2) - 0.5_wp*motion%speed_sum*motion%e(1)]/c
+         e = motion%e/c
+         size_of_e = norm2(e)
+         if (size_of_e > eps_max) e = e*(eps_max/size_of_e)
+         state%e = [cosine*e(1) + sine*e(2), cosine*e(2) - sine*e(1)]
+         state%v = [cosine*v(1) + sine*v(2), cosine*v(2) - sine*v(1)]
+      end associate
+   end function state_of
+
+   !> The grid of a bearing.
+   function grid_story(self, parameters) result(words)
+      class(film_grid_t), intent(in) :: self                !! the film
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      character(:), allocatable :: words                    !! as "L/D = 1, 160 x 16 cells"
+
+      words = "L/D = "//to_text(parameters(parameter_ratio))//", "//to_text(columns_of(self%resolution))//" x " &
+              //to_text(rows_of(self%resolution))//" cells"
+      if (size(self%supply) > 0) words = words//", supplied at "//to_text(self%supply(1)%pressure)//" Pa"
+   end function grid_story
+
+end module film_grid
