@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability certify fuzz figures studies film-table lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -115,10 +115,14 @@ studies:
 	$(inner)release binary
 	@scripts/make_studies $(BUILD)/gudgeon $(STUDIES)
 
-# The table of `finite` from films on a grid, some minutes
+# The table of `finite` from films on a grid, some minutes; and the errors of all films against the grid
 film-table:
 	$(inner)release film_programs
 	@$(BUILD)/films/film_table > $(BUILD)/films/finite_table.inc && mv $(BUILD)/films/finite_table.inc src/lubrication/
+
+film-errors:
+	$(inner)release film_programs
+	@$(BUILD)/films/film_errors > $(BUILD)/films/film_errors.csv && mv $(BUILD)/films/film_errors.csv docs/
 
 lint:
 	@scripts/lint $(abspath $(BUILD))
@@ -143,7 +147,7 @@ help:
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
-	@echo "make film-table   the table of the film 'finite' anew, some minutes"
+	@echo "make film-table   the table of the film 'finite' anew, some minutes; make film-errors: docs/film_errors.csv"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
 	@echo "make install    program, man page, completions, decks below PREFIX=/usr/local; make uninstall takes them away again"
 	@echo "make test-debian  as root: 'make run && make test' in a bare Debian SUITE=trixie|bookworm in DIR=build/debian/SUITE"
