@@ -31,7 +31,6 @@ module film_finite
       procedure :: prepare => finite_prepare
       procedure :: fit => finite_fit
       procedure :: force => film_finite_force
-      procedure :: story => finite_story
    end type film_finite_t
 
 contains
@@ -101,14 +100,5 @@ contains
          end associate
       end do
    end subroutine film_finite_force
-
-   !> What the bearing is to the film.
-   function finite_story(self, parameters) result(words)
-      class(film_finite_t), intent(in) :: self              !! the film
-      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
-      character(:), allocatable :: words                    !! as "L/D = 1.5"
-
-      words = "L/D = "//to_text(parameters(parameter_ratio))
-   end function finite_story
 
 end module film_finite

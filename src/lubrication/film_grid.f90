@@ -4,7 +4,8 @@
 !>
 !> Pressures are not below zero, with dp/dn = 0 where the film ruptures and forms again (`boundary = reynolds`), or of any sign
 !> (`full`). Lubricant comes in from the ends without pressure, and from supplies: along the line of the widest gap, or at equal
-!> distances around the bearing, fixed in it, as grooves (length 1) or holes (length and width the same way along the surface).
+!> distances around the bearing, fixed in it, as grooves (length 1) or holes (length and width the same way along the surface); with
+!> `both` the line has no pressure and the fixed ones have that of the row. Published tables of grooved bearings mean `both`.
 !>
 !> Signs: on the journal; angles in the frame of the bearing's body. Beyond eps_max the film has the shape of eps_max in the
 !> direction of e, and v as it is. Source: Reynolds (1886). Limits: any L/D; some hundred times as dear as `finite`.
@@ -64,16 +65,16 @@ contains
       call add_word(info, "boundary", "pressures not below zero, or of both signs", default="reynolds", choices="reynolds full")
       call add_word(info, "resolution", "80 x 10, 160 x 16 or 240 x 24 cells on half the length", default="normal", &
                     choices="coarse normal fine")
-      call add_word(info, "supply", "where lubricant comes in beside the ends: along the widest gap, or fixed in the bearing", &
-                    default="none", choices="none widest_gap fixed")
+      call add_word(info, "supply", "where lubricant comes in beside the ends: at the widest gap, fixed in the bearing, or both", &
+                    default="none", choices="none widest_gap fixed both")
       call add_number(info, "number", dim_none, "how many fixed supplies, at equal distances", default="1", lower=1.0_wp, &
                       upper=12.0_wp)
-      call add_number(info, "angle", dim_angle, "of the first, in the frame of the bearing's body", default="0")
-      call add_number(info, "width", dim_angle, "of a supply around the bearing; 0: a line", default="0", lower=0.0_wp, &
+      call add_number(info, "angle", dim_angle, "of the first, in the frame of the bearing's body", default="0 deg")
+      call add_number(info, "width", dim_angle, "of a supply around the bearing; 0: a line", default="0 deg", lower=0.0_wp, &
                       upper=two_pi, open_upper=.true.)
       call add_number(info, "length", dim_none, "of a supply, part of the bearing's length; 1: from end to end", default="1", &
                       lower=0.0_wp, upper=1.0_wp, open_lower=.true.)
-      call add_number(info, "pressure", dim_pressure, "of the lubricant there, above that at the ends", default="0", lower=0.0_wp)
+      call add_number(info, "pressure", dim_pressure, "of the lubricant there above the ends", default="0 Pa", lower=0.0_wp)
    end function grid_info
 
    !> Take the columns.
@@ -89,10 +90,11 @@ contains
       select case (item%word("supply"))
       case ("widest_gap")
          self%supply = [supply_t(pressure=item%number("pressure"), is_at_widest_gap=.true.)]
-      case ("fixed")
+      case ("fixed", "both")
          n = nint(item%number("number"))
          self%supply = [(supply_t(angle=item%number("angle") + two_pi*(k - 1)/n, width=item%number("width"), &
                                   length=item%number("length"), pressure=item%number("pressure")), k=1, n)]
+         if (item%word("supply") == "both") self%supply = [self%supply, supply_t(is_at_widest_gap=.true.)]
       case default
          allocate (self%supply(0))
       end select
@@ -166,6 +168,7 @@ contains
          call find_grid(self, parameters(parameter_ratio, k), number)
          associate (grid => self%pool%grid(number))
             grid%supply%pressure = parameters(parameter_pressure, k)
+            if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
             call grid%solve(state_of(motion(k), parameters(:, k)), status)
             call get_result(grid, film)
          end associate
@@ -199,10 +202,9 @@ contains
    function grid_story(self, parameters) result(words)
       class(film_grid_t), intent(in) :: self                !! the film
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
-      character(:), allocatable :: words                    !! as "L/D = 1, 160 x 16 cells"
+      character(:), allocatable :: words                    !! as "160 x 16 cells"
 
-      words = "L/D = "//to_text(parameters(parameter_ratio))//", "//to_text(columns_of(self%resolution))//" x " &
-              //to_text(rows_of(self%resolution))//" cells"
+      words = to_text(columns_of(self%resolution))//" x "//to_text(rows_of(self%resolution))//" cells"
       if (size(self%supply) > 0) words = words//", supplied at "//to_text(self%supply(1)%pressure)//" Pa"
    end function grid_story
 

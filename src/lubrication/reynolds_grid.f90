@@ -51,6 +51,7 @@ module reynolds_grid
       type(section_list_t), private :: length   !! sections of the half length
       integer, allocatable :: column(:)         !! (n) supply that a column is in, 0: none
       integer, allocatable :: edge(:)           !! (n) supply that is a line before a column, 0: none
+      integer, allocatable, private :: fixed_edge(:)  !! (n) the same of lines that do not move
    contains
       procedure :: solve
       procedure :: is_supplied
@@ -90,6 +91,7 @@ contains
             done = done + n_cell
          end associate
       end do
+      self%fixed_edge = self%edge
       call new_complementarity(self%film, n_row, n_column, boundary == boundary_full)
    end subroutine new_reynolds_grid
 
@@ -100,14 +102,16 @@ contains
       integer, intent(out) :: status                 !! 0: done; 3: the surfaces touch; others: see `complementarity`
 
       real(wp) :: eps, gamma
-      integer :: m
+      integer :: line, m
 
       status = 3
       self%state = state
       eps = max(norm2(state%e + state%g), norm2(state%e - state%g))
       if (.not. eps < 1.0_wp) return
       gamma = direction(state)
-      call divide_ring(self%ring, eps, gamma, self%theta)
+      call divide_ring(self%ring, eps, gamma, self%theta, line)
+      self%edge = self%fixed_edge
+      if (line > 0) self%edge(line) = self%ring%line
       m = ubound(self%y, 1)
       if (self%is_whole) then
          call divide_length(self%length, self%ratio, eps, self%y(m/2:))

@@ -31,6 +31,7 @@ module reynolds_mesh
    !> Sections of a ring or of a length, each with a number of cells.
    type :: section_list_t
       logical :: is_turning = .false.      !! the ring begins at the widest gap, wherever that is
+      integer :: line = 0                  !! supply along the widest gap beside others that are fixed, 0: none
       real(wp), allocatable :: start(:)    !! (n + 1) ends of the sections, an angle or a part of the half length [rad or 1]
       integer, allocatable :: n_cell(:)    !! (n) cells of each, may be none
       integer, allocatable :: supply(:)    !! (n) supply that the section is part of, 0: none
@@ -38,33 +39,36 @@ module reynolds_mesh
 
 contains
 
-   !> Sections of the ring; the supplies are in the order of their angles and do not overlap.
+   !> Sections of the ring; the fixed supplies are in the order of their angles and do not overlap.
    pure subroutine new_ring(self, n_cell, supply)
       type(section_list_t), intent(out) :: self  !! the sections
       integer, intent(in) :: n_cell              !! cells all round, about
       type(supply_t), intent(in) :: supply(:)    !! the supplies
 
+      integer, allocatable :: number(:)
       real(wp) :: free, next
-      integer :: k, n
+      integer :: k, line, n
 
-      n = size(supply)
+      number = pack([(k, k=1, size(supply))], .not. supply%is_at_widest_gap)
+      n = size(number)
+      line = findloc(supply%is_at_widest_gap, .true., dim=1)
       self%is_turning = n == 0
-      if (n == 1) self%is_turning = supply(1)%is_at_widest_gap
       if (self%is_turning) then
          self%start = [-pi, -pi, pi]
          self%n_cell = [0, n_cell]
-         self%supply = [n, 0]
+         self%supply = [line, 0]
          return
       end if
+      self%line = line
       allocate (self%start(2*n + 1), self%n_cell(2*n), self%supply(2*n))
       do k = 1, n
-         associate (own => supply(k))
-            next = supply(modulo(k, n) + 1)%angle - 0.5_wp*supply(modulo(k, n) + 1)%width
+         associate (own => supply(number(k)), other => supply(number(modulo(k, n) + 1)))
+            next = other%angle - 0.5_wp*other%width
             if (k == n) next = next + two_pi
             self%start(2*k - 1) = own%angle - 0.5_wp*own%width
             self%start(2*k) = own%angle + 0.5_wp*own%width
             self%start(2*k + 1) = next
-            self%supply(2*k - 1:2*k) = [k, 0]
+            self%supply(2*k - 1:2*k) = [number(k), 0]
             self%n_cell(2*k - 1) = 0
             if (own%width > 0.0_wp) self%n_cell(2*k - 1) = max(2, nint(n_cell*own%width/two_pi))
             free = next - self%start(2*k)
@@ -97,30 +101,50 @@ contains
       end do
    end subroutine new_length
 
-   !> Edges of the columns.
-   pure subroutine divide_ring(ring, eps, gamma, edge)
+   !> Edges of the columns. A line along the widest gap beside fixed supplies has half of the cells of its section on each side, so
+   !> that the grid changes smoothly where the line moves; within a supply there is none.
+   pure subroutine divide_ring(ring, eps, gamma, edge, line)
       type(section_list_t), intent(in) :: ring   !! sections of the ring
       real(wp), intent(in) :: eps                !! eccentricity ratio, below 1 [1]
       real(wp), intent(in) :: gamma              !! its direction, bearing's frame [rad]
       real(wp), contiguous, intent(out) :: edge(0:) !! (0:n) edges, ascending, the last a turn after the first [rad]
+      integer, intent(out) :: line               !! column behind such a line, 0: none
 
-      real(wp) :: first, k, last, turn
-      integer :: i, done, j
+      real(wp) :: first, k, last, middle, turn
+      integer :: i, done, half, j
 
       k = ring_grading*eps/sqrt((1.0_wp - eps)*(1.0_wp + eps))
       done = 0
+      line = 0
       turn = merge(0.0_wp, gamma, ring%is_turning)
       do i = 1, size(ring%n_cell)
          if (ring%n_cell(i) == 0) cycle
          first = graded_turn(ring%start(i) - turn, k)
          last = graded_turn(ring%start(i + 1) - turn, k)
-         do j = 0, ring%n_cell(i) - 1
-            edge(done + j) = gamma + angle_of_turn(first + (last - first)*real(j, wp)/real(ring%n_cell(i), wp), k)
+         half = ring%n_cell(i)/2
+         if (ring%line > 0 .and. ring%supply(i) == 0 .and. next_widest(first) < last) then
+            middle = next_widest(first)
+            line = done + half + 1
+         else
+            middle = first + (last - first)*real(half, wp)/real(ring%n_cell(i), wp)
+         end if
+         do j = 0, half - 1
+            edge(done + j) = gamma + angle_of_turn(first + (middle - first)*real(j, wp)/real(half, wp), k)
+         end do
+         do j = half, ring%n_cell(i) - 1
+            edge(done + j) = gamma + angle_of_turn(middle + (last - middle)*real(j - half, wp)/real(ring%n_cell(i) - half, wp), k)
          end do
          done = done + ring%n_cell(i)
       end do
       edge(done) = edge(0) + two_pi
    end subroutine divide_ring
+
+   !> The first widest gap behind a graded coordinate: an odd number.
+   elemental real(wp) function next_widest(s)
+      real(wp), intent(in) :: s  !! graded coordinate [1]
+
+      next_widest = real(2*floor(0.5_wp*(s + 1.0_wp)) + 1, wp)
+   end function next_widest
 
    !> Edges of the rows of the half length.
    pure subroutine divide_length(length, ratio, eps, edge)

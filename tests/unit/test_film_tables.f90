@@ -7,6 +7,7 @@ module test_film_tables
    use published_films, only: grooved, rotation_angle, rotation_eps, rotation_flow, rotation_load, rotation_ratio, squeeze_eps, &
       squeeze_load, squeeze_ratio
    use reynolds_grid, only: boundary_reynolds, journal_state_t, new_reynolds_grid, reynolds_grid_t
+   use reynolds_mesh, only: supply_t
    use reynolds_results, only: film_result_t
    use text, only: to_text
    implicit none (type, external)
@@ -84,15 +85,17 @@ contains
       end do
    end subroutine test_squeeze
 
-   !> Where the two-groove bearing carries its load, and its eight coefficients.
+   !> Where the two-groove bearing carries its load, and its eight coefficients. The printed ones are those of a film with p = 0 along
+   !> the widest gap too, that line held where it is while the journal moves a little.
    subroutine test_two_grooves(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(reynolds_grid_t) :: grid
+      type(reynolds_grid_t) :: grid, held
+      type(supply_t) :: line(1)
       real(wp) :: b(2, 2), e(2), f(2), k(2, 2), load
       integer :: i, iteration
 
-      call new_reynolds_grid(grid, 0.5_wp, 2*n_column, n_row, boundary_reynolds, two_grooves(), .false.)
+      call new_reynolds_grid(grid, 0.5_wp, 2*n_column, n_row, boundary_reynolds, [two_grooves(), at_widest_gap()], .false.)
       do i = 1, size(grooved, 2)
          associate (row => grooved(:, i))
             load = 1.0_wp/(pi*row(1))
@@ -102,9 +105,12 @@ contains
                f(1) = f(1) + load
                e = e + [k(2, 2)*f(1) - k(1, 2)*f(2), k(1, 1)*f(2) - k(2, 1)*f(1)]/(k(1, 1)*k(2, 2) - k(1, 2)*k(2, 1))
             end do
-            call check_close(error, f/load, [0.0_wp, 0.0_wp], 1.0e-9_wp, "equilibrium "//to_text(i))
+            call check_close(error, f/load, [0.0_wp, 0.0_wp], 1.0e-8_wp, "equilibrium "//to_text(i))
             call check_close(error, norm2(e), row(2), 1.0e-3_wp, "eps "//to_text(i))
             call check_close(error, atan2(e(2), e(1))*180.0_wp/pi, row(3), 0.1_wp, "attitude "//to_text(i))
+            line%angle = atan2(e(2), e(1)) + pi
+            call new_reynolds_grid(held, 0.5_wp, 2*n_column, n_row, boundary_reynolds, [two_grooves(), line], .false.)
+            call differentiate(held, e, f, k, b)
             k = k/load
             b = b/load
             call check_coefficients(error, [k(1, 1), k(1, 2), k(2, 1), k(2, 2), b(1, 1), b(1, 2), b(2, 2)], row(4:10), i)
@@ -113,7 +119,7 @@ contains
       end do
    end subroutine test_two_grooves
 
-   !> Coefficients: a small one may differ by 0.015.
+   !> Coefficients: within 1.5 %, a small one within 0.01.
    subroutine check_coefficients(error, computed, printed, row)
       type(error_t), allocatable, intent(inout) :: error  !! first failure
       real(wp), intent(in) :: computed(7)                 !! (7) Kxx, Kxy, Kyx, Kyy, Bxx, Bxy, Byy [1]
@@ -123,7 +129,7 @@ contains
       integer :: i
 
       do i = 1, size(printed)
-         call check_close(error, computed(i), printed(i), max(0.04_wp*abs(printed(i)), 0.015_wp), &
+         call check_close(error, computed(i), printed(i), max(0.015_wp*abs(printed(i)), 0.01_wp), &
                           "coefficient "//to_text(i)//" of row "//to_text(row))
       end do
    end subroutine check_coefficients
