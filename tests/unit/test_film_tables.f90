@@ -85,7 +85,7 @@ contains
       end do
    end subroutine test_squeeze
 
-   !> Where the two-groove bearing carries its load, and its eight coefficients. The printed ones are those of a film with p = 0 along
+   !> Where the two-groove bearing carries its load, and its eight coefficients. The printed ones are of a film with p = 0 along
    !> the widest gap too, that line held where it is while the journal moves a little.
    subroutine test_two_grooves(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
