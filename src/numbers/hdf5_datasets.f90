@@ -13,7 +13,7 @@ module hdf5_datasets
    private
    public :: describe, integer_dataset, real_dataset, text_dataset
 
-   integer(hsize_t), parameter :: conversion = 65536_hsize_t  !! bytes in which strings are brought into the file's form; 1 MB is usual
+   integer(hsize_t), parameter :: conversion = 65536_hsize_t  !! bytes in which strings get the form of the file; 1 MB is usual
 
 contains
 
