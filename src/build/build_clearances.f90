@@ -8,7 +8,7 @@ module build_clearances
    use clearance_set, only: clearance_set_t, clearance_slot_t
    use columns, only: cell_index, cell_text, find_column
    use friction_law, only: friction_law_t
-   use item, only: item_t
+   use item, only: item_t, take_items
    use joint_registry, only: new_joint_set
    use joint_set, only: joint_set_t, joint_slot_t
    use kind_info, only: kind_info_t
@@ -40,6 +40,7 @@ contains
       type(clearance_slot_t), allocatable :: slots(:)
       type(joint_slot_t) :: twins(n_clearance_kinds)
       logical, allocatable :: is_done(:), is_twin(:)
+      type(item_t), allocatable :: some(:)
       integer, allocatable :: chosen(:)
       integer :: first, i, k, n, n_ideal
 
@@ -56,12 +57,14 @@ contains
                              [(.not. is_done(i) .and. share_laws(info, items(i), items(first)), i=1, size(items))])
                is_done(chosen) = .true.
                n = n + 1
-               call add_loose_set(scene, k, scene%clearances(k)%items(chosen), is_driven, slots(n), system)
+               call take_items(items, chosen, some)
+               call add_loose_set(scene, k, some, is_driven, slots(n), system)
             end do
             if (any(is_twin)) then
                chosen = pack([(i, i=1, size(items))], is_twin)
                n_ideal = n_ideal + 1
-               call add_ideal_set(scene, k, scene%clearances(k)%items(chosen), angle, twins(n_ideal), system%linkage%rows%n)
+               call take_items(items, chosen, some)
+               call add_ideal_set(scene, k, some, angle, twins(n_ideal), system%linkage%rows%n)
             end if
          end associate
       end do

@@ -6,6 +6,7 @@ module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
    use columns, only: find_column
+   use item, only: item_t, take_items
    use joint_friction, only: new_joint_friction
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
@@ -73,6 +74,7 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! joints are set
 
       class(joint_set_t), allocatable :: set
+      type(item_t), allocatable :: items(:)
       integer, allocatable :: chosen(:)
       integer :: column(2), k, m, n
 
@@ -83,11 +85,12 @@ contains
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
          call new_joint_set(k, set)
-         call tie_set(scene, scene%joints(k)%info, scene%joints(k)%items(chosen), set)
-         call set%prepare(scene%joints(k)%items(chosen), start_angles(scene))
+         call take_items(scene%joints(k)%items, chosen, items)
+         call tie_set(scene, scene%joints(k)%info, items, set)
+         call set%prepare(items, start_angles(scene))
          call set%set_start(linkage%motion)
          if (is_solved .and. find_column(scene%joints(k)%info, "friction") > 0) then
-            call new_joint_friction(scene%joints(k)%items(chosen), scene%frictions, set%friction_length(), &
+            call new_joint_friction(items, scene%frictions, set%friction_length(), &
                                     linkage%coordinates%n_v, set%friction)
          end if
          m = merge(2, 1, set%is_driver)

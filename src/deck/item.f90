@@ -12,7 +12,7 @@ module item
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: condition_t, find_place, item_t, location_t, option_t, place_of, value_t
+   public :: condition_t, find_place, item_t, location_t, option_t, place_of, take_items, value_t
 
    !> A stretch of deck text.
    type :: location_t
@@ -82,6 +82,21 @@ module item
    end type item_t
 
 contains
+
+   !> Copies of some items. A section with numbers in an array in its place, as an argument, is copied with all that it holds, and the
+   !> copy is never given back (gfortran).
+   pure subroutine take_items(items, chosen, some)
+      type(item_t), intent(in) :: items(:)                 !! (n) items
+      integer, intent(in) :: chosen(:)                     !! (m) numbers of those wanted
+      type(item_t), allocatable, intent(out) :: some(:)    !! (m) these
+
+      integer :: k
+
+      allocate (some(size(chosen)))
+      do k = 1, size(chosen)
+         some(k) = items(chosen(k))
+      end do
+   end subroutine take_items
 
    !> Place of a column among the values of a row by its name; 0 if the kind has none of that name.
    pure integer function find_place(item, name) result(place)
