@@ -83,8 +83,8 @@ module item
 
 contains
 
-   !> Copies of some items. A section with numbers in an array in its place, as an argument, is copied with all that it holds, and the
-   !> copy is never given back (gfortran).
+   !> Copies of some items. A section with numbers in an array in its place, as an argument, is copied with all that it holds, and
+   !> the copy is never given back (gfortran).
    pure subroutine take_items(items, chosen, some)
       type(item_t), intent(in) :: items(:)                 !! (n) items
       integer, intent(in) :: chosen(:)                     !! (m) numbers of those wanted
