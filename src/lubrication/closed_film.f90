@@ -11,11 +11,11 @@
 module closed_film
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
       parameter_clearance, parameter_eps_max
-   use item, only: item_t
+   use item, only: find_place, item_t
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: closed_film_t, fit_long, fit_short, narrowing_side, positive_part
+   public :: closed_film_t, fit_long, long_film_t, narrowing_side, positive_part, short_film_t
 
    integer, parameter :: parameter_scale = own_parameters + 1  !! s [N.s]
 
@@ -27,6 +27,18 @@ module closed_film
       procedure :: force => closed_force
       procedure(components_interface), deferred :: components
    end type closed_film_t
+
+   !> One whose force grows with the length.
+   type, abstract, extends(closed_film_t) :: long_film_t
+   contains
+      procedure :: fit => fit_long
+   end type long_film_t
+
+   !> One whose force grows with the cube of the length.
+   type, abstract, extends(closed_film_t) :: short_film_t
+   contains
+      procedure :: fit => fit_short
+   end type short_film_t
 
    abstract interface
       !> Components of the force on the journal over the scale.
@@ -45,16 +57,18 @@ module closed_film
 
 contains
 
-   !> A row without columns of its own.
+   !> The name, and the form where the kind has one.
    subroutine closed_prepare(self, item)
       class(closed_film_t), intent(inout) :: self  !! the film
       type(item_t), intent(in) :: item             !! the row
 
       self%name = item%name
+      if (find_place(item, "form") > 0) self%is_book = item%word("form") == "book"
    end subroutine closed_prepare
 
    !> Parameters of a long bearing.
-   subroutine fit_long(bearing, parameters, message, help)
+   subroutine fit_long(self, bearing, parameters, message, help)
+      class(long_film_t), intent(in) :: self                   !! the film
       type(film_bearing_t), intent(in) :: bearing            !! the bearing
       real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
       character(:), allocatable, intent(out) :: message      !! empty: any bearing will do
@@ -67,7 +81,8 @@ contains
    end subroutine fit_long
 
    !> Parameters of a short bearing.
-   subroutine fit_short(bearing, parameters, message, help)
+   subroutine fit_short(self, bearing, parameters, message, help)
+      class(short_film_t), intent(in) :: self                   !! the film
       type(film_bearing_t), intent(in) :: bearing            !! the bearing
       real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
       character(:), allocatable, intent(out) :: message      !! empty: any bearing will do

@@ -13,7 +13,7 @@
 !> is greater or smaller the polynomials have the nearer of these, which is too small a force above 1. No pressure at the widest
 !> gap while it turns. Forces of rotation and squeeze are no sum: where the journal parts fast, the film may feed energy in.
 module film_butenschoen
-   use closed_film, only: closed_film_t, fit_long
+   use closed_film, only: fit_long, long_film_t
    use film_law, only: film_bearing_t, n_film_parameter, own_parameters
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
@@ -36,7 +36,7 @@ module film_butenschoen
       !! coefficients of powers of b: of a1, a2, b1, b2 above and of c1 to c5 here [1]
 
    !> A bearing of finite length.
-   type, extends(closed_film_t) :: film_butenschoen_t
+   type, extends(long_film_t) :: film_butenschoen_t
    contains
       procedure, nopass :: info => butenschoen_info
       procedure :: fit => butenschoen_fit
@@ -67,7 +67,7 @@ contains
       real(wp) :: b, powers(0:4)
       integer :: k
 
-      call fit_long(bearing, parameters, message, help)
+      call fit_long(self, bearing, parameters, message, help)
       b = 0.5_wp*bearing%length/bearing%radius
       parameters(first_own) = b
       b = min(max(b, shortest), longest)

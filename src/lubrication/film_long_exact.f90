@@ -10,8 +10,8 @@
 !> Source: Flores et al. (2008), eq. (5.5) with the reference pressure of (5.21), integrated where it is positive. Limits: L/D above
 !> about 2, where the force is still too large. Smooth once, always dissipative, the same in all directions for e -> 0.
 module film_long_exact
-   use closed_film, only: closed_film_t, fit_long, positive_part
-   use film_law, only: film_bearing_t, n_film_parameter
+   use closed_film, only: long_film_t, positive_part
+   use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: wp
    implicit none (type, external)
@@ -19,10 +19,9 @@ module film_long_exact
    public :: film_long_exact_t
 
    !> A long bearing, its film where the pressure is positive.
-   type, extends(closed_film_t) :: film_long_exact_t
+   type, extends(long_film_t) :: film_long_exact_t
    contains
       procedure, nopass :: info => long_exact_info
-      procedure :: fit => long_exact_fit
       procedure :: components => long_exact_components
    end type film_long_exact_t
 
@@ -37,17 +36,6 @@ contains
       info%source = "Flores et al. (2008), eq. (5.5), integrated where it is positive"
       allocate (info%columns(0))
    end function long_exact_info
-
-   !> Parameters for a bearing.
-   subroutine long_exact_fit(self, bearing, parameters, message, help)
-      class(film_long_exact_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_long(bearing, parameters, message, help)
-   end subroutine long_exact_fit
 
    !> Components of the force over its scale.
    pure subroutine long_exact_components(self, parameters, eps, eps_dot, w, f_r, f_t)

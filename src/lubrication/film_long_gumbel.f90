@@ -11,9 +11,8 @@
 !> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 !> It depends on the direction of n even for e -> 0, where that is no direction: its damping is 3.57 along n and 18.85 across.
 module film_long_gumbel
-   use closed_film, only: closed_film_t, fit_long, narrowing_side
-   use film_law, only: film_bearing_t, n_film_parameter
-   use item, only: item_t
+   use closed_film, only: long_film_t, narrowing_side
+   use film_law, only: n_film_parameter
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -21,11 +20,9 @@ module film_long_gumbel
    public :: film_long_gumbel_t
 
    !> A long bearing, half a film.
-   type, extends(closed_film_t) :: film_long_gumbel_t
+   type, extends(long_film_t) :: film_long_gumbel_t
    contains
       procedure, nopass :: info => long_gumbel_info
-      procedure :: prepare => long_gumbel_prepare
-      procedure :: fit => long_gumbel_fit
       procedure :: components => long_gumbel_components
    end type film_long_gumbel_t
 
@@ -41,26 +38,6 @@ contains
       call add_word(info, "form", "half film: the one that narrows, or always from 0 to pi as the book prints it", &
                     default="corrected", choices="corrected book")
    end function long_gumbel_info
-
-   !> Take the form.
-   subroutine long_gumbel_prepare(self, item)
-      class(film_long_gumbel_t), intent(inout) :: self  !! the film
-      type(item_t), intent(in) :: item                  !! the row
-
-      self%name = item%name
-      self%is_book = item%word("form") == "book"
-   end subroutine long_gumbel_prepare
-
-   !> Parameters for a bearing.
-   subroutine long_gumbel_fit(self, bearing, parameters, message, help)
-      class(film_long_gumbel_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_long(bearing, parameters, message, help)
-   end subroutine long_gumbel_fit
 
    !> Components of the force over its scale.
    pure subroutine long_gumbel_components(self, parameters, eps, eps_dot, w, f_r, f_t)

@@ -7,8 +7,8 @@
 !> Source: Flores et al. (2008), eqs. (5.5), (5.10), (5.11). Limits: L/D above about 2, where the force is still too large; carries
 !> tension as well as pressure, so that a load at rest has no damping: the centre whirls at about half the speed of the shaft.
 module film_long_sommerfeld
-   use closed_film, only: closed_film_t, fit_long
-   use film_law, only: film_bearing_t, n_film_parameter
+   use closed_film, only: long_film_t
+   use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -16,10 +16,9 @@ module film_long_sommerfeld
    public :: film_long_sommerfeld_t
 
    !> A long bearing, full of lubricant all round.
-   type, extends(closed_film_t) :: film_long_sommerfeld_t
+   type, extends(long_film_t) :: film_long_sommerfeld_t
    contains
       procedure, nopass :: info => long_sommerfeld_info
-      procedure :: fit => long_sommerfeld_fit
       procedure :: components => long_sommerfeld_components
    end type film_long_sommerfeld_t
 
@@ -34,17 +33,6 @@ contains
       info%source = "Flores et al. (2008), eqs. (5.10), (5.11)"
       allocate (info%columns(0))
    end function long_sommerfeld_info
-
-   !> Parameters for a bearing.
-   subroutine long_sommerfeld_fit(self, bearing, parameters, message, help)
-      class(film_long_sommerfeld_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_long(bearing, parameters, message, help)
-   end subroutine long_sommerfeld_fit
 
    !> Components of the force over its scale.
    pure subroutine long_sommerfeld_components(self, parameters, eps, eps_dot, w, f_r, f_t)

@@ -10,9 +10,8 @@
 !> Limits: L/D above about 2, where the force is still too large. Off `long_exact`, the film that it approximates, by up to 8 %
 !> while the journal approaches and by more while it parts.
 module film_pinkus_sternlicht
-   use closed_film, only: closed_film_t, fit_long
-   use film_law, only: film_bearing_t, n_film_parameter
-   use item, only: item_t
+   use closed_film, only: long_film_t
+   use film_law, only: n_film_parameter
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -20,11 +19,9 @@ module film_pinkus_sternlicht
    public :: film_pinkus_sternlicht_t
 
    !> A long bearing as Pinkus and Sternlicht have it.
-   type, extends(closed_film_t) :: film_pinkus_sternlicht_t
+   type, extends(long_film_t) :: film_pinkus_sternlicht_t
    contains
       procedure, nopass :: info => pinkus_sternlicht_info
-      procedure :: prepare => pinkus_sternlicht_prepare
-      procedure :: fit => pinkus_sternlicht_fit
       procedure :: components => pinkus_sternlicht_components
    end type film_pinkus_sternlicht_t
 
@@ -40,26 +37,6 @@ contains
       call add_word(info, "form", "sign of the radial force while the journal parts: corrected, or as the book prints it", &
                     default="corrected", choices="corrected book")
    end function pinkus_sternlicht_info
-
-   !> Take the form.
-   subroutine pinkus_sternlicht_prepare(self, item)
-      class(film_pinkus_sternlicht_t), intent(inout) :: self  !! the film
-      type(item_t), intent(in) :: item                        !! the row
-
-      self%name = item%name
-      self%is_book = item%word("form") == "book"
-   end subroutine pinkus_sternlicht_prepare
-
-   !> Parameters for a bearing.
-   subroutine pinkus_sternlicht_fit(self, bearing, parameters, message, help)
-      class(film_pinkus_sternlicht_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_long(bearing, parameters, message, help)
-   end subroutine pinkus_sternlicht_fit
 
    !> Components of the force over its scale.
    pure subroutine pinkus_sternlicht_components(self, parameters, eps, eps_dot, w, f_r, f_t)

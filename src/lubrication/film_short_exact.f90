@@ -12,8 +12,8 @@
 !> J. Basic Engineering 87 (1965) 533-535. Limits: L/D below about 1/2, where the force is still too large. Smooth once, always
 !> dissipative, the same in all directions for e -> 0.
 module film_short_exact
-   use closed_film, only: closed_film_t, fit_short, positive_part
-   use film_law, only: film_bearing_t, n_film_parameter
+   use closed_film, only: positive_part, short_film_t
+   use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: wp
    implicit none (type, external)
@@ -21,10 +21,9 @@ module film_short_exact
    public :: film_short_exact_t
 
    !> A short bearing, its film where the pressure is positive.
-   type, extends(closed_film_t) :: film_short_exact_t
+   type, extends(short_film_t) :: film_short_exact_t
    contains
       procedure, nopass :: info => short_exact_info
-      procedure :: fit => short_exact_fit
       procedure :: components => short_exact_components
    end type film_short_exact_t
 
@@ -39,17 +38,6 @@ contains
       info%source = "Flores et al. (2008), eq. (5.3), integrated where it is positive"
       allocate (info%columns(0))
    end function short_exact_info
-
-   !> Parameters for a bearing.
-   subroutine short_exact_fit(self, bearing, parameters, message, help)
-      class(film_short_exact_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_short(bearing, parameters, message, help)
-   end subroutine short_exact_fit
 
    !> Components of the force over its scale.
    pure subroutine short_exact_components(self, parameters, eps, eps_dot, w, f_r, f_t)

@@ -10,9 +10,8 @@
 !> squeezing and suction for fast parting; the force would jump where Om changes its sign while eps' does not vanish, and
 !> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 module film_short_gumbel
-   use closed_film, only: closed_film_t, fit_short, narrowing_side
-   use film_law, only: film_bearing_t, n_film_parameter
-   use item, only: item_t
+   use closed_film, only: narrowing_side, short_film_t
+   use film_law, only: n_film_parameter
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -20,11 +19,9 @@ module film_short_gumbel
    public :: film_short_gumbel_t
 
    !> A short bearing, half a film.
-   type, extends(closed_film_t) :: film_short_gumbel_t
+   type, extends(short_film_t) :: film_short_gumbel_t
    contains
       procedure, nopass :: info => short_gumbel_info
-      procedure :: prepare => short_gumbel_prepare
-      procedure :: fit => short_gumbel_fit
       procedure :: components => short_gumbel_components
    end type film_short_gumbel_t
 
@@ -40,26 +37,6 @@ contains
       call add_word(info, "form", "half film: the one that narrows, or always from 0 to pi as the book prints it", &
                     default="corrected", choices="corrected book")
    end function short_gumbel_info
-
-   !> Take the form.
-   subroutine short_gumbel_prepare(self, item)
-      class(film_short_gumbel_t), intent(inout) :: self  !! the film
-      type(item_t), intent(in) :: item                   !! the row
-
-      self%name = item%name
-      self%is_book = item%word("form") == "book"
-   end subroutine short_gumbel_prepare
-
-   !> Parameters for a bearing.
-   subroutine short_gumbel_fit(self, bearing, parameters, message, help)
-      class(film_short_gumbel_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_short(bearing, parameters, message, help)
-   end subroutine short_gumbel_fit
 
    !> Components of the force over its scale.
    pure subroutine short_gumbel_components(self, parameters, eps, eps_dot, w, f_r, f_t)

@@ -7,8 +7,8 @@
 !> Source: Flores et al. (2008), eqs. (5.3), (5.6), (5.7). Limits: L/D below about 1/2, where the force is still too large; carries
 !> tension as well as pressure, so that a load at rest has no damping: the centre whirls.
 module film_short_sommerfeld
-   use closed_film, only: closed_film_t, fit_short
-   use film_law, only: film_bearing_t, n_film_parameter
+   use closed_film, only: short_film_t
+   use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -16,10 +16,9 @@ module film_short_sommerfeld
    public :: film_short_sommerfeld_t
 
    !> A short bearing, full of lubricant all round.
-   type, extends(closed_film_t) :: film_short_sommerfeld_t
+   type, extends(short_film_t) :: film_short_sommerfeld_t
    contains
       procedure, nopass :: info => short_sommerfeld_info
-      procedure :: fit => short_sommerfeld_fit
       procedure :: components => short_sommerfeld_components
    end type film_short_sommerfeld_t
 
@@ -34,17 +33,6 @@ contains
       info%source = "Flores et al. (2008), eqs. (5.6), (5.7)"
       allocate (info%columns(0))
    end function short_sommerfeld_info
-
-   !> Parameters for a bearing.
-   subroutine short_sommerfeld_fit(self, bearing, parameters, message, help)
-      class(film_short_sommerfeld_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_short(bearing, parameters, message, help)
-   end subroutine short_sommerfeld_fit
 
    !> Components of the force over its scale.
    pure subroutine short_sommerfeld_components(self, parameters, eps, eps_dot, w, f_r, f_t)

@@ -9,8 +9,8 @@
 !> Limits: L/D above about 2; no load is carried at rest, whatever the speed. A journal that moves across the line of centres meets
 !> no film, so that its force depends on the direction of n even for e -> 0.
 module film_squeeze
-   use closed_film, only: closed_film_t, fit_long
-   use film_law, only: film_bearing_t, n_film_parameter
+   use closed_film, only: long_film_t
+   use film_law, only: n_film_parameter
    use item, only: item_t
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
@@ -19,12 +19,11 @@ module film_squeeze
    public :: film_squeeze_t
 
    !> A squeeze film.
-   type, extends(closed_film_t) :: film_squeeze_t
+   type, extends(long_film_t) :: film_squeeze_t
       logical :: is_positive = .false.  !! only pressures above zero count
    contains
       procedure, nopass :: info => squeeze_info
       procedure :: prepare => squeeze_prepare
-      procedure :: fit => squeeze_fit
       procedure :: components => squeeze_components
    end type film_squeeze_t
 
@@ -48,17 +47,6 @@ contains
       self%name = item%name
       self%is_positive = item%word("pressure") == "positive"
    end subroutine squeeze_prepare
-
-   !> Parameters for a bearing.
-   subroutine squeeze_fit(self, bearing, parameters, message, help)
-      class(film_squeeze_t), intent(in) :: self  !! the film
-      type(film_bearing_t), intent(in) :: bearing  !! the bearing
-      real(wp), intent(out) :: parameters(n_film_parameter)  !! (n_film_parameter) parameters [any]
-      character(:), allocatable, intent(out) :: message  !! empty: any bearing will do
-      character(:), allocatable, intent(out) :: help  !! empty
-
-      call fit_long(bearing, parameters, message, help)
-   end subroutine squeeze_fit
 
    !> Components of the force over its scale.
    pure subroutine squeeze_components(self, parameters, eps, eps_dot, w, f_r, f_t)
