@@ -1,7 +1,8 @@
 !> Maxima of the penetration and of the normal force of a contact within a step.
 !>
 !> A maximum lies where the rate changes from positive to negative. The place is sought as the maximum of the cubic of Hermite
-!> through the ends of a bracket, which narrows around it; every third place is the middle, for forces that are not smooth.
+!> through the ends of a bracket, which narrows around it; from the sixth on every third place is the middle, for forces that are
+!> not smooth.
 module contact_peaks
    use integrator, only: integrator_t
    use kinds, only: wp
@@ -14,6 +15,7 @@ module contact_peaks
    real(wp), parameter :: near_force = 1.0e-8_wp  !! what may be missing to a maximum of the force, of it [1]
    integer, parameter :: n_search = 24            !! places looked at in search of a maximum
    integer, parameter :: n_halving = 3            !! one of so many is the middle
+   integer, parameter :: n_smooth = 5             !! places before the first middle
 
    !> A value and its rate.
    type :: trend_t
@@ -81,8 +83,8 @@ contains
       end do
    end subroutine find_penetration_peak
 
-   !> Maximum of the normal force within the last step: each place looked at is reached by the method
-   !> itself, so that the force is as accurate as the step.
+   !> Maximum of the normal force within the last step, first sought on its interpolant; the place that was found, and others if it
+   !> is not the one, are reached by the method itself, so that the force is as accurate as the step.
    subroutine find_force_peak(system, method, slot, item, left, right, y, ydot, peak)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(inout) :: method      !! the integrator, after a step
@@ -95,29 +97,56 @@ contains
       type(peak_t), intent(inout) :: peak               !! the greatest force that was found
 
       type(bracket_t) :: bracket
-      type(trend_t) :: here, penetration
-      real(wp) :: place, t
+      type(trend_t) :: here
+      real(wp) :: bend, place
       integer :: k, status
 
       peak%force = -1.0_wp
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          place = place_in(bracket, k)
-         t = method%step%t0 + place*method%step%h
+         call method%within(system, place, y)
+         call look_from(y, status)
+         if (status /= 0) return
+         if (missing(here, bracket) <= near_force*abs(here%value)) exit
+         call narrow(place, here, bracket)
+      end do
+      bend = bend_of(bracket)
+      bracket = bracket_t(h=method%step%h, a=left, b=right)
+      do k = 1, n_search
          call method%refine(system, place, y, status)
+         if (status == 0) call look_from(y, status)
          if (status /= 0) return
-         call system%evaluate(t, y, ydot, status)
-         if (status /= 0) return
-         call system%linkage%set_state(t, y, ydot)
-         call look(system, slot, item, here, penetration)
          if (here%value > peak%force) then
-            peak%t = t
+            peak%t = method%step%t0 + place*method%step%h
             peak%force = here%value
             peak%y = y
          end if
          if (missing(here, bracket) <= near_force*abs(here%value)) exit
+         if (0.5_wp*here%rate**2 <= near_force*abs(here%value)*bend) exit
          call narrow(place, here, bracket)
+         if (abs(here%rate) < bend*method%step%h) place = place + here%rate/(bend*method%step%h)
+         if (place <= bracket%place_a .or. place >= bracket%place_b) place = place_in(bracket, k)
       end do
+
+   contains
+
+      !> The force at a place, with the accelerations there.
+      subroutine look_from(state, status)
+         real(wp), intent(in) :: state(:)  !! (n) state at the place [any]
+         integer, intent(out) :: status    !! of the evaluation
+
+         type(trend_t) :: penetration
+         real(wp) :: t
+
+         t = method%step%t0 + place*method%step%h
+         call system%evaluate(t, state, ydot, status)
+         method%count%n_evaluations = method%count%n_evaluations + 1
+         if (status /= 0) return
+         call system%linkage%set_state(t, state, ydot)
+         call look(system, slot, item, here, penetration)
+      end subroutine look_from
+
    end subroutine find_force_peak
 
    !> Put a peak in its place in a list, by time; one at a time that is there already is told with it.
@@ -174,15 +203,22 @@ contains
       end if
    end subroutine narrow
 
-   !> What is missing to the maximum of a parabola with the curvature of the bracket.
-   pure real(wp) function missing(here, bracket) result(rest)
-      type(trend_t), intent(in) :: here        !! a place between
+   !> How fast the rate falls on average within a bracket; it rises at one end and falls at the other.
+   pure real(wp) function bend_of(bracket) result(bend)
       type(bracket_t), intent(in) :: bracket   !! the bracket
 
       real(wp) :: time  ! length of the bracket [s]
 
       time = (bracket%place_b - bracket%place_a)*bracket%h
-      rest = 0.5_wp*here%rate**2*time/max(bracket%a%rate - bracket%b%rate, tiny(1.0_wp))
+      bend = max(bracket%a%rate - bracket%b%rate, tiny(1.0_wp))/time
+   end function bend_of
+
+   !> What is missing to the maximum of a parabola with the curvature of the bracket.
+   pure real(wp) function missing(here, bracket) result(rest)
+      type(trend_t), intent(in) :: here        !! a place between
+      type(bracket_t), intent(in) :: bracket   !! the bracket
+
+      rest = 0.5_wp*here%rate**2/bend_of(bracket)
    end function missing
 
    !> Place to look at: the maximum of the cubic, or now and then the middle.
@@ -190,7 +226,7 @@ contains
       type(bracket_t), intent(in) :: bracket   !! the bracket
       integer, intent(in) :: k                 !! number of the place, from 1
 
-      if (modulo(k, n_halving) == 0) then
+      if (k > n_smooth .and. modulo(k, n_halving) == 0) then
          place = 0.5_wp*(bracket%place_a + bracket%place_b)
       else
          place = maximum_in(bracket)

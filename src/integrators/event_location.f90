@@ -22,7 +22,7 @@ module event_location
    integer, parameter :: n_sample = 8      !! places of a step looked at, at least
    integer, parameter :: n_bisect = 30     !! halvings in search of a maximum on the interpolant
    integer, parameter :: n_narrow = 72     !! places looked at to narrow the bracket of an event, at most
-   real(wp), parameter :: narrow_enough = 2.0_wp**(-18)  !! width of that bracket: re-stepping does the rest [1]
+   real(wp), parameter :: narrow_enough = 2.0_wp**(-28)  !! width of that bracket: re-stepping does the rest [1]
    real(wp), parameter :: round_off = 100.0_wp  !! spacings of time: events closer than this are one [1]
 
 contains

@@ -14,6 +14,7 @@ module integrator
    implicit none (type, external)
    private
    public :: integrator_t
+   public :: event_values_t
    public :: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations
    public :: advance_too_many_steps, advance_too_small
    public :: steps_any, steps_fixed, steps_variable

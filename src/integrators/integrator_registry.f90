@@ -2,6 +2,7 @@
 module integrator_registry
    use adams, only: adams_t
    use bdf, only: bdf_t
+   use dop853, only: dop853_t
    use ida, only: ida_t
    use integrator, only: integrator_t
    use kind_info, only: kind_info_t
@@ -11,7 +12,7 @@ module integrator_registry
    private
    public :: find_integrator, n_integrator_kinds, new_integrator
 
-   integer, parameter :: n_integrator_kinds = 5  !! number of methods
+   integer, parameter :: n_integrator_kinds = 6  !! number of methods
 
 contains
 
@@ -22,10 +23,11 @@ contains
 
       select case (k)
       case (1); allocate (verner_t :: method)
-      case (2); allocate (rk4_t :: method)
-      case (3); allocate (adams_t :: method)
-      case (4); allocate (bdf_t :: method)
-      case (5); allocate (ida_t :: method)
+      case (2); allocate (dop853_t :: method)
+      case (3); allocate (rk4_t :: method)
+      case (4); allocate (adams_t :: method)
+      case (5); allocate (bdf_t :: method)
+      case (6); allocate (ida_t :: method)
       end select
    end subroutine new_integrator
 

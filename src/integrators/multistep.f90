@@ -271,6 +271,13 @@ contains
          low = high
          high = 1.0_wp
          if (all(self%events%g1 <= self%events%threshold)) return
+      else if (status == 0 .and. system%holds) then
+         ! nor earlier
+         call look(low)
+         if (any(self%events%g > 0.0_wp)) then
+            high = low
+            low = 0.0_wp
+         end if
       end if
       do i = 1, n_halving
          if (status /= 0 .or. (high - low)*self%last%h_whole <= eps*abs(self%step%t0 + high*self%last%h_whole)) exit

@@ -1,8 +1,6 @@
 !> One-step methods: step control, events by re-stepping, checkpoints. A method adds its stages.
 !>
-!> A step is accepted if the norm of the error estimate is at most TOL. The next step is
-!> 0.9 (TOL / estimate)^(1/p) times the present one, p the order of the method, not more than 4
-!> times, not less than a tenth, and does not grow right after a rejection. Fixed steps have no
+!> A step is accepted if the norm of the error estimate is at most TOL; its length is that of `step_control`. Fixed steps have no
 !> estimate; only the last one before a stop or an event is shorter.
 !>
 !> Events: the bracket from the interpolant is closed in on by Newton's iteration on the length of
@@ -10,26 +8,23 @@
 !> time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
    use event_location, only: find_first_event
+   use event_prediction, only: time_to_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations
    use integrator, only: advance_too_many_steps, advance_too_small, integrator_t
    use integrator_controls, only: onset_located, onset_reject
    use kinds, only: eps, wp
-   use memory, only: get, put
    use ode_system, only: ode_system_t
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
+   use step_control, only: n_control_number, step_control_t
    implicit none (type, external)
    private
    public :: one_step_t
 
-   real(wp), parameter :: safety = 0.9_wp         !! of the step that the estimate would allow [1]
-   real(wp), parameter :: growth = 4.0_wp         !! greatest ratio of successive steps [1]
-   real(wp), parameter :: shrinkage = 0.1_wp      !! least ratio of successive steps [1]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
 
    !> A one-step method.
    type, abstract, extends(integrator_t) :: one_step_t
-      real(wp) :: h_next = 0.0_wp      !! step to try next [s]
-      real(wp) :: h_before = 0.0_wp    !! step before a disturbance began, 0: none [s]
+      type(step_control_t) :: pace     !! length of the steps
       integer :: order = 1             !! order of the method; the estimate falls as the step to this power
       integer :: n_new_stage = 0       !! evaluations of `make_stages`
    contains
@@ -106,13 +101,12 @@ contains
       self%step%t0 = t
       self%step%h = 0.0_wp
       self%step%y1 = y
-      self%h_next = 0.0_wp
-      self%h_before = 0.0_wp
+      self%pace = step_control_t(order=real(self%order, wp))
       call self%restart(system, 0.0_wp, status)
       if (status /= advance_step) return
-      self%h_next = self%controls%initial_step
-      if (self%controls%fixed_step > 0.0_wp) self%h_next = self%controls%fixed_step
-      if (self%h_next <= 0.0_wp) call choose_first_step(self, system, t_end)
+      self%pace%h_next = self%controls%initial_step
+      if (self%controls%fixed_step > 0.0_wp) self%pace%h_next = self%controls%fixed_step
+      if (self%pace%h_next <= 0.0_wp) call choose_first_step(self, system, t_end)
    end subroutine one_step_start
 
    !> First step: where a first-order change would reach a hundredth of the scales, reduced for the tolerance.
@@ -127,8 +121,9 @@ contains
       n = system%n - system%n_quadrature
       call system%weights(self%step%y1, self%scale)
       rate = maxval(abs(self%step%f1(1:n))/self%scale(1:n))
-      self%h_next = 0.1_wp*(t_end - self%t)
-      if (rate > 0.0_wp) self%h_next = min(self%h_next, self%controls%tolerance**(1.0_wp/real(self%order, wp))/rate)
+      self%pace%h_next = 0.1_wp*(t_end - self%t)
+      if (rate <= 0.0_wp) return
+      self%pace%h_next = min(self%pace%h_next, self%controls%tolerance**(1.0_wp/real(self%order, wp))/rate)
    end subroutine choose_first_step
 
    !> Evaluate anew at the present state.
@@ -147,13 +142,7 @@ contains
       status = advance_step
       if (system%n_event > 0) call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call begin_control(system, self)
-      if (step_hint > 0.0_wp) then
-         self%h_before = max(self%h_before, self%h_next)
-         self%h_next = min(self%h_next, step_hint)
-      else
-         self%h_next = max(self%h_before, self%h_next)
-         self%h_before = 0.0_wp
-      end if
+      call self%pace%disturb(step_hint)
    end subroutine one_step_restart
 
    !> One accepted step, to an event if there is one on the way.
@@ -164,18 +153,18 @@ contains
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
       real(wp) :: greatest, h, least, norm
-      logical :: is_fixed, is_last, was_rejected
+      logical :: is_fixed, is_last
 
       call self%begin_step()
+      call self%pace%begin()
       is_fixed = self%controls%fixed_step > 0.0_wp
-      was_rejected = .false.
       greatest = huge(1.0_wp)
       least = max(self%controls%minimum_step, 4.0_wp*eps*abs(self%step%t0), eps*eps*abs(t_stop))
       do
          call check_limits(self, status)
          if (status /= advance_step) return
-         h = max(self%h_next, least)
-         if (is_fixed) h = self%controls%fixed_step
+         h = self%controls%fixed_step
+         if (.not. is_fixed) h = max(self%pace%length(), least)
          h = min(h, greatest)
          if (self%controls%maximum_step > 0.0_wp) h = min(h, self%controls%maximum_step)
          is_last = self%step%t0 + h*(1.0_wp + 1.0e-10_wp) >= t_stop
@@ -192,14 +181,13 @@ contains
             return
          end if
          self%count%n_rejected = self%count%n_rejected + 1
-         was_rejected = .true.
          if (h <= least) then
             status = advance_too_small
             return
          end if
-         if (status /= too_deep) self%h_next = h*max(shrinkage, safety*norm**(-1.0_wp/real(self%order, wp)))
+         if (status /= too_deep) call self%pace%reject(h, norm)
       end do
-      if (.not. is_fixed) call choose_next_step(self, h, norm, was_rejected, is_last)
+      if (.not. is_fixed) call self%pace%accept(h, norm, is_last)
       self%step%h = h
       self%t = merge(t_stop, self%step%t0 + h, is_last)
       self%step%y1 = self%trial
@@ -268,24 +256,6 @@ contains
       self%count%n_evaluations = self%count%n_evaluations + 2
    end subroutine tell_step
 
-   !> Length of the next step. A step cut short by the end of a stretch says little about it.
-   pure subroutine choose_next_step(self, h, norm, was_rejected, is_last)
-      class(one_step_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: h                 !! length of the accepted step [s]
-      real(wp), intent(in) :: norm              !! norm of its error estimate over the tolerance [1]
-      logical, intent(in) :: was_rejected       !! after a rejection
-      logical, intent(in) :: is_last            !! cut short
-
-      real(wp) :: wanted
-
-      wanted = h*min(merge(1.0_wp, growth, was_rejected), safety*max(norm, tiny(1.0_wp))**(-1.0_wp/real(self%order, wp)))
-      if (is_last) then
-         self%h_next = max(self%h_next, wanted)
-      else
-         self%h_next = wanted
-      end if
-   end subroutine choose_next_step
-
    !> Events within the step.
    subroutine finish_step(self, system, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
@@ -300,6 +270,7 @@ contains
       if (system%n_event == 0) return
       call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call end_controlled_step(self)
+      self%pace%h_event = time_to_event(self%events, self%step%h)
       call find_first_event(system, self, event, low, high)
       if (event > 0) call go_to_event(self, system, low, high, event, status)
       if (self%controls%onset /= onset_located .and. status >= 0) call meet_onsets(system, self, status)
@@ -338,7 +309,7 @@ contains
    integer function one_step_memory_size(self) result(n)
       class(one_step_t), intent(in) :: self  !! the integrator
 
-      n = self%base_memory_size() + 2
+      n = self%base_memory_size() + n_control_number
    end function one_step_memory_size
 
    !> Write what the integrator remembers.
@@ -348,7 +319,7 @@ contains
       integer, intent(inout) :: place         !! last place used
 
       call self%save_base(row, place)
-      call put(row, place, [self%h_next, self%h_before])
+      call self%pace%save(row, place)
    end subroutine one_step_save
 
    !> Read what the integrator remembers.
@@ -358,8 +329,7 @@ contains
       integer, intent(inout) :: place           !! last place used
 
       call self%load_base(row, place)
-      call get(row, place, self%h_next)
-      call get(row, place, self%h_before)
+      call self%pace%load(row, place)
    end subroutine one_step_load
 
 end module one_step

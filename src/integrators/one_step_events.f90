@@ -4,6 +4,8 @@ submodule(one_step) one_step_events
    implicit none (type, external)
 
    real(wp), parameter :: near = 1.0e-9_wp   !! of a step: corrections below it may be noise [1]
+   real(wp), parameter :: zero = 0.25_wp     !! of a function's noise: what is below is zero [1]
+   real(wp), parameter :: straight = 1.0e-3_wp !! of the tolerance: what a path may bend on the rest of the way to an event [1]
    integer, parameter :: n_newton = 16       !! re-steps towards an event
    integer, parameter :: n_halving = 60      !! halvings if these do not converge
 
@@ -44,8 +46,10 @@ contains
       if (status == 0) call self%look_at_events(system, self%step%t0 + h, self%trial, self%events%g, self%events%rate)
    end subroutine step_by
 
-   !> Newton's iteration on the length of the step towards an event. Where another function has clearly been above its threshold
-   !> for longer, it goes on towards that one.
+   !> Newton's iteration on the length of the step towards an event, its tangent bent as the cubic of Hermite through the start of
+   !> the step is: from a place that the interpolant foretold the first correction is the last one, and often so small that the
+   !> derivative leads there. Where another function has
+   !> clearly been above its threshold for longer, it goes on towards that one.
    subroutine close_in(self, system, event, low, high, h, is_found, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -74,10 +78,18 @@ contains
             before = huge(1.0_wp)
          end if
          if (self%events%rate(event) <= 0.0_wp) exit
-         h_new = h - self%events%g(event)/self%events%rate(event)
+         h_new = h + correction(self, event, h)
          ! at round-off the function no longer falls
          is_found = abs(h_new - h) <= near*full .and. abs(self%events%g(event)) >= 0.25_wp*before
+         is_found = is_found .or. abs(self%events%g(event)) <= zero*self%events%noise(event)
          is_found = is_found .or. abs(h_new - h) <= eps*h
+         if (.not. is_found .and. is_straight(self, system, event, h, h_new)) then
+            call go_straight(self, system, h, h_new, status)
+            if (status /= 0) exit
+            h = h_new
+            is_found = abs(self%events%g(event)) <= self%events%noise(event)
+            if (.not. is_found) h_new = h + correction(self, event, h)
+         end if
          if (is_found .or. h_new <= 0.0_wp .or. h_new > 1.5_wp*full) exit
          before = abs(self%events%g(event))
          h_before = h
@@ -93,6 +105,49 @@ contains
       if (is_found) is_found = .not. any(self%events%g - self%events%noise > near*full*abs(self%events%rate) .and. &
                                                 [(i /= event, i=1, size(self%events%g))])
    end subroutine close_in
+
+   !> Whether the derivative leads on to where the event is. Only of functions with known noise it can be told that it did.
+   pure logical function is_straight(self, system, event, h, h_new)
+      class(one_step_t), intent(in) :: self      !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      integer, intent(in) :: event               !! the event function
+      real(wp), intent(in) :: h                  !! length of the part [s]
+      real(wp), intent(in) :: h_new              !! length up to the event [s]
+
+      is_straight = self%controls%fixed_step <= 0.0_wp .and. .not. system%holds .and. self%events%noise(event) > 0.0_wp
+      is_straight = is_straight .and. (h_new - h)**2 <= straight*self%controls%tolerance*h*h
+   end function is_straight
+
+   !> From the end of a part of a step on to where the event is, along the derivative: by so little that the path does not bend.
+   subroutine go_straight(self, system, h, h_new, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator, `trial` at the end of the part; then at the event
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the part [s]
+      real(wp), intent(in) :: h_new                 !! length up to the event [s]
+      integer, intent(out) :: status                !! of the evaluation
+
+      call system%evaluate(self%step%t0 + h, self%trial, self%scratch, status)
+      self%count%n_evaluations = self%count%n_evaluations + 1
+      if (status /= 0) return
+      self%trial = self%trial + (h_new - h)*self%scratch
+      call self%look_at_events(system, self%step%t0 + h_new, self%trial, self%events%g, self%events%rate)
+   end subroutine go_straight
+
+   !> What is left to the zero of an event function at the end of a step, to second order: g + g' d + g'' d^2/2 = 0.
+   pure real(wp) function correction(self, event, h) result(d)
+      class(one_step_t), intent(in) :: self   !! the integrator, event functions looked at
+      integer, intent(in) :: event            !! the event function, rising
+      real(wp), intent(in) :: h               !! length of the step [s]
+
+      real(wp) :: bend, g_0
+
+      associate (events => self%events, g => self%events%g(event), rate => self%events%rate(event))
+         g_0 = events%g0(event) - events%threshold(event)
+         bend = (6.0_wp*(g_0 - g)/h + 2.0_wp*events%rate0(event) + 4.0_wp*rate)/h
+         d = -g/rate
+         if (abs(bend*d) < 0.5_wp*rate) d = d - 0.5_wp*bend*d*d/rate
+      end associate
+   end function correction
 
    !> A grazing contact, or a function that came and went before: halve between "none positive" and "one positive".
    subroutine halve(self, system, high, h, event, is_found, status)

@@ -23,10 +23,15 @@ from support import Run, plain_deck, written  # noqa: E402
 
 BOUND = 200.0  # most nanoseconds per right-hand side with the ledger off
 TOLERANCES = [f"1e-{k}" for k in range(4, 13)]
-COLUMNS = ("program", "ledger", "tolerance", "steps", "rejected", "rhs", "cpu_us", "ns_per_rhs", "ns_least",
+COLUMNS = ("program", "ledger", "method", "tolerance", "steps", "rejected", "rhs", "cpu_us", "ns_per_rhs", "ns_least",
            "error_onsets", "error_speeds", "error_forces", "residual")
-TITLES = {"gudgeon on": "gudgeon, with energy ledger", "gudgeon off": "gudgeon, ledger off",
-          "hand-coded -": "hand-coded minimal coordinates"}
+METHODS = ("verner", "dop853")
+KINDS = [("gudgeon", ledger, method) for method in METHODS for ledger in ("on", "off")] + [("hand-coded", "-", "verner")]
+TITLES = {("gudgeon", "on", "verner"): "gudgeon, verner, with energy ledger", ("gudgeon", "off", "verner"): "gudgeon, verner, ledger off",
+          ("gudgeon", "on", "dop853"): "gudgeon, dop853, with energy ledger", ("gudgeon", "off", "dop853"): "gudgeon, dop853, ledger off",
+          ("hand-coded", "-", "verner"): "hand-coded minimal coordinates"}
+STYLES = {kind: style for kind, style in zip(KINDS, ((7, "#0072b2"), (5, "#d55e00"), (6, "#0072b2"), (4, "#d55e00"), (9, "#555555")))}
+COMPARED = [10.0 ** (-7.0 - k / 2.0) for k in range(7)]  # errors of onsets at which times are compared [s]
 
 
 def deck(directory, ledger, end="24 ms"):
@@ -36,9 +41,9 @@ def deck(directory, ledger, end="24 ms"):
     return written(directory, plain_deck(changes), f"ledger_{ledger}_{end.replace(' ', '')}.deck")
 
 
-def command(program, scene, tolerance, out):
+def command(program, scene, method, tolerance, out):
     """The command line of one run."""
-    return [str(program), "run", str(scene), "--tolerance", tolerance, "--quiet", "--json", "--out", str(out)]
+    return [str(program), "run", str(scene), "--method", method, "--tolerance", tolerance, "--quiet", "--json", "--out", str(out)]
 
 
 def greatest(run, field, count, relative):
@@ -50,15 +55,15 @@ def greatest(run, field, count, relative):
     return max(abs(a - b) / (abs(b) if relative else 1.0) for a, b in zip(found, reference))
 
 
-def gudgeon_run(program, directory, ledger, tolerance):
+def gudgeon_run(program, directory, ledger, method, tolerance):
     """One run: its CPU time [s], counts and errors."""
-    out = directory / f"{ledger}_{tolerance}"
-    done = subprocess.run(command(program, deck(directory, ledger), tolerance, out), capture_output=True, text=True)
+    out = directory / f"{ledger}_{method}_{tolerance}"
+    done = subprocess.run(command(program, deck(directory, ledger), method, tolerance, out), capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"gudgeon ended with code {done.returncode} at tolerance {tolerance}:\n{done.stderr}")
     run = Run(out)
     row = {
-        "program": "gudgeon", "ledger": ledger, "tolerance": tolerance, "steps": run.summary["steps"],
+        "program": "gudgeon", "ledger": ledger, "method": method, "tolerance": tolerance, "steps": run.summary["steps"],
         "rejected": run.summary["rejected_steps"], "rhs": run.summary["rhs_evaluations"],
         "error_onsets": greatest(run, "time", 10, False),
         "error_speeds": greatest(run, "impact_speed", 5, True),
@@ -76,13 +81,13 @@ def measured_rows(program, hand_coded, directory, tolerances, repeat):
     for k in range(repeat):
         print(f"bench: round {k + 1} of {repeat}", file=sys.stderr)
         for row in hand_coded_rows(hand_coded, 0.01):
-            key = row["tolerance"], "-"
+            key = row["tolerance"], KINDS[-1]
             rows[key] = row
             cpu.setdefault(key, []).append(row["cpu_us"] / 1e6)
         for tolerance in tolerances:
-            for ledger in ("on", "off"):
-                seconds, rows[tolerance, ledger] = gudgeon_run(program, directory, ledger, tolerance)
-                cpu.setdefault((tolerance, ledger), []).append(seconds)
+            for kind in KINDS[:-1]:
+                seconds, rows[tolerance, kind] = gudgeon_run(program, directory, kind[1], kind[2], tolerance)
+                cpu.setdefault((tolerance, kind), []).append(seconds)
     for key, row in rows.items():
         row["cpu_us"] = 1e6 * statistics.median(cpu[key])
         row["ns_per_rhs"] = 1e3 * row["cpu_us"] / row["rhs"]
@@ -98,7 +103,7 @@ def hand_coded_rows(program, seconds):
         found = dict(zip(names, line))
         exponent = round(-math.log10(float(found["tolerance"])))
         yield {
-            "program": "hand-coded", "ledger": "-", "tolerance": f"1e-{exponent}", "steps": int(found["steps"]),
+            "program": "hand-coded", "ledger": "-", "method": "verner", "tolerance": f"1e-{exponent}", "steps": int(found["steps"]),
             "rejected": int(found["rejected"]), "rhs": int(found["rhs"]), "cpu_us": float(found["cpu_us"]),
             "error_onsets": float(found["error_10"]), "error_speeds": float(found["speeds"]), "error_forces": math.nan,
             "residual": math.nan,
@@ -115,14 +120,14 @@ def cell(value):
 
 
 def show(rows):
-    """The table: for each tolerance gudgeon with and without ledger, and the hand-coded program."""
-    heads = ("program", "ledger", "tol", "steps", "rejected", "rhs", "CPU [us]", "ns/rhs", "least", "onsets [s]", "speeds",
+    """The table: for each tolerance gudgeon by each method, with and without ledger, and the hand-coded program."""
+    heads = ("program", "ledger", "method", "tol", "steps", "rejected", "rhs", "CPU [us]", "ns/rhs", "least", "onsets [s]", "speeds",
              "forces", "residual")
     lines = [heads] + [tuple(cell(row[column]) for column in COLUMNS) for row in rows]
     widths = [max(len(line[k]) for line in lines) for k in range(len(heads))]
     print("Dry slider-crank, 24 ms. Errors: first 10 onsets; speeds and forces of the first 5 impacts, relative.\n")
     for k, line in enumerate(lines):
-        print("  ".join(c.ljust(w) if i < 2 else c.rjust(w) for i, (c, w) in enumerate(zip(line, widths))).rstrip())
+        print("  ".join(c.ljust(w) if i < 3 else c.rjust(w) for i, (c, w) in enumerate(zip(line, widths))).rstrip())
         if k == 0 or k < len(rows) and rows[k - 1]["tolerance"] != rows[k]["tolerance"]:
             print()
 
@@ -135,16 +140,42 @@ def keep(rows, path):
         table.writerows({c: f"{v:.6g}" if isinstance(v, float) else v for c, v in row.items()} for row in rows)
 
 
+def kind_of(row):
+    """Program, ledger and method of a row."""
+    return row["program"], row["ledger"], row["method"]
+
+
+def cheapest(rows, kinds, error):
+    """Least CPU time [us] of some kinds for an error: between two tolerances of a kind logarithms go along a line."""
+    times = []
+    for kind in kinds:
+        points = sorted((math.log(row["error_onsets"]), math.log(row["cpu_us"])) for row in rows
+                        if kind_of(row) == kind and row["error_onsets"] > 0.0)
+        for (x0, y0), (x1, y1) in zip(points, points[1:]):
+            if x0 <= math.log(error) <= x1 and x1 > x0:
+                times.append(math.exp(y0 + (y1 - y0) * (math.log(error) - x0) / (x1 - x0)))
+    return min(times, default=math.nan)
+
+
+def ratios(rows):
+    """CPU time over that of the hand-coded program at the same error of onsets, 1e-7 s to 1e-10 s, means."""
+    for ledger in ("off", "on"):
+        for kinds in ([("gudgeon", ledger, method)] for method in METHODS):
+            yield ledger, kinds[0][2], statistics.mean(cheapest(rows, kinds, e) / cheapest(rows, KINDS[-1:], e) for e in COMPARED)
+        kinds = [("gudgeon", ledger, method) for method in METHODS]
+        yield ledger, "the cheaper one", statistics.mean(cheapest(rows, kinds, e) / cheapest(rows, KINDS[-1:], e) for e in COMPARED)
+
+
 def draw(rows, path):
     """CPU time against error, a line per program."""
     series = {}
     for row in rows:
         if row["error_onsets"] > 0.0:
-            series.setdefault(f"{row['program']} {row['ledger']}", []).append((row["error_onsets"], row["cpu_us"] / 1e3))
+            series.setdefault(kind_of(row), []).append((row["error_onsets"], row["cpu_us"] / 1e3))
     blocks = "".join(f"${n} << E\n" + "".join(f"{x:.4e} {y:.4e}\n" for x, y in points) + "E\n"
                      for n, points in enumerate(series.values(), 1)).replace("$", "$d")
-    curves = ", ".join(f"$d{n} using 1:2 with linespoints lw 2 pt {p} ps 1.3 lc rgb '{colour}' title '{TITLES[name]}'"
-                       for n, (name, p, colour) in enumerate(zip(series, (7, 5, 9), ("#0072b2", "#d55e00", "#555555")), 1))
+    curves = ", ".join("$d{} using 1:2 with linespoints lw 2 pt {} ps 1.3 lc rgb '{}' title '{}'".format(n, *STYLES[kind], TITLES[kind])
+                       for n, kind in enumerate(series, 1))
     script = f"""set terminal pngcairo size 900,600 font 'DejaVu Sans,11'
 set output '{path}'
 set logscale xy
@@ -165,7 +196,7 @@ def instructions(program, directory, ledger):
     for end in ("12 ms", "24 ms"):
         out = directory / f"callgrind_{ledger}_{end.split()[0]}"
         tool = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={directory / 'callgrind.out'}"]
-        done = subprocess.run(tool + command(program, deck(directory, ledger, end), "1e-8", out), capture_output=True, text=True)
+        done = subprocess.run(tool + command(program, deck(directory, ledger, end), "verner", "1e-8", out), capture_output=True, text=True)
         collected = re.search(r"Collected : (\d+)", done.stderr)
         if done.returncode != 0 or not collected:
             return None
@@ -189,8 +220,11 @@ def main():
         directory = pathlib.Path(temporary)
         measured = measured_rows(program, results / "minimal_slider_crank", directory, tolerances, given.repeat)
         for tolerance in tolerances:
-            rows += [measured[tolerance, kept] for kept in ("on", "off", "-")]
+            rows += [measured[tolerance, kind] for kind in KINDS]
         show(rows)
+        print("\nCPU time over that of the hand-coded program at the same error of onsets, mean over 1e-7 s to 1e-10 s:")
+        for ledger, method, ratio in ratios(rows):
+            print(f"  ledger {ledger}, {method}: {ratio:.2f}")
         keep(rows, results / "slider_crank_dry.csv")
         if shutil.which("gnuplot"):
             draw(rows, results / "slider_crank_dry.png")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support import at_instants, call, changed, scratch, written
 
-METHODS = ["verner", "adams", "bdf", "ida", "rk4"]
+METHODS = ["verner", "dop853", "adams", "bdf", "ida", "rk4"]
 
 # One mass on a guide along x, free or on a spring.
 MASS = """deck = 1
@@ -231,7 +231,7 @@ every = 1 s
 """
 
 
-@pytest.mark.parametrize("name", ["verner", "adams", "bdf"])
+@pytest.mark.parametrize("name", ["verner", "dop853", "adams", "bdf"])
 def test_wall_that_comes_and_goes(gudgeon, name):
     """A wall is at the ball for some milliseconds of 3 s, between two output instants. The onset is that of the wall's motion."""
     *_, file = run(gudgeon, WALL, "--method", name)
@@ -305,7 +305,7 @@ every = 10 ms
 """
 
 
-@pytest.mark.parametrize("name", ["verner", "adams", "bdf"])
+@pytest.mark.parametrize("name", ["verner", "dop853", "adams", "bdf"])
 def test_load_that_tears_a_contact_loose(gudgeon, name):
     """4 N are held by friction of 5 N; 7 N from 1 s on are not: it slips from that instant, at 2 m/s^2."""
     *_, file = run(gudgeon, STICK, "--method", name)

@@ -127,8 +127,8 @@ contains
          if (present(floor)) method%controls%floor = floor
          call method%start(system, t, y, t + 100.0_wp*h, status)
          call method%advance(system, t + 100.0_wp*h, status)
-         if (method%count%n_rejected == 0 .and. method%h_next < 3.99_wp*h) then
-            estimate = tolerance*(0.9_wp*h/method%h_next)**6
+         if (method%count%n_rejected == 0 .and. method%pace%h_next < 3.99_wp*h) then
+            estimate = tolerance*(0.9_wp*h/method%pace%h_next)**6
             return
          end if
          deallocate (method)

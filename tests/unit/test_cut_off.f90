@@ -19,7 +19,7 @@ module test_cut_off
       "[clearance.plane]"//nl//"name plane ball axis axis_angle[deg] radius[mm] material law"//nl// &
       "stop wall centre x 180 10 steel law"//nl// &
       "[contact.kelvin_voigt]"//nl//"name stiffness[N/m] restitution form"//nl//"law 2e6 0.2 dashpot"//nl
-   character(*), parameter :: methods(4) = [character(6) :: "verner", "adams", "bdf", "ida"]
+   character(*), parameter :: methods(5) = [character(6) :: "verner", "dop853", "adams", "bdf", "ida"]
    real(wp), parameter :: mass = 0.5_wp, speed = 2.0_wp, gap = 1.0e-3_wp, stiffness = 2.0e6_wp  !! [kg, m/s, m, N/m]
 
 contains

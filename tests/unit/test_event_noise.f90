@@ -12,7 +12,7 @@ module test_event_noise
 
    integer, parameter :: n_wall = 30         !! walls at one place
    integer, parameter :: most_steps = 20000  !! more are an endless loop
-   character(6), parameter :: methods(5) = [character(6) :: "verner", "rk4", "adams", "bdf", "ida"]  !! the methods
+   character(6), parameter :: methods(6) = [character(6) :: "verner", "dop853", "rk4", "adams", "bdf", "ida"]  !! the methods
 
    !> Particles whose distances from walls are differences of large numbers.
    type, extends(particles_t) :: distant_t

@@ -48,9 +48,9 @@ contains
       call settings_of(split_blank("verner.* verner.projection"), settings)
       call check_equal(error, size(settings), 7, "all ways, one of them named twice")
       call settings_of(split_blank("*"), settings)
-      call check_equal(error, size(settings), 5, "all methods")
+      call check_equal(error, size(settings), 6, "all methods")
       call settings_of(split_blank("*.none.*"), settings)
-      call check_equal(error, size(settings), 25, "all methods and solvers")
+      call check_equal(error, size(settings), 30, "all methods and solvers")
    end subroutine test_words
 
    !> A wrong part is told with the nearest word.

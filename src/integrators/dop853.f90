@@ -1,0 +1,301 @@
+!> Dormand and Prince's Runge-Kutta method of order 8 with error estimates of orders 5 and 3: DOP853.
+!>
+!> Twelve stages and the derivative at the end, which is the first stage of the next step. With E_5 and E_3 the norms of the two
+!> estimates the error is
+!>
+!> $$ E = E_5^2 / \sqrt{E_5^2 + E_3^2/100} $$
+!>
+!> of order 8 in the step. Output between steps is of order 7, by three more stages; until it is asked for, and for the search of
+!> events, the step is the quintic of `interpolation`. Steps and events: see `one_step`. For tight tolerances: below about 1e-6 it
+!> takes fewer evaluations than methods of order 6.
+!>
+!> Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.5 and II.6,
+!> with the coefficients of their code DOP853. Limits: not for stiff equations.
+module dop853
+   use integrator_controls, only: norm_euclidean
+   use interpolation, only: interpolate
+   use kind_info, only: kind_info_t
+   use kinds, only: wp
+   use ode_system, only: ode_system_t
+   use one_step, only: one_step_t
+   implicit none (type, external)
+   private
+   public :: dop853_t
+
+   real(wp), parameter :: c(2:12) = [0.05260015195876773_wp, 0.0789002279381516_wp, 0.1183503419072274_wp, &
+      0.2816496580927726_wp, 1.0_wp/3.0_wp, 1.0_wp/4.0_wp, 4.0_wp/13.0_wp, 127.0_wp/195.0_wp, 3.0_wp/5.0_wp, 6.0_wp/7.0_wp, &
+      1.0_wp]  !! places of the stages [1]
+   real(wp), parameter :: a2(1) = [0.05260015195876773_wp]  !! stage 2 [1]
+   real(wp), parameter :: a3(2) = [0.0197250569845379_wp, 0.0591751709536137_wp]  !! stage 3 [1]
+   real(wp), parameter :: a4(3) = [0.02958758547680685_wp, 0.0_wp, 0.08876275643042054_wp]  !! stage 4 [1]
+   real(wp), parameter :: a5(4) = [0.2413651341592667_wp, 0.0_wp, -0.8845494793282861_wp, &
+      0.924834003261792_wp]  !! stage 5 [1]
+   real(wp), parameter :: a6(5) = [1.0_wp/27.0_wp, 0.0_wp, 0.0_wp, 0.17082860872947386_wp, &
+      0.12546768756682242_wp]  !! stage 6 [1]
+   real(wp), parameter :: a7(6) = [19.0_wp/512.0_wp, 0.0_wp, 0.0_wp, 0.17025221101954405_wp, 0.06021653898045596_wp, &
+      -9.0_wp/512.0_wp]  !! stage 7 [1]
+   real(wp), parameter :: a8(7) = [0.03709200011850479_wp, 0.0_wp, 0.0_wp, 0.17038392571223998_wp, 0.10726203044637328_wp, &
+      -0.015319437748624402_wp, 0.008273789163814023_wp]  !! stage 8 [1]
+   real(wp), parameter :: a9(8) = [0.6241109587160757_wp, 0.0_wp, 0.0_wp, -3.3608926294469414_wp, -0.868219346841726_wp, &
+      27.59209969944671_wp, 20.154067550477894_wp, -43.48988418106996_wp]  !! stage 9 [1]
+   real(wp), parameter :: a10(9) = [0.47766253643826434_wp, 0.0_wp, 0.0_wp, -2.4881146199716677_wp, -0.590290826836843_wp, &
+      21.230051448181193_wp, 15.279233632882423_wp, -33.28821096898486_wp, -0.020331201708508627_wp]  !! stage 10 [1]
+   real(wp), parameter :: a11(10) = [-0.9371424300859873_wp, 0.0_wp, 0.0_wp, 5.186372428844064_wp, 1.0914373489967295_wp, &
+      -8.149787010746927_wp, -18.52006565999696_wp, 22.739487099350505_wp, 2.4936055526796523_wp, &
+      -3.0467644718982196_wp]  !! stage 11 [1]
+   real(wp), parameter :: a12(11) = [2.273310147516538_wp, 0.0_wp, 0.0_wp, -10.53449546673725_wp, -2.0008720582248625_wp, &
+      -17.9589318631188_wp, 27.94888452941996_wp, -2.8589982771350235_wp, -8.87285693353063_wp, 12.360567175794303_wp, &
+      0.6433927460157636_wp]  !! stage 12 [1]
+   real(wp), parameter :: b(12) = [0.054293734116568765_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 4.450312892752409_wp, &
+      1.8915178993145003_wp, -5.801203960010585_wp, 0.3111643669578199_wp, -0.1521609496625161_wp, 0.20136540080403034_wp, &
+      0.04471061572777259_wp]  !! weights of order 8 [1]
+   real(wp), parameter :: e5(12) = [0.01312004499419488_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -1.2251564463762044_wp, &
+      -0.4957589496572502_wp, 1.6643771824549864_wp, -0.35032884874997366_wp, 0.3341791187130175_wp, 0.08192320648511571_wp, &
+      -0.022355307863886294_wp]  !! less those of order 5 [1]
+   real(wp), parameter :: e3(12) = [-0.18980075407240762_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 4.450312892752409_wp, &
+      1.8915178993145003_wp, -5.801203960010585_wp, -0.4226823213237919_wp, -0.1521609496625161_wp, 0.20136540080403034_wp, &
+      0.02265179219836082_wp]  !! less those of order 3 [1]
+   real(wp), parameter :: c_inner(3) = [1.0_wp/10.0_wp, 1.0_wp/5.0_wp, &
+      7.0_wp/9.0_wp]  !! places of the stages for interpolation [1]
+   real(wp), parameter :: a14(13) = [0.056167502283047954_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.25350021021662483_wp, &
+      -0.2462390374708025_wp, -0.12419142326381637_wp, 0.15329179827876568_wp, 0.00820105229563469_wp, &
+      0.007567897660545699_wp, -0.008298_wp]  !! stage 14 [1]
+   real(wp), parameter :: a15(14) = [0.03183464816350214_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.028300909672366776_wp, &
+      0.053541988307438566_wp, -0.05492374857139099_wp, 0.0_wp, 0.0_wp, -0.00010834732869724932_wp, 0.0003825710908356584_wp, &
+      -0.00034046500868740456_wp, 0.1413124436746325_wp]  !! stage 15 [1]
+   real(wp), parameter :: a16(15) = [-0.42889630158379194_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -4.697621415361164_wp, &
+      7.683421196062599_wp, 4.06898981839711_wp, 0.3567271874552811_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.0013990241651590145_wp, &
+      2.9475147891527724_wp, -9.15095847217987_wp]  !! stage 16 [1]
+   real(wp), parameter :: d4(16) = [-8.428938276109013_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.5667149535193777_wp, &
+      -3.0689499459498917_wp, 2.38466765651207_wp, 2.117034582445028_wp, -0.871391583777973_wp, 2.2404374302607883_wp, &
+      0.6315787787694688_wp, -0.08899033645133331_wp, 18.148505520854727_wp, -9.194632392478356_wp, &
+      -4.436036387594894_wp]  !! of the interpolant's term 4 [1]
+   real(wp), parameter :: d5(16) = [10.427508642579134_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 242.28349177525817_wp, &
+      165.20045171727028_wp, -374.5467547226902_wp, -22.113666853125306_wp, 7.733432668472264_wp, -30.674084731089398_wp, &
+      -9.332130526430229_wp, 15.697238121770845_wp, -31.139403219565178_wp, -9.35292435884448_wp, &
+      35.81684148639408_wp]  !! of the interpolant's term 5 [1]
+   real(wp), parameter :: d6(16) = [19.985053242002433_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -387.0373087493518_wp, &
+      -189.17813819516758_wp, 527.8081592054236_wp, -11.57390253995963_wp, 6.8812326946963_wp, -1.0006050966910838_wp, &
+      0.7777137798053443_wp, -2.778205752353508_wp, -60.19669523126412_wp, 84.32040550667716_wp, &
+      11.99229113618279_wp]  !! of the interpolant's term 6 [1]
+   real(wp), parameter :: d7(16) = [-25.69393346270375_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -154.18974869023643_wp, &
+      -231.5293791760455_wp, 357.6391179106141_wp, 93.40532418362432_wp, -37.45832313645163_wp, 104.0996495089623_wp, &
+      29.8402934266605_wp, -43.53345659001114_wp, 96.32455395918828_wp, -39.17726167561544_wp, &
+      -149.72683625798564_wp]  !! of the interpolant's term 7 [1]
+
+   integer, parameter :: n_new_stage = 11  !! evaluations of a trial step; the first stage is known
+   integer, parameter :: n_term = 7        !! terms of the interpolant of order 7
+
+   !> The method with its workspace.
+   type, extends(one_step_t) :: dop853_t
+      real(wp), allocatable :: k(:, :)      !! (n, 16) derivatives of the stages; the last four are for interpolation [any]
+      real(wp), allocatable :: y(:)         !! (n) state of a stage [any]
+      real(wp), allocatable :: term(:, :)   !! (n, 7) terms of the interpolant of the last step [any]
+      real(wp) :: h_stages = 0.0_wp         !! length of the step whose stages `k` holds [s]
+   contains
+      procedure, nopass :: info => dop853_info
+      procedure :: prepare => dop853_prepare
+      procedure :: make_stages => dop853_make_stages
+      procedure :: error_norm => dop853_error_norm
+      procedure :: prepare_output => dop853_prepare_output
+      procedure :: within => dop853_within
+   end type dop853_t
+
+contains
+
+   !> What the method says of itself.
+   function dop853_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "dop853"
+      info%help = "Dormand-Prince 8(5,3) as DOP853: explicit, twelve stages, for tight tolerances, events by re-stepping"
+      info%source = "Hairer, Norsett and Wanner (1993)"
+   end function dop853_info
+
+   !> Room for the stages.
+   subroutine dop853_prepare(self, n)
+      class(dop853_t), intent(inout) :: self  !! the integrator
+      integer, intent(in) :: n                !! entries of the state
+
+      self%order = 8
+      self%n_new_stage = n_new_stage
+      if (.not. allocated(self%k)) allocate (self%k(n, 16), self%y(n), self%term(n, n_term), source=0.0_wp)
+   end subroutine dop853_prepare
+
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`.
+   subroutine dop853_make_stages(self, system, h, status)
+      class(dop853_t), intent(inout) :: self        !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the step [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      integer :: n
+
+      n = size(self%y)
+      self%count%n_evaluations = self%count%n_evaluations + n_new_stage
+      self%h_stages = h
+      self%k(:, 1) = self%step%f0
+      call stage(2, 2, a2, status)
+      if (status == 0) call stage(3, 2, a3, status)
+      if (status == 0) call stage(4, 3, a4, status)
+      if (status == 0) call stage(5, 3, a5, status)
+      if (status == 0) call stage(6, 4, a6, status)
+      if (status == 0) call stage(7, 4, a7, status)
+      if (status == 0) call stage(8, 4, a8, status)
+      if (status == 0) call stage(9, 4, a9, status)
+      if (status == 0) call stage(10, 4, a10, status)
+      if (status == 0) call stage(11, 4, a11, status)
+      if (status == 0) call stage(12, 4, a12, status)
+      if (status == 0) call combine(n, 6, 12, self%step%y0, h, self%k, b, self%trial)
+
+   contains
+
+      !> One stage from the first one and those from `first` on.
+      subroutine stage(i, first, a, status)
+         integer, intent(in) :: i        !! the stage
+         integer, intent(in) :: first    !! first stage but 1 that it needs
+         real(wp), intent(in) :: a(:)    !! (i - 1) its coefficients [1]
+         integer, intent(out) :: status  !! of the evaluation
+
+         call combine(n, first, i - 1, self%step%y0, h, self%k, a, self%y)
+         call system%evaluate(self%step%t0 + c(i)*h, self%y, self%k(:, i), status)
+      end subroutine stage
+
+   end subroutine dop853_make_stages
+
+   !> y = y0 + h (w_1 k_1 + sum w_j k_j), j from first to last.
+   pure subroutine combine(n, first, last, y0, h, k, w, y)
+      integer, intent(in) :: n           !! entries of the state
+      integer, intent(in) :: first       !! first stage but 1
+      integer, intent(in) :: last        !! last stage
+      real(wp), intent(in) :: y0(n)      !! (n) state at the start [any]
+      real(wp), intent(in) :: h          !! length of the step [s]
+      real(wp), intent(in) :: k(n, 16)   !! (n, 16) derivatives [any]
+      real(wp), intent(in) :: w(last)    !! (last) weights [1]
+      real(wp), intent(out) :: y(n)      !! (n) the sum [any]
+
+      integer :: i, j
+
+      do concurrent(i=1:n)
+         y(i) = w(1)*k(i, 1)
+      end do
+      do j = first, last
+         do concurrent(i=1:n)
+            y(i) = y(i) + w(j)*k(i, j)
+         end do
+      end do
+      do concurrent(i=1:n)
+         y(i) = y0(i) + h*y(i)
+      end do
+   end subroutine combine
+
+   !> Norm of the error estimate of the trial step, over the tolerance.
+   real(wp) function dop853_error_norm(self, system, h) result(norm)
+      class(dop853_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: h                  !! length of the step [s]
+
+      real(wp) :: estimate_3, estimate_5, norm_3
+      integer :: i, j
+
+      call self%set_scales(system, self%trial)
+      norm = 0.0_wp
+      norm_3 = 0.0_wp
+      do i = 1, system%n - system%n_quadrature
+         estimate_5 = e5(1)*self%k(i, 1)
+         estimate_3 = e3(1)*self%k(i, 1)
+         do j = 6, 12
+            estimate_5 = estimate_5 + e5(j)*self%k(i, j)
+            estimate_3 = estimate_3 + e3(j)*self%k(i, j)
+         end do
+         estimate_5 = abs(estimate_5)/self%scale(i)
+         estimate_3 = abs(estimate_3)/self%scale(i)
+         if (self%controls%norm == norm_euclidean) then
+            norm = norm + estimate_5**2
+            norm_3 = norm_3 + estimate_3**2
+         else
+            if (.not. estimate_5 <= norm) norm = estimate_5  ! a NaN comes through
+            norm_3 = max(norm_3, estimate_3)
+         end if
+      end do
+      if (self%controls%norm == norm_euclidean) then
+         norm = sqrt(norm)
+         norm_3 = sqrt(norm_3)
+      end if
+      if (norm > 0.0_wp) norm = norm*(norm/hypot(norm, 0.1_wp*norm_3))
+      norm = h*norm/self%controls%tolerance
+   end function dop853_error_norm
+
+   !> The interpolant of order 7 of the last step. Stages of another length, as a search within the step leaves them, are made again.
+   subroutine dop853_prepare_output(self, system, status)
+      class(dop853_t), intent(inout) :: self        !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! of the evaluations
+
+      real(wp) :: change
+      integer :: i, n
+
+      status = 0
+      if (self%step%has_inner .or. self%step%h <= 0.0_wp) return
+      n = size(self%y)
+      self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
+      if (self%h_stages < self%step%h .or. self%h_stages > self%step%h) call self%refine(system, 1.0_wp, self%y, status)
+      self%k(:, 13) = self%step%f1
+      if (status == 0) call stage(14, a14, status)
+      if (status == 0) call stage(15, a15, status)
+      if (status == 0) call stage(16, a16, status)
+      self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
+      if (status /= 0) return
+      associate (step => self%step, k => self%k, term => self%term)
+         do i = 1, n
+            change = step%y1(i) - step%y0(i)
+            term(i, 1) = change
+            term(i, 2) = step%h*step%f0(i) - change
+            term(i, 3) = change - step%h*step%f1(i) - term(i, 2)
+            term(i, 4) = step%h*(d4(1)*k(i, 1) + dot_product(d4(6:), k(i, 6:)))
+            term(i, 5) = step%h*(d5(1)*k(i, 1) + dot_product(d5(6:), k(i, 6:)))
+            term(i, 6) = step%h*(d6(1)*k(i, 1) + dot_product(d6(6:), k(i, 6:)))
+            term(i, 7) = step%h*(d7(1)*k(i, 1) + dot_product(d7(6:), k(i, 6:)))
+         end do
+      end associate
+      self%step%has_inner = .true.
+
+   contains
+
+      !> One stage for the interpolant.
+      subroutine stage(i, a, status)
+         integer, intent(in) :: i        !! the stage
+         real(wp), intent(in) :: a(:)    !! (i - 1) its coefficients [1]
+         integer, intent(out) :: status  !! of the evaluation
+
+         call combine(n, 6, i - 1, self%step%y0, self%step%h, self%k, a, self%y)
+         call system%evaluate(self%step%t0 + c_inner(i - 13)*self%step%h, self%y, self%k(:, i), status)
+         self%count%n_evaluations = self%count%n_evaluations + 1
+      end subroutine stage
+
+   end subroutine dop853_prepare_output
+
+   !> State at a place of the last step, by interpolation: of order 7 once `prepare_output` was called.
+   subroutine dop853_within(self, system, s, y)
+      class(dop853_t), intent(in) :: self        !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+      real(wp), intent(out) :: y(:)              !! (n) state [any]
+
+      real(wp) :: factor
+      integer :: j
+
+      if (.not. self%step%has_inner) then
+         call interpolate(self%step, system%n_position, s, y)
+         return
+      end if
+      y = self%term(:, n_term)
+      do j = n_term, 1, -1
+         factor = merge(s, 1.0_wp - s, modulo(j, 2) == 1)
+         y = factor*y
+         if (j > 1) y = y + self%term(:, j - 1)
+      end do
+      y = self%step%y0 + y
+   end subroutine dop853_within
+
+end module dop853

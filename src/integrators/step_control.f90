@@ -1,0 +1,160 @@
+!> Length of the steps of a one-step method, from its error estimates and the events that are foretold.
+!>
+!> A step is accepted if the norm E of the error estimate over the tolerance is at most 1. Then h' = 0.9 E^(-1/p) h, p the order of
+!> the method, at most 4 h, at least h/10, and no more than h right after a rejection.
+!>
+!> A force like delta^1.5 that begins or ends in a step leaves an error of the order h^2.5, whatever the method. Where a step is
+!> rejected right after a restart, or across an event, 2.5 stands for p; where it is rejected again, what the two estimates show.
+!>
+!> Events: a step that would go on beyond an event foretold (`event_prediction`) ends a little behind it. If it is rejected, its
+!> estimate tells from where on a step across will do; until then each step takes a part of the way to the event. An event much
+!> nearer than a step is long is not worth one, until such a step is rejected.
+!>
+!> After a restart with a step that suits what begins, the step of before is kept for when it has ended.
+!>
+!> Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.4.
+!> Limits: without an estimate (fixed steps) nothing here is called.
+module step_control
+   use kinds, only: wp
+   use memory, only: get, put
+   implicit none (type, external)
+   private
+   public :: n_control_number, step_control_t
+
+   real(wp), parameter :: safety = 0.9_wp      !! of the step that the estimate would allow [1]
+   real(wp), parameter :: growth = 4.0_wp      !! greatest ratio of successive steps [1]
+   real(wp), parameter :: shrinkage = 0.1_wp   !! least ratio of successive steps [1]
+   real(wp), parameter :: rough = 2.5_wp       !! order where the right-hand side is not smooth [1]
+   real(wp), parameter :: behind = 1.02_wp     !! end of a step across an event, of the way to it [1]
+   real(wp), parameter :: nearer = 0.6_wp      !! end of a step towards an event, of the way to it [1]
+   real(wp), parameter :: worth = 0.01_wp      !! least part of a step that it is shortened to for an event [1]
+   integer, parameter :: n_control_number = 5  !! numbers of a checkpoint
+
+   !> The control.
+   type :: step_control_t
+      real(wp) :: order = 1.0_wp                  !! p of the method [1]
+      real(wp) :: h_next = 0.0_wp                 !! step to try next [s]
+      real(wp) :: h_before = 0.0_wp               !! step before a disturbance began, 0: none [s]
+      real(wp) :: h_event = huge(1.0_wp)          !! time to the next event foretold, huge: none [s]
+      real(wp), private :: h_across = huge(1.0_wp) !! longest step across an event that will do, as far as is known [s]
+      logical, private :: is_fresh = .true.       !! nothing was accepted since the start or a restart
+      ! of the step in hand
+      logical, private :: is_short = .false.      !! shortened for an event
+      logical, private :: is_across = .false.     !! it ends behind an event
+      real(wp), private :: h_rejected = 0.0_wp    !! length that was rejected last [s]
+      real(wp), private :: norm_rejected = 0.0_wp !! its E, 0: none, huge: not known [1]
+   contains
+      procedure :: begin => begin_step
+      procedure :: length
+      procedure :: accept
+      procedure :: reject
+      procedure :: disturb
+      procedure :: save => save_control
+      procedure :: load => load_control
+   end type step_control_t
+
+contains
+
+   !> A step begins.
+   pure subroutine begin_step(self)
+      class(step_control_t), intent(inout) :: self  !! the control
+
+      self%norm_rejected = 0.0_wp
+   end subroutine begin_step
+
+   !> Length to try.
+   real(wp) function length(self) result(h)
+      class(step_control_t), intent(inout) :: self  !! the control
+
+      h = self%h_next
+      self%is_across = behind*self%h_event < h .and. self%h_event <= self%h_across &
+                       .and. (behind*self%h_event > worth*h .or. self%h_across < huge(1.0_wp))
+      self%is_short = self%is_across .or. (nearer*self%h_event < h .and. self%h_event > min(h/behind, self%h_across))
+      if (self%is_across) then
+         h = behind*self%h_event
+      else if (self%is_short) then
+         h = nearer*self%h_event
+      end if
+   end function length
+
+   !> A step was rejected: what to try instead.
+   pure subroutine reject(self, h, norm)
+      class(step_control_t), intent(inout) :: self  !! the control
+      real(wp), intent(in) :: h                     !! its length [s]
+      real(wp), intent(in) :: norm                  !! E; huge: not known [1]
+
+      real(wp) :: power
+
+      if (self%is_across) self%h_across = h*max(shrinkage**2, safety*norm**(-1.0_wp/rough))/behind
+      power = merge(rough, self%order, self%is_fresh .or. self%is_across)
+      if (self%norm_rejected > norm .and. self%norm_rejected < huge(1.0_wp)) then
+         power = min(max(log(self%norm_rejected/norm)/log(self%h_rejected/h), 1.0_wp), self%order)
+      end if
+      if (self%is_across) then
+         self%h_next = nearer*self%h_event
+      else
+         self%h_next = h*max(shrinkage, safety*norm**(-1.0_wp/power))
+      end if
+      self%h_rejected = h
+      self%norm_rejected = norm
+   end subroutine reject
+
+   !> A step was accepted: the length of the next one. A step cut short says little about it.
+   pure subroutine accept(self, h, norm, is_last)
+      class(step_control_t), intent(inout) :: self  !! the control
+      real(wp), intent(in) :: h                     !! its length [s]
+      real(wp), intent(in) :: norm                  !! E [1]
+      logical, intent(in) :: is_last                !! cut short by the end of a stretch
+
+      real(wp) :: wanted
+
+      wanted = h*min(merge(1.0_wp, growth, self%norm_rejected > 0.0_wp), safety*max(norm, tiny(1.0_wp))**(-1.0_wp/self%order))
+      if (is_last .or. self%is_short) then
+         self%h_next = max(self%h_next, wanted)
+      else
+         self%h_next = wanted
+      end if
+      self%is_fresh = .false.
+   end subroutine accept
+
+   !> The system has changed: nothing is known of what is ahead.
+   pure subroutine disturb(self, step_hint)
+      class(step_control_t), intent(inout) :: self  !! the control
+      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before it began [s]
+
+      self%h_event = huge(1.0_wp)
+      self%h_across = huge(1.0_wp)
+      self%is_fresh = .true.
+      if (step_hint > 0.0_wp) then
+         self%h_before = max(self%h_before, self%h_next)
+         self%h_next = min(self%h_next, step_hint)
+      else
+         self%h_next = max(self%h_before, self%h_next)
+         self%h_before = 0.0_wp
+      end if
+   end subroutine disturb
+
+   !> Write what the control remembers.
+   subroutine save_control(self, row, place)
+      class(step_control_t), intent(in) :: self  !! the control
+      real(wp), intent(inout) :: row(:)          !! (any) checkpoint [any]
+      integer, intent(inout) :: place            !! last place used
+
+      call put(row, place, [self%h_next, self%h_before, self%h_event, self%h_across])
+      call put(row, place, self%is_fresh)
+   end subroutine save_control
+
+   !> Read what the control remembers.
+   subroutine load_control(self, row, place)
+      class(step_control_t), intent(inout) :: self  !! the control
+      real(wp), intent(in) :: row(:)                !! (any) checkpoint [any]
+      integer, intent(inout) :: place               !! last place used
+
+      call get(row, place, self%h_next)
+      call get(row, place, self%h_before)
+      call get(row, place, self%h_event)
+      call get(row, place, self%h_across)
+      call get(row, place, self%is_fresh)
+   end subroutine load_control
+
+end module step_control

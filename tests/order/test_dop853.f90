@@ -1,0 +1,208 @@
+!> Dormand and Prince's method: its order, its coefficients, its error estimate, its interpolant.
+module test_dop853
+   use check, only: check_close, check_equal, check_true, suite_t
+   use convergence, only: check_order, converge
+   use dop853, only: dop853_t
+   use errors, only: error_t
+   use integrator_controls, only: norm_euclidean, norm_scaled
+   use kinds, only: eps, wp
+   use ode_examples, only: kepler_t, new_kepler, new_pendulum, pendulum_t, power_t, run_to
+   implicit none (type, external)
+   private
+   public :: run_test_dop853
+
+   integer, parameter :: n_halving = 4  !! step lengths of a convergence test
+
+contains
+
+   subroutine run_test_dop853(suite)
+      type(suite_t), intent(inout) :: suite  !! where tests are registered
+
+      call suite%test("order_on_an_ellipse", test_order_on_an_ellipse)
+      call suite%test("order_on_a_pendulum", test_order_on_a_pendulum)
+      call suite%test("polynomials_up_to_degree_8_are_exact", test_polynomials)
+      call suite%test("interpolant_has_order_7", test_interpolant)
+      call suite%test("interpolant_after_a_search_within_the_step", test_after_a_search)
+      call suite%test("error_follows_the_tolerance", test_tolerance)
+      call suite%test("quadratures_stay_out_of_the_norm", test_quadratures)
+   end subroutine run_test_dop853
+
+   subroutine test_order_on_an_ellipse(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kepler_t) :: system
+      real(wp) :: errors(4, n_halving), y(4)
+
+      call new_kepler(0.1_wp, system, y)
+      call converge("dop853", system, y, 5.0_wp, system%exact(5.0_wp), 6, errors)
+      call check_order(error, norm2(errors(1:2, :), dim=1), 7.3_wp, 8.3_wp, "position")
+      call check_order(error, norm2(errors(3:4, :), dim=1), 7.3_wp, 8.3_wp, "velocity")
+      call check_true(error, maxval(errors(:, n_halving)) < 1.0e-9_wp, "small error with 48 steps")
+   end subroutine test_order_on_an_ellipse
+
+   subroutine test_order_on_a_pendulum(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(pendulum_t) :: system
+      real(wp), allocatable :: y(:)
+      real(wp) :: errors(4, n_halving)
+
+      call new_pendulum(0.9_wp, .true., system, y)
+      call converge("dop853", system, y, 5.0_wp, system%exact(5.0_wp), 8, errors)
+      call check_order(error, norm2(errors(1:2, :), dim=1), 7.2_wp, 8.6_wp, "state")
+      call check_order(error, norm2(errors(3:4, :), dim=1), 7.2_wp, 10.0_wp, "quadratures")
+   end subroutine test_order_on_a_pendulum
+
+   !> One step of a length that is no round number: weights, and places of the stages.
+   subroutine test_polynomials(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: h = 1.3_wp
+      type(power_t) :: system
+      type(dop853_t), allocatable :: method
+      real(wp) :: deviation(3), y(3)
+      character(16) :: what
+      integer :: p, status
+
+      system%n = 3
+      system%n_position = 1
+      system%n_quadrature = 1
+      do p = 1, 10
+         allocate (method)
+         system%p = p
+         method%controls%fixed_step = h
+         call method%start(system, 0.0_wp, [0.0_wp, merge(1.0_wp, 0.0_wp, p == 1), 0.0_wp], h, status)
+         call method%advance(system, h, status)
+         y = [1.0_wp, real(p, wp)/h, 1.0_wp]*h**p
+         deviation = (method%step%y1 - y)/[y(1), y(2), y(3)]
+         write (what, "(a, i0)") "degree ", p
+         if (p <= 8) call check_close(error, deviation, [0.0_wp, 0.0_wp, 0.0_wp], 100.0_wp*eps, what)
+         ! the velocity of t^9 is 9 t^8
+         if (p == 9) call check_true(error, abs(deviation(3)) > 1.0e-6_wp, "degree 9 is not exact for a quadrature")
+         if (p == 10) call check_true(error, all(abs(deviation) > 1.0e-6_wp), "degree 10 is not exact")
+         deallocate (method)
+      end do
+   end subroutine test_polynomials
+
+   !> Greatest error of the interpolant of one step of an ellipse.
+   real(wp) function interpolation_error(method, system, t) result(greatest)
+      type(dop853_t), intent(in) :: method    !! the integrator, after a step
+      type(kepler_t), intent(in) :: system    !! the system
+      real(wp), intent(in) :: t               !! time before the start of the integration [s]
+
+      integer, parameter :: n_place = 20
+      real(wp) :: y(4)
+      integer :: k
+
+      greatest = 0.0_wp
+      do k = 0, n_place
+         call method%state_at(system, method%step%t0 + method%step%h*real(k, wp)/n_place, y)
+         greatest = max(greatest, maxval(abs(y - system%exact(t + method%step%t0 + method%step%h*real(k, wp)/n_place))))
+      end do
+   end function interpolation_error
+
+   !> Within one step the error falls as h^8; without the stages of the interpolant as h^5 in velocities.
+   subroutine test_interpolant(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kepler_t) :: system
+      type(dop853_t), allocatable :: method
+      real(wp) :: poor(n_halving), rich(n_halving), y(4)
+      integer :: k, status
+
+      call new_kepler(0.3_wp, system, y)
+      do k = 1, n_halving
+         allocate (method)
+         method%controls%fixed_step = 0.8_wp/2.0_wp**(k - 1)
+         call method%start(system, 0.0_wp, y, 10.0_wp, status)
+         call method%advance(system, 10.0_wp, status)
+         poor(k) = interpolation_error(method, system, 0.0_wp)
+         call method%prepare_output(system, status)
+         call check_equal(error, status, 0, "status")
+         rich(k) = interpolation_error(method, system, 0.0_wp)
+         call check_true(error, method%count%n_output_evaluations == 3, "three evaluations")
+         call method%prepare_output(system, status)
+         call check_true(error, method%count%n_output_evaluations == 3, "once")
+         deallocate (method)
+      end do
+      call check_order(error, rich, 7.5_wp, 8.5_wp, "with its stages")
+      call check_order(error, poor, 4.5_wp, 5.5_wp, "without")
+   end subroutine test_interpolant
+
+   !> `refine` uses the room of the stages: the interpolant afterwards is the same.
+   subroutine test_after_a_search(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kepler_t) :: system
+      type(dop853_t) :: method, other
+      real(wp) :: after(4), before(4), inner(4), t, y(4)
+      integer :: status
+
+      call new_kepler(0.3_wp, system, y)
+      method%controls%tolerance = 1.0e-12_wp
+      call method%start(system, 0.0_wp, y, 2.0_wp, status)
+      call method%advance(system, 2.0_wp, status)
+      other = method
+      call other%refine(system, 0.3_wp, inner, status)
+      t = method%step%t0 + 0.3_wp*method%step%h
+      call check_close(error, inner, system%exact(t), 1.0e-12_wp, "state within")
+      call method%prepare_output(system, status)
+      call other%prepare_output(system, status)
+      call method%state_at(system, t, before)
+      call other%state_at(system, t, after)
+      call check_close(error, after, before, 0.0_wp, "interpolated state")
+      call check_close(error, other%step%y1, method%step%y1, 0.0_wp, "present state")
+   end subroutine test_after_a_search
+
+   !> Ten times the tolerance, about ten times the error, over six decades.
+   subroutine test_tolerance(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(kepler_t) :: system
+      type(dop853_t), allocatable :: method
+      real(wp) :: errors(7), y(4)
+      integer :: k, status
+
+      call new_kepler(0.5_wp, system, y)
+      do k = 1, size(errors)
+         allocate (method)
+         method%controls%tolerance = 0.1_wp**(k + 3)
+         call method%start(system, 0.0_wp, y, 20.0_wp, status)
+         call run_to(method, system, 20.0_wp, status)
+         errors(k) = norm2(method%step%y1 - system%exact(20.0_wp))
+         call check_equal(error, status, 0, "status")
+         deallocate (method)
+      end do
+      call check_true(error, all(errors(1:6) > errors(2:7)), "error falls with the tolerance")
+      call check_close(error, log10(errors(1)/errors(7)), 6.0_wp, 1.0_wp, "decades of error over six of tolerance")
+   end subroutine test_tolerance
+
+   !> Every step is the same, bit for bit, with quadratures and without.
+   subroutine test_quadratures(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(pendulum_t) :: plain, rich
+      type(dop853_t), allocatable :: first, second
+      real(wp), allocatable :: y(:), z(:)
+      integer :: k, norm, status
+
+      do norm = norm_scaled, norm_euclidean
+         allocate (first, second)
+         call new_pendulum(0.9_wp, .false., plain, y)
+         call new_pendulum(0.9_wp, .true., rich, z)
+         z(3:4) = [1.0e6_wp, -1.0e6_wp]
+         first%controls%tolerance = 1.0e-9_wp
+         first%controls%norm = norm
+         second%controls = first%controls
+         call first%start(plain, 0.0_wp, y, 60.0_wp, status)
+         call second%start(rich, 0.0_wp, z, 60.0_wp, status)
+         do k = 1, 40
+            call first%advance(plain, 60.0_wp, status)
+            call second%advance(rich, 60.0_wp, status)
+            call check_close(error, [second%t, second%step%y1(1:2)], [first%t, first%step%y1], 0.0_wp, "a step")
+         end do
+         deallocate (first, second)
+      end do
+   end subroutine test_quadratures
+
+end module test_dop853
