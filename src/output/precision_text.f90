@@ -161,9 +161,10 @@ contains
          call lines%line("horizon    "//growth_words(growth))
          words = ""
          do k = n_digit, 1, -1
-            if (.not. ieee_is_finite(growth%horizon(k))) cycle
+            if (.not. ieee_is_finite(growth%horizon(k))) exit
             words = words//", "//to_text(k)//" to "//real_text(growth%horizon(k), 3)//" s"
          end do
+         if (words /= "" .and. k > 0) words = words//", "//to_text(k)//" to the end"
          if (words == "") then
             call lines%line("           a trajectory can have "//to_text(n_digit)//" digits up to the end of the run")
          else
