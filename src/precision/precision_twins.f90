@@ -14,6 +14,7 @@ module precision_twins
    integer, parameter :: wanted = 3      !! twins
    real(wp), parameter :: tight = 0.1_wp !! greatest tolerance of twins, of the perturbation [1]
    integer, parameter :: attempts = 6    !! perturbed starts that are tried
+   real(wp), parameter :: left = 1.0e-5_wp !! least part of the perturbation that constraints leave where something is free [1]
 
 contains
 
@@ -59,7 +60,7 @@ contains
          call run_setting(job, base%setting, base%asked, twin, outcome)
          if (outcome%reason /= "" .or. twin%n /= base%run%n) cycle
          distance = motion_of(twin, base)
-         if (distance(1) <= 0.0_wp) cycle
+         if (distance(1) <= left*perturbation) cycle
          n = n + 1
          ratio(:, n) = distance/distance(1)
          greatest = max(greatest, distance(1))
@@ -80,7 +81,7 @@ contains
       type(outcome_t), intent(in) :: outcome     !! of the last perturbed start
       character(:), allocatable :: reason        !! in words
 
-      reason = "no perturbed start gave another motion: nothing is free to be moved"
+      reason = "no perturbed start gave another motion: nothing is free to be moved, or [initial.speed] holds it"
       if (.not. allocated(outcome%reason)) return
       if (outcome%reason /= "") reason = "perturbed starts failed: "//outcome%reason
    end function reason_without_twins

@@ -116,10 +116,11 @@ def test_observed_order(gudgeon, name):
 
 
 def test_regular_motion_keeps_its_digits(gudgeon):
-    """No exponential growth, and no horizon within the run."""
+    """No exponential growth, and no horizon within the run; of one in which nothing is free, or whose start
+    `[initial.speed]` holds, there are no twins."""
     for name in REGULAR:
         study = regular(gudgeon, name)
-        assert study.summary["growth"] == "power", name
+        assert study.summary["growth"] == ("" if name in ("four-bar", "slider-crank") else "power"), name
         assert study.summary["window"] == study.summary["end"], name
         assert np.isnan(study.read("twins/horizon")[:8]).all(), name
 
@@ -255,7 +256,7 @@ def test_growth_at_an_unstable_equilibrium(gudgeon):
 
 def test_errors_are_told_inside_the_horizon_only(gudgeon):
     """A slider-crank with impacts: compared as long as the reference is known to a tenth of the error wanted, and no longer."""
-    text = plain_deck([("analysis.dynamic", "end", "24 ms")])
+    text = plain_deck([("analysis.dynamic", "end", "28 ms")])
     study = compared(gudgeon, text + ladders(coarsest="1e-6", finest="1e-12", instants=200), "--methods", "verner adams")
     assert study.summary["growth"] == "exponential"
     assert 0 < study.summary["window"] < study.summary["end"]
@@ -269,6 +270,14 @@ def test_errors_are_told_inside_the_horizon_only(gudgeon):
     assert last["onsets [s]"] < 1e-7 and last["peaks"] < 1e-3 and last["restitution"] < 1e-3
     assert last["onsets [s]"] >= 0
     check_statistics(study)
+
+
+def test_settings_tell_the_same_statistics(gudgeon):
+    """Over five turns beyond what is compared. The one turn of a motion of two has too few contacts for its interval to be trusted."""
+    text = plain_deck([("analysis.dynamic", "end", "72 ms")])
+    study = compared(gudgeon, text + ladders(coarsest="1e-6", finest="1e-12", instants=200), "--methods", "verner adams")
+    for name in study.read("statistics/names"):
+        assert study.summary[name + "_apart"] <= 1, name
 
 
 def check_statistics(study):
@@ -289,7 +298,7 @@ def check_statistics(study):
             assert study.read("statistics/runs")[setting - 1, place] == chosen.sum()
             assert study.read("statistics/apart")[setting - 1, place] == (apart & chosen).sum()
             assert_close(study.read("statistics/settings")[setting - 1, place], values[chosen].mean(), 1e-12)
-        assert study.summary[name + "_apart"] == apart.sum() <= 1
+        assert study.summary[name + "_apart"] == apart.sum()
         column = next(key for key in study.rows[0] if key.startswith(name + " ["))
         assert_close([row[column] for row in study.rows], list(values), 1e-15)
     assert (study.directory / "figures" / "precision_statistics.png").stat().st_size > 10_000
