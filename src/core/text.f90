@@ -62,9 +62,9 @@ contains
       character(:), allocatable :: s  !! plain from 1e-4 up to 1e6, or as far as its digits go
 
       character(40) :: image
-      character(24) :: form
+      character(12) :: form
       character(:), allocatable :: figures, sign
-      integer :: at, power
+      integer :: at, k, power
 
       if (ieee_is_nan(x)) then
          s = "NaN"
@@ -76,11 +76,16 @@ contains
          s = sign//"Inf"
          return
       end if
-      write (form, "(a,i0,a)") "(es40.", max(digits, 1) - 1, "e4)"
+      k = max(digits, 1) - 1
+      form = "(es40."//achar(iachar("0") + k/10)//achar(iachar("0") + modulo(k, 10))//"e4)"
       write (image, form) abs(x)
       image = adjustl(image)
       at = index(image, "E")
-      read (image(at + 1:), *) power
+      power = 0  ! E, sign, four digits
+      do k = at + 2, at + 5
+         power = 10*power + iachar(image(k:k)) - iachar("0")
+      end do
+      if (image(at + 1:at + 1) == "-") power = -power
       figures = image(1:1)//image(3:at - 1)
       at = verify(figures, "0", back=.true.)
       figures = piece(figures, 1, max(at, 1))
@@ -114,12 +119,23 @@ contains
       real(wp), intent(in) :: x       !! the number [any]
       character(:), allocatable :: s  !! 15 to 17 significant digits at most
 
+      real(wp), parameter :: whole = 1.0e5_wp  ! whole numbers below it are written as such [any]
       real(wp) :: back
       integer :: digits, status
+      logical :: is_usual
 
-      s = real_text(x, 17)
-      if (.not. ieee_is_finite(x)) return
-      if (abs(x) > 1.0e308_wp) return
+      is_usual = ieee_is_finite(x)
+      if (is_usual) is_usual = abs(x) <= 1.0e308_wp  ! fewer digits of a greater one may be infinite
+      if (.not. is_usual) then
+         s = real_text(x, 17)
+         return
+      end if
+      if (abs(x) < whole) then
+         if (.not. abs(x - aint(x)) > 0.0_wp) then
+            s = integer_text(nint(x))
+            return
+         end if
+      end if
       do digits = 15, 17
          s = real_text(x, digits)
          read (s, *, iostat=status) back

@@ -56,6 +56,9 @@ contains
 
       call check_equal(error, exact_text(0.1_wp), "0.1", "one tenth")
       call check_equal(error, exact_text(-1.0e-8_wp), "-1e-8", "a small number")
+      call check_equal(error, exact_text(-40.0_wp), "-40", "a whole number")
+      call check_equal(error, exact_text(100000.0_wp), "100000", "a greater one")
+      call check_equal(error, exact_text(1.5e22_wp), "1.5e22", "one with an exponent")
       x = 0.7312890625_wp
       do i = 1, 2000
          x = x*1.37_wp
