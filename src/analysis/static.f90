@@ -16,6 +16,7 @@ module static
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
    use mobility, only: moving_bodies
+   use linearised, only: linearised_t
    use mechanism_energy, only: energy_of, energy_t
    use mechanism_report, only: build_catalogue, fill_catalogue
    use mechanism, only: mechanism_t
@@ -27,7 +28,9 @@ module static
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, &
       square_frequencies
    use static_relaxation, only: least_unbalance, relax
+   use steady_stability, only: find_eigenvalues, gather_films, is_steady, mode_words, no_growth
    use text, only: append_text, real_text, to_text
+   use whirl_onset, only: find_onset
    implicit none (type, external)
    private
    public :: equilibrium_t, find_equilibrium, record_equilibrium
@@ -50,6 +53,7 @@ module static
       integer :: steps = 0                      !! steps of the descent
       integer(i8) :: n_evaluations = 0_i8       !! evaluations of the loads
       logical :: is_polished = .false.          !! KINSOL found it in the end
+      type(linearised_t) :: linear              !! with films: small motions about it
       real(wp) :: cpu_seconds = 0.0_wp          !! of the search [s]
    end type equilibrium_t
 
@@ -89,8 +93,12 @@ contains
          return
       end if
       equilibrium%q = q
+      if (system%loose%has_films) then
+         call judge_steady(scene, system, balance, equilibrium)
+      else
+         call classify(system, balance, equilibrium)
+      end if
       equilibrium%n_evaluations = balance%n_evaluations
-      call classify(system, balance, equilibrium)
       call cpu_time(cpu_1)
       equilibrium%cpu_seconds = cpu_1 - cpu_0
 
@@ -179,6 +187,47 @@ contains
       q = q_new
    end subroutine try_to_polish
 
+   !> With films: coefficients, stability by the eigenvalues, and the speed at which it changes.
+   subroutine judge_steady(scene, system, balance, equilibrium)
+      type(scene_t), intent(in) :: scene                     !! the scene
+      type(mechanism_t), intent(inout) :: system             !! the system at the equilibrium
+      type(balance_t), intent(inout) :: balance              !! there
+      type(equilibrium_t), intent(inout) :: equilibrium      !! words, warning and small motions are set
+
+      real(wp) :: floor_growth, range
+
+      equilibrium%warning = ""
+      associate (linear => equilibrium%linear)
+         call look_at(system, equilibrium%q)
+         call gather_films(system, linear%films)
+         if (.not. is_steady(system)) then
+            equilibrium%words = "of this instant only: the drivers accelerate bodies; stability is not judged"
+            return
+         end if
+         call find_eigenvalues(system, equilibrium%q, balance, linear%eigenvalues)
+         if (size(linear%eigenvalues) == 0) then
+            equilibrium%words = "stable: no body can move beside the drivers"
+            return
+         end if
+         linear%is_judged = .true.
+         floor_growth = no_growth(linear%eigenvalues)
+         if (linear%eigenvalues(1, 1) < -floor_growth) then
+            equilibrium%words = "steady and stable: a push dies, at last "//mode_words(linear)
+         else if (linear%eigenvalues(1, 1) > floor_growth) then
+            equilibrium%words = "steady but unstable: a push grows "//mode_words(linear)
+            equilibrium%warning = "the steady state is unstable: the least push grows "//mode_words(linear)
+         else
+            equilibrium%words = "steady and indifferent: a push neither grows nor dies"
+            equilibrium%warning = "the steady state is indifferent: what a push leaves behind neither grows nor dies"
+            return
+         end if
+         range = scene%settings%static%number("whirl_search")
+         if (range > 1.0_wp .and. any(abs(linear%films%journal_speed) > 0.0_wp)) then
+            call find_onset(system, equilibrium%q, equilibrium%tolerance, range, balance, linear)
+         end if
+      end associate
+   end subroutine judge_steady
+
    !> Stable, unstable or indifferent.
    subroutine classify(system, balance, equilibrium)
       type(mechanism_t), intent(in) :: system            !! the system at the equilibrium
@@ -189,10 +238,6 @@ contains
       integer :: n_flat, n_steep
 
       equilibrium%warning = ""
-      if (system%loose%has_films) then
-         equilibrium%words = "steady, with the speeds of the drivers; whether it is stable a motion in time shows"
-         return
-      end if
       associate (stiffness => balance%stiffness)
          if (size(stiffness) == 0) then
             equilibrium%words = "stable: no body can move"
@@ -290,6 +335,7 @@ contains
       summary%method%integrator = "relaxation"
       if (equilibrium%is_polished) summary%method%integrator = "kinsol"
       summary%equilibrium = equilibrium%words//"; "//real_text(equilibrium%unbalanced, 2)//" of the largest load out of balance"
+      summary%linear = equilibrium%linear
       summary%method%tolerance = equilibrium%tolerance
       summary%count%steps = int(equilibrium%steps, i8)
       summary%count%rhs_evaluations = equilibrium%n_evaluations

@@ -10,7 +10,7 @@
 !> Signs: forces and moments on the journal. Source: Flores et al. (2008), eqs. (5.23)-(5.32). Without the moments of shear what is
 !> lost may be negative: the shaft that would give the energy back is not asked for its moment. Limits: journals in the plane.
 module bearing_films
-   use film_law, only: film_bearing_t, film_law_t, film_motion_t, n_film_parameter
+   use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter
    use item, only: item_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -50,6 +50,7 @@ module bearing_films
    contains
       procedure :: bear => films_bear
       procedure :: state_of => films_state_of
+      procedure :: slopes_of => films_slopes_of
       procedure :: fades => films_fade
    end type bearing_films_t
 
@@ -248,5 +249,36 @@ contains
       call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%torque, t_b)
       state%torque = state%share*state%torque
    end function films_state_of
+
+   !> How the force of one item's film changes with a small motion of its journal. In a transition to dry contact the film's part of it
+   !> counts, and how that changes.
+   subroutine films_slopes_of(self, k, body, s_i, s_j, motion, one, slopes)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_i(3)              !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_j(3)              !! (3) centre of the journal, frame of its body [m]
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(film_motion_t), intent(out) :: one     !! motion of the bearing
+      type(film_slopes_t), intent(out) :: slopes  !! stiffness and damping
+
+      type(film_motion_t) :: films(1)
+      real(wp) :: distance, f(2, 1), s(2, 2, 1), share
+      integer :: i
+
+      call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
+                         ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, films, s)
+      one = films(1)
+      call self%law%linearise(one, self%parameters(:, k), slopes)
+      share = share_of(self%place(k), one%e)
+      slopes%stiffness = share*slopes%stiffness
+      slopes%damping = share*slopes%damping
+      if (.not. (share > 0.0_wp .and. share < 1.0_wp)) return
+      distance = norm2(one%e)
+      call self%law%force(1, films, self%parameters(:, k:k), f)
+      do i = 1, 2
+         slopes%stiffness(:, i) = slopes%stiffness(:, i) + f(:, 1)*one%e(i)/(distance*self%place(k)%depth)
+      end do
+   end subroutine films_slopes_of
 
 end module bearing_films
