@@ -13,6 +13,7 @@ module static
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
+   use film_heat, only: balance_heat
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
    use mobility, only: moving_bodies
@@ -22,7 +23,7 @@ module static
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_positions
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
-   use scene, only: scene_t
+   use scene, only: analysis_static, scene_t
    use static_kinsol, only: polish
    use static_film, only: settle_in_films
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, &
@@ -60,20 +61,24 @@ module static
 contains
 
    !> Search an equilibrium of a system of the scene.
-   subroutine find_equilibrium(scene, system, q, report, equilibrium, error)
+   subroutine find_equilibrium(scene, system, q, report, equilibrium, error, with_heat)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(mechanism_t), intent(inout) :: system        !! the system; left at the equilibrium
       real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions of the deck [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(equilibrium_t), intent(out) :: equilibrium       !! what was found
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or no equilibrium found
+      logical, intent(in), optional :: with_heat            !! films that ask for it get their temperature; absent: if the analysis
+                                                            !! is static
 
       type(balance_t) :: balance
       real(wp) :: cpu_0, cpu_1
       integer :: most
-      logical :: is_exact, is_settled
+      logical :: is_exact, is_settled, is_warm
 
       call cpu_time(cpu_0)
+      is_warm = scene%analysis == analysis_static
+      if (present(with_heat)) is_warm = with_heat
       equilibrium%tolerance = scene%settings%static%number("tolerance")
       most = nint(scene%settings%static%number("maximum_iterations"))
       call assemble_at_rest(scene, system, q, report, error)
@@ -84,6 +89,9 @@ contains
       if (system%loose%has_films) then
          call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
          is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system)
+         if (is_settled .and. is_warm) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
+                                                         equilibrium%steps, error)
+         if (allocated(error)) return
       else
          call relax_and_polish()
       end if

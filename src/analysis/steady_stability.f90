@@ -99,6 +99,9 @@ contains
       film%joint = set%names(item)%s
       film%clearance = set%items%clearance(item)
       film%eccentricity_ratio = norm2(motion%e)/film%clearance
+      film%is_heated = set%laws%films%place(item)%is_heated
+      film%temperature = set%laws%films%place(item)%temperature
+      film%viscosity = set%laws%films%bearing(item)%viscosity
       film%stiffness = slopes%stiffness
       film%damping = slopes%damping
       film%error = slopes%error

@@ -31,7 +31,7 @@ contains
       if (.not. loaded%system%loose%has_films) return
       call new_system(loaded%scene, levels_as_written, system)
       call system%linkage%deck_state(q, v)
-      call find_equilibrium(loaded%scene, system, q, assembly, equilibrium, error)
+      call find_equilibrium(loaded%scene, system, q, assembly, equilibrium, error, .true.)
       call say("")
       call say("films at their steady state, as --analysis static finds it")
       if (allocated(error)) then

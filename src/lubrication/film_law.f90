@@ -16,6 +16,7 @@
 !> every eccentricity. Source: Flores et al. (2008), chapter 5, with w_J + w_B for its relative speed: measured in the frame of the
 !> bearing, gamma' would be another one. Limits: axes parallel; viscosity the same everywhere.
 module film_law
+   use finite_flow, only: flow_part
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
@@ -23,6 +24,7 @@ module film_law
    private
    public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, n_film_parameter
    public :: own_parameters
+   public :: squeezing_velocity
    public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
 
    integer, parameter :: n_film_parameter = 32    !! numbers of a bearing that a film may keep
@@ -67,6 +69,7 @@ module film_law
       procedure(fit_interface), deferred :: fit
       procedure(force_interface), deferred :: force
       procedure :: torques => film_torques
+      procedure :: side_flow => film_side_flow
       procedure :: linearise => film_linearise
       procedure :: mistake => film_mistake
       procedure :: story => film_story
@@ -160,6 +163,35 @@ contains
       t_b = drag - half
    end subroutine film_torques
 
+   !> What leaves at both ends of one bearing: that of a bearing of its length whose pressures are not below zero (`finite_flow`),
+   !> whatever the film itself takes the ends for. A film that knows its own overrides this.
+   function film_side_flow(self, motion, parameters) result(flow)
+      class(film_law_t), intent(in) :: self                    !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      real(wp) :: flow                                         !! volume in a time [m^3/s]
+
+      real(wp) :: e(2), speed, v(2)
+
+      flow = 0.0_wp
+      v = squeezing_velocity(motion)
+      speed = norm2(v)
+      if (.not. speed > 0.0_wp) return
+      associate (radius => parameters(parameter_radius), length => parameters(parameter_length))
+         e = motion%e/parameters(parameter_clearance)
+         e = e*(min(norm2(e), parameters(parameter_eps_max))/max(norm2(e), tiny(1.0_wp)))
+         flow = 2.0_wp*length*radius*speed*flow_part(0.5_wp*length/radius, norm2(e), dot_product(e, v)/speed)
+      end associate
+   end function film_side_flow
+
+   !> The velocity that squeezes, v.
+   pure function squeezing_velocity(motion) result(v)
+      type(film_motion_t), intent(in) :: motion  !! motion of a bearing
+      real(wp) :: v(2)                           !! (2) v, world frame [m/s]
+
+      v = motion%e_dot - 0.5_wp*motion%speed_sum*[-motion%e(2), motion%e(1)]
+   end function squeezing_velocity
+
    !> Stiffness and damping at a motion, by differences of fourth order of the force; a film that knows them overrides this.
    !>
    !> Steps are 1/1000 and 1/2000 of what is left of the gap, and of the speed at which its surface would be squeezed away; the
@@ -178,7 +210,7 @@ contains
 
       associate (c => parameters(parameter_clearance))
          gap = c - min(norm2(motion%e), c*parameters(parameter_eps_max))
-         v = motion%e_dot - 0.5_wp*motion%speed_sum*[-motion%e(2), motion%e(1)]
+         v = squeezing_velocity(motion)
          speed = max(norm2(v), 0.05_wp*c*abs(motion%speed_sum))
          if (.not. speed > 0.0_wp) speed = c
          speed = speed*gap/c

@@ -1,6 +1,6 @@
 !> When a rigid rotor on a film begins to whirl: from the eight coefficients of the film, for a mass that moves in the plane.
 !>
-!> m x'' + B x' + K x = 0; where it neither grows nor dies, x = a exp(i nu t), the real and the imaginary part of the determinant are
+!> m x'' + B x' + K x = 0; where it neither grows nor dies, x = a exp(i nu t), real and imaginary part of the determinant give
 !>
 !> K_eq = m nu^2 = (Kxx Byy + Kyy Bxx - Kxy Byx - Kyx Bxy)/(Bxx + Byy)
 !> nu^2 = [ (K_eq - Kxx)(K_eq - Kyy) - Kxy Kyx ]/(Bxx Byy - Bxy Byx)

@@ -20,6 +20,9 @@ module linearised
       real(wp) :: error = 0.0_wp                    !! of the greatest entry of each, as a part of it [1]
       real(wp) :: equivalent_stiffness = 0.0_wp     !! of a rigid rotor that begins to whirl (`journal_whirl`) [N/m]
       real(wp) :: whirl_frequency = 0.0_wp          !! of that rotor; NaN: none whirls [rad/s]
+      logical :: is_heated = .false.                !! its temperature came from a balance of heat
+      real(wp) :: temperature = 0.0_wp              !! of the film; of a lubricant without a grade of no meaning [K]
+      real(wp) :: viscosity = 0.0_wp                !! that it has [Pa.s]
       real(wp) :: critical_mass = 0.0_wp            !! of that rotor, which whirls above it; NaN: none whirls [kg]
    end type film_coefficients_t
 

@@ -45,6 +45,8 @@ contains
          call put("attitude", films%attitude, "rad", "from the load to the journal's centre, the way the film is entrained")
          call put("load", films%load, "N", "size of the film's force")
          call put("journal_speed", films%journal_speed, "rad/s", "inertial speed of the journal's body")
+         call put("temperature", films%temperature, "K", "of the film; of a lubricant without a grade of no meaning")
+         call put("viscosity", films%viscosity, "Pa.s", "dynamic, that the film has")
          call put("error", films%error, "1", "of the greatest entry of stiffness and damping, as a part of it")
          call put("equivalent_stiffness", films%equivalent_stiffness, "N/m", "of a rigid rotor that begins to whirl")
          call put("whirl_frequency", films%whirl_frequency, "rad/s", "of that rotor; NaN: none whirls")

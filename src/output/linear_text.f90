@@ -14,6 +14,8 @@ module linear_text
    character(*), parameter :: place(4) = ["xx", "xy", "yx", "yy"]         !! of the entries of a matrix, row by row
    integer, parameter :: row(4) = [1, 1, 2, 2], column(4) = [1, 2, 1, 2]  !! of these entries
 
+   real(wp), parameter :: ice = 273.15_wp                                 !! 0 degC [K]
+
 contains
 
    !> Films, and the speed at which whirl sets in; nothing if no film was linearised.
@@ -38,12 +40,16 @@ contains
    !> A film in words.
    function film_lines(film) result(words)
       type(film_coefficients_t), intent(in) :: film  !! the film
-      type(text_t), allocatable :: words(:)          !! (4) lines
+      type(text_t), allocatable :: words(:)          !! (4 or 5) lines
 
       allocate (words(0))
       call append_text(words, film%joint//": eccentricity "//real_text(film%eccentricity_ratio, n_digit)// &
                        " of the clearance, attitude "//real_text(film%attitude*180.0_wp/pi, n_digit)//" deg, load "// &
                        real_text(film%load, n_digit)//" N, journal at "//real_text(film%journal_speed, n_digit)//" rad/s")
+      if (film%is_heated) then
+         call append_text(words, "temperature "//real_text(film%temperature - ice, n_digit)// &
+                          " degC by a balance of heat, viscosity "//real_text(film%viscosity, n_digit)//" Pa.s")
+      end if
       call append_text(words, "stiffness [N/m]   "//entries(film%stiffness, film%error))
       call append_text(words, "damping [N.s/m]   "//entries(film%damping, film%error)//"; error "//real_text(film%error, 1))
       call append_text(words, "a rigid rotor alone on it "//rotor_words(film))
@@ -151,6 +157,9 @@ contains
       call json%put_real("attitude", film%attitude)
       call json%put_real("load", film%load)
       call json%put_real("journal_speed", film%journal_speed)
+      call json%put_logical("heated", film%is_heated)
+      call json%put_real("temperature", film%temperature)
+      call json%put_real("viscosity", film%viscosity)
       do k = 1, size(place)
          call json%put_real("stiffness_"//place(k), film%stiffness(row(k), column(k)))
       end do
