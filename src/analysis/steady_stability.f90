@@ -18,6 +18,7 @@ module steady_stability
    use lapack, only: dgeev, dgetrf, dgetrs
    use linearised, only: film_coefficients_t, linearised_t
    use mechanism, only: mechanism_t
+   use prescribed_motion, only: newton_t, solve_rates
    use static_problem, only: balance_t, load_scale, look_at, position_scale, unbalanced_load
    use text, only: real_text
    implicit none (type, external)
@@ -93,7 +94,7 @@ contains
             film%load = norm2(state%force)
             film%attitude = turn_between(-state%force, motion%e, motion%speed_sum)
          end associate
-         film%journal_speed = system%linkage%motion%omega(3, body(2))
+         film%journal_speed = 0.5_wp*(motion%speed_sum + motion%speed_difference)
       end associate
       call find_whirl(slopes, whirl)
       film%joint = set%names(item)%s
@@ -185,13 +186,17 @@ contains
 
       real(wp), parameter :: place(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]  ! in steps [1]
       real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp  ! of the loads there [1]
-      real(wp) :: gap, q_near(size(q)), scale(size(balance%free, 1)), speed, step, step_v
-      integer :: i, k, n
+      type(newton_t) :: newton
+      real(wp), dimension(size(balance%free, 1)) :: accelerations, rates, scale
+      real(wp) :: q_near(size(q)), speed, step, step_v
+      integer :: i, k, n, outcome
 
       n = size(balance%free, 2)
       scale = position_scale(system)
-      call least_gap(system, gap, speed)
-      step = part*gap/system%linkage%scales%length
+      call solve_rates(system%linkage, 0.0_wp, newton, q, rates, accelerations, outcome)
+      speed = balance%speed*system%linkage%coordinates%greatest_turn(system%linkage%bodies%n, rates)
+      if (.not. speed > 0.0_wp) speed = 1.0_wp  ! 1/s where nothing turns
+      step = part*least_gap(system)/system%linkage%scales%length
       step_v = step*speed
       allocate (stiffness(size(scale), n), damping(size(scale), n), source=0.0_wp)
       do k = 1, n
@@ -210,16 +215,13 @@ contains
       damping = matmul(transpose(balance%free), damping)
    end subroutine free_slopes
 
-   !> What is left of the gap of the journal that is nearest to its bearing, and the greatest speed that entrains a film.
-   subroutine least_gap(system, gap, speed)
+   !> What is left of the gap of the journal that is nearest to its bearing, at least a thousandth of a clearance [m].
+   real(wp) function least_gap(system) result(gap)
       type(mechanism_t), intent(in) :: system  !! the system at the equilibrium
-      real(wp), intent(out) :: gap             !! the gap, at least a thousandth of a clearance [m]
-      real(wp), intent(out) :: speed           !! the speed, 1/s where nothing turns [rad/s]
 
       integer :: i, k
 
       gap = huge(gap)
-      speed = 0.0_wp
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (.not. has_films(set)) cycle
@@ -227,13 +229,11 @@ contains
                associate (state => set%laws%films%state_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
                                                            system%linkage%motion), c => set%items%clearance(i))
                   gap = min(gap, max(c - norm2(state%e), 1.0e-3_wp*c))
-                  speed = max(speed, maxval(abs(system%linkage%motion%omega(3, set%items%body(:, i)))))
                end associate
             end do
          end associate
       end do
-      if (.not. speed > 0.0_wp) speed = 1.0_wp
-   end subroutine least_gap
+   end function least_gap
 
    !> Growth that counts as none: what the differences and the eigenvalues lose.
    pure real(wp) function no_growth(eigenvalues)

@@ -107,8 +107,8 @@ contains
       end do
    end subroutine test_fit
 
-   !> Butenschoen's side flow of journals that turn: the film on a grid as its table means it; within 12 % the fit, which has no line
-   !> without pressure at the widest gap.
+   !> Butenschoen's side flow of journals that turn: the film on a grid as its table means it, and the fit, which has no line
+   !> without pressure at the widest gap, so that more leaves: 15 % at L/D = 1, 4 % from 1/2 down.
    subroutine test_published(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -125,8 +125,9 @@ contains
                printed = rotation_flow(i, k)*6.0_wp*rotation_ratio(k)*speed*b%clearance*b%radius**3/(3.0_wp*b%length)
                call check_close(error, case%law%side_flow(motion, case%parameters), printed, 0.008_wp, "grid", relative=.true.)
                call check_close(error, 2.0_wp*b%length*b%radius*0.5_wp*speed*b%clearance*rotation_eps(i) &
-                                *flow_part(rotation_ratio(k), rotation_eps(i), 0.0_wp), printed, 0.12_wp, "fit at L/D "// &
-                                to_text(rotation_ratio(k))//", eps "//to_text(rotation_eps(i)), relative=.true.)
+                                *flow_part(rotation_ratio(k), rotation_eps(i), 0.0_wp), printed, merge(0.15_wp, 0.04_wp, &
+                                rotation_ratio(k) > 0.75_wp), "fit at L/D "//to_text(rotation_ratio(k))//", eps "// &
+                                to_text(rotation_eps(i)), relative=.true.)
             end associate
          end do
       end do
