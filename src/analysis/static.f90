@@ -61,24 +61,24 @@ module static
 contains
 
    !> Search an equilibrium of a system of the scene.
-   subroutine find_equilibrium(scene, system, q, report, equilibrium, error, with_heat)
+   subroutine find_equilibrium(scene, system, q, report, equilibrium, error, in_full)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(mechanism_t), intent(inout) :: system        !! the system; left at the equilibrium
       real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions of the deck [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(equilibrium_t), intent(out) :: equilibrium       !! what was found
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or no equilibrium found
-      logical, intent(in), optional :: with_heat            !! films that ask for it get their temperature; absent: if the analysis
-                                                            !! is static
+      logical, intent(in), optional :: in_full              !! films get their temperature and the onset of whirl is searched;
+                                                            !! absent: if the analysis is static
 
       type(balance_t) :: balance
       real(wp) :: cpu_0, cpu_1
       integer :: most
-      logical :: is_exact, is_settled, is_warm
+      logical :: is_exact, is_full, is_settled
 
       call cpu_time(cpu_0)
-      is_warm = scene%analysis == analysis_static
-      if (present(with_heat)) is_warm = with_heat
+      is_full = scene%analysis == analysis_static
+      if (present(in_full)) is_full = in_full
       equilibrium%tolerance = scene%settings%static%number("tolerance")
       most = nint(scene%settings%static%number("maximum_iterations"))
       call assemble_at_rest(scene, system, q, report, error)
@@ -89,7 +89,7 @@ contains
       if (system%loose%has_films) then
          call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
          is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system)
-         if (is_settled .and. is_warm) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
+         if (is_settled .and. is_full) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
                                                          equilibrium%steps, error)
          if (allocated(error)) return
       else
@@ -102,7 +102,7 @@ contains
       end if
       equilibrium%q = q
       if (system%loose%has_films) then
-         call judge_steady(scene, system, balance, equilibrium)
+         call judge_steady(scene, is_full, system, balance, equilibrium)
       else
          call classify(system, balance, equilibrium)
       end if
@@ -196,8 +196,9 @@ contains
    end subroutine try_to_polish
 
    !> With films: coefficients, stability by the eigenvalues, and the speed at which it changes.
-   subroutine judge_steady(scene, system, balance, equilibrium)
+   subroutine judge_steady(scene, with_search, system, balance, equilibrium)
       type(scene_t), intent(in) :: scene                     !! the scene
+      logical, intent(in) :: with_search                     !! the onset of whirl is searched
       type(mechanism_t), intent(inout) :: system             !! the system at the equilibrium
       type(balance_t), intent(inout) :: balance              !! there
       type(equilibrium_t), intent(inout) :: equilibrium      !! words, warning and small motions are set
@@ -230,7 +231,7 @@ contains
             return
          end if
          range = scene%settings%static%number("whirl_search")
-         if (range > 1.0_wp .and. any(abs(linear%films%journal_speed) > 0.0_wp)) then
+         if (with_search .and. range > 1.0_wp .and. any(abs(linear%films%journal_speed) > 0.0_wp)) then
             call find_onset(system, equilibrium%q, equilibrium%tolerance, range, balance, linear)
          end if
       end associate

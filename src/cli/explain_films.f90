@@ -9,10 +9,12 @@ module explain_films
    use load, only: loaded_t
    use mechanism, only: mechanism_t
    use static, only: equilibrium_t, find_equilibrium
-   use text, only: text_t
+   use text, only: text_t, to_text
    implicit none (type, external)
    private
    public :: explain_steady_films
+
+   integer, parameter :: most_bodies = 60  !! the search is dense: beyond them it is no matter of a moment
 
 contains
 
@@ -29,6 +31,12 @@ contains
       integer :: i, k
 
       if (.not. loaded%system%loose%has_films) return
+      if (loaded%system%linkage%bodies%n > most_bodies) then
+         call say("")
+         call say("films at their steady state: not searched here with more than "//to_text(most_bodies)// &
+                  " bodies; --analysis static does")
+         return
+      end if
       call new_system(loaded%scene, levels_as_written, system)
       call system%linkage%deck_state(q, v)
       call find_equilibrium(loaded%scene, system, q, assembly, equilibrium, error, .true.)

@@ -98,7 +98,7 @@ contains
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case (analysis_static)
          call loaded%system%linkage%deck_state(q, v)
-         call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
+         call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error, .false.)
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case default
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error)
