@@ -115,10 +115,11 @@ studies:
 	$(inner)release binary
 	@scripts/make_studies $(BUILD)/gudgeon $(STUDIES)
 
-# The table of `finite` from films on a grid, some minutes; and the errors of all films against the grid
+# The tables of `finite` and of the side flow from films on a grid, some minutes; and the errors of all films against the grid
 film-table:
 	$(inner)release film_programs
 	@$(BUILD)/films/film_table > $(BUILD)/films/finite_table.inc && mv $(BUILD)/films/finite_table.inc src/lubrication/
+	@$(BUILD)/films/flow_table > $(BUILD)/films/finite_flow.inc && mv $(BUILD)/films/finite_flow.inc src/lubrication/
 
 film-errors:
 	$(inner)release film_programs

@@ -128,6 +128,8 @@ contains
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
                associate (joint => self%joint(set%before%contacts + i))
+                  if (set%laws%films%place(i)%is_heated) call append_text(warnings, "joint '"//set%names(i)%s// &
+                     "': heat = balance is for a static analysis; in this run the film keeps the temperature of its lubricant")
                   if (.not. any(joint%is_below)) cycle
                   words = "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name//"': as thin as "// &
                           micrometres(max(joint%least, 0.0_wp))//" at t = "//real_text(joint%time, 6)//" s"

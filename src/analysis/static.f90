@@ -13,21 +13,25 @@ module static
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
+   use film_heat, only: balance_heat
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
    use mobility, only: moving_bodies
+   use linearised, only: linearised_t
    use mechanism_energy, only: energy_of, energy_t
    use mechanism_report, only: build_catalogue, fill_catalogue
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_positions
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
-   use scene, only: scene_t
+   use scene, only: analysis_static, scene_t
    use static_kinsol, only: polish
    use static_film, only: settle_in_films
    use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, &
       square_frequencies
    use static_relaxation, only: least_unbalance, relax
+   use steady_stability, only: find_eigenvalues, gather_films, is_steady, mode_words, no_growth
    use text, only: append_text, real_text, to_text
+   use whirl_onset, only: find_onset
    implicit none (type, external)
    private
    public :: equilibrium_t, find_equilibrium, record_equilibrium
@@ -50,26 +54,31 @@ module static
       integer :: steps = 0                      !! steps of the descent
       integer(i8) :: n_evaluations = 0_i8       !! evaluations of the loads
       logical :: is_polished = .false.          !! KINSOL found it in the end
+      type(linearised_t) :: linear              !! with films: small motions about it
       real(wp) :: cpu_seconds = 0.0_wp          !! of the search [s]
    end type equilibrium_t
 
 contains
 
    !> Search an equilibrium of a system of the scene.
-   subroutine find_equilibrium(scene, system, q, report, equilibrium, error)
+   subroutine find_equilibrium(scene, system, q, report, equilibrium, error, in_full)
       type(scene_t), intent(in) :: scene                    !! the scene
       type(mechanism_t), intent(inout) :: system        !! the system; left at the equilibrium
       real(wp), intent(inout) :: q(:)                       !! (n_q bodies) positions of the deck [any]
       type(assembly_t), intent(out) :: report               !! how the assembly went
       type(equilibrium_t), intent(out) :: equilibrium       !! what was found
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled, or no equilibrium found
+      logical, intent(in), optional :: in_full              !! films get their temperature and the onset of whirl is searched;
+                                                            !! absent: if the analysis is static
 
       type(balance_t) :: balance
       real(wp) :: cpu_0, cpu_1
       integer :: most
-      logical :: is_exact, is_settled
+      logical :: is_exact, is_full, is_settled
 
       call cpu_time(cpu_0)
+      is_full = scene%analysis == analysis_static
+      if (present(in_full)) is_full = in_full
       equilibrium%tolerance = scene%settings%static%number("tolerance")
       most = nint(scene%settings%static%number("maximum_iterations"))
       call assemble_at_rest(scene, system, q, report, error)
@@ -80,6 +89,9 @@ contains
       if (system%loose%has_films) then
          call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
          is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system)
+         if (is_settled .and. is_full) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
+                                                         equilibrium%steps, error)
+         if (allocated(error)) return
       else
          call relax_and_polish()
       end if
@@ -89,8 +101,12 @@ contains
          return
       end if
       equilibrium%q = q
+      if (system%loose%has_films) then
+         call judge_steady(scene, is_full, system, balance, equilibrium)
+      else
+         call classify(system, balance, equilibrium)
+      end if
       equilibrium%n_evaluations = balance%n_evaluations
-      call classify(system, balance, equilibrium)
       call cpu_time(cpu_1)
       equilibrium%cpu_seconds = cpu_1 - cpu_0
 
@@ -179,6 +195,48 @@ contains
       q = q_new
    end subroutine try_to_polish
 
+   !> With films: coefficients, stability by the eigenvalues, and the speed at which it changes.
+   subroutine judge_steady(scene, with_search, system, balance, equilibrium)
+      type(scene_t), intent(in) :: scene                     !! the scene
+      logical, intent(in) :: with_search                     !! the onset of whirl is searched
+      type(mechanism_t), intent(inout) :: system             !! the system at the equilibrium
+      type(balance_t), intent(inout) :: balance              !! there
+      type(equilibrium_t), intent(inout) :: equilibrium      !! words, warning and small motions are set
+
+      real(wp) :: floor_growth, range
+
+      equilibrium%warning = ""
+      associate (linear => equilibrium%linear)
+         call look_at(system, equilibrium%q)
+         call gather_films(system, linear%films)
+         if (.not. is_steady(system)) then
+            equilibrium%words = "of this instant only: the drivers accelerate bodies; stability is not judged"
+            return
+         end if
+         call find_eigenvalues(system, equilibrium%q, balance, linear%eigenvalues)
+         if (size(linear%eigenvalues) == 0) then
+            equilibrium%words = "stable: no body can move beside the drivers"
+            return
+         end if
+         linear%is_judged = .true.
+         floor_growth = no_growth(linear%eigenvalues)
+         if (linear%eigenvalues(1, 1) < -floor_growth) then
+            equilibrium%words = "steady and stable: a push dies, at last "//mode_words(linear)
+         else if (linear%eigenvalues(1, 1) > floor_growth) then
+            equilibrium%words = "steady but unstable: a push grows "//mode_words(linear)
+            equilibrium%warning = "the steady state is unstable: the least push grows "//mode_words(linear)
+         else
+            equilibrium%words = "steady and indifferent: a push neither grows nor dies"
+            equilibrium%warning = "the steady state is indifferent: what a push leaves behind neither grows nor dies"
+            return
+         end if
+         range = scene%settings%static%number("whirl_search")
+         if (with_search .and. range > 1.0_wp .and. any(abs(linear%films%journal_speed) > 0.0_wp)) then
+            call find_onset(system, equilibrium%q, equilibrium%tolerance, range, balance, linear)
+         end if
+      end associate
+   end subroutine judge_steady
+
    !> Stable, unstable or indifferent.
    subroutine classify(system, balance, equilibrium)
       type(mechanism_t), intent(in) :: system            !! the system at the equilibrium
@@ -189,10 +247,6 @@ contains
       integer :: n_flat, n_steep
 
       equilibrium%warning = ""
-      if (system%loose%has_films) then
-         equilibrium%words = "steady, with the speeds of the drivers; whether it is stable a motion in time shows"
-         return
-      end if
       associate (stiffness => balance%stiffness)
          if (size(stiffness) == 0) then
             equilibrium%words = "stable: no body can move"
@@ -290,6 +344,7 @@ contains
       summary%method%integrator = "relaxation"
       if (equilibrium%is_polished) summary%method%integrator = "kinsol"
       summary%equilibrium = equilibrium%words//"; "//real_text(equilibrium%unbalanced, 2)//" of the largest load out of balance"
+      summary%linear = equilibrium%linear
       summary%method%tolerance = equilibrium%tolerance
       summary%count%steps = int(equilibrium%steps, i8)
       summary%count%rhs_evaluations = equilibrium%n_evaluations

@@ -33,6 +33,7 @@ module static_problem
       real(wp), allocatable :: stiffness(:)   !! (freedoms) eigenvalues of the free tangent stiffness, ascending [N.m]
       real(wp), allocatable :: tangent(:, :)  !! (freedoms, freedoms) free tangent stiffness, of films not symmetric, N^T K N [N.m]
       real(wp), allocatable :: modes(:, :)    !! (n_v bodies, freedoms) the motions that belong to them [1]
+      real(wp) :: speed = 1.0_wp              !! of the drivers where there are films, over that of the deck [1]
       integer(i8) :: n_evaluations = 0_i8     !! evaluations of the loads so far
    end type balance_t
 
@@ -47,18 +48,22 @@ contains
    end function position_scale
 
    !> Rows and loads at rest at a position, contacts touching where they penetrate.
-   subroutine look_at(system, q)
-      class(mechanism_t), intent(inout) :: system  !! the system; rows, loads, contacts are set
-      real(wp), intent(in) :: q(:)                     !! (n_q bodies) positions [any]
+   subroutine look_at(system, q, speed, push)
+      class(mechanism_t), intent(inout) :: system       !! the system; rows, loads, contacts are set
+      real(wp), intent(in) :: q(:)                      !! (n_q bodies) positions [any]
+      real(wp), intent(in), optional :: speed           !! of the drivers where there are films, over that of the deck [1]
+      real(wp), intent(in), optional :: push(:)         !! (n_v bodies) velocities that come to those of the drivers [m/s or rad/s]
 
       type(newton_t) :: newton
-      real(wp), dimension(size(system%linkage%mass)) :: rest, turning
+      real(wp), dimension(size(system%linkage%mass)) :: rates, accelerations
       real(wp), dimension(system%loose%n_contact) :: delta, rate
       integer :: k, outcome
 
-      rest = 0.0_wp
-      if (system%loose%has_films) call solve_rates(system%linkage, 0.0_wp, newton, q, rest, turning, outcome)
-      call evaluate_rows(system%linkage, 0.0_wp, q, rest)
+      rates = 0.0_wp
+      if (system%loose%has_films) call solve_rates(system%linkage, 0.0_wp, newton, q, rates, accelerations, outcome)
+      if (present(speed)) rates = speed*rates
+      if (present(push)) rates = rates + push
+      call evaluate_rows(system%linkage, 0.0_wp, q, rates)
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             call set%gaps(system%linkage%motion, delta, rate)
@@ -111,7 +116,7 @@ contains
       real(wp) :: rest(size(system%linkage%mass)), unbalanced
 
       rest = 0.0_wp
-      call look_at(system, q)
+      call look_at(system, q, balance%speed)
       balance%n_evaluations = balance%n_evaluations + 1_i8
       call find_reactions(system%linkage, system%loading%g, rest, unbalanced)
       balance%load = unbalanced_load(system)
@@ -137,15 +142,15 @@ contains
       do k = 1, n
          q_near = q
          call coordinates%add_change(n_body, difference*scale*balance%free(:, k), q_near)
-         call look_at(system, q_near)
+         call look_at(system, q_near, balance%speed)
          above = unbalanced_load(system)
          q_near = q
          call coordinates%add_change(n_body, -difference*scale*balance%free(:, k), q_near)
-         call look_at(system, q_near)
+         call look_at(system, q_near, balance%speed)
          slope(:, k) = (unbalanced_load(system) - above)/(2.0_wp*difference)
       end do
       end associate
-      call look_at(system, q)
+      call look_at(system, q, balance%speed)
       balance%n_evaluations = balance%n_evaluations + int(2*n + 1, i8)
       k_free = matmul(transpose(balance%free), slope)
       balance%tangent = k_free

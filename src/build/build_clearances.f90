@@ -193,7 +193,7 @@ contains
       film = cell_index(scene%clearances(kind)%info, items(1), "film")
       if (film > 0) then
          allocate (slot%set%laws%films)
-         call new_bearing_films(items, scene%lubrication%films(film)%law, scene%lubrication%viscosity, slot%set%laws%films)
+         call new_bearing_films(items, scene%lubrication%films(film)%law, scene%lubrication%oils, slot%set%laws%films)
          system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
       end if
       call slot%set%prepare(items)

@@ -10,9 +10,10 @@
 !> Signs: forces and moments on the journal. Source: Flores et al. (2008), eqs. (5.23)-(5.32). Without the moments of shear what is
 !> lost may be negative: the shaft that would give the energy back is not asked for its moment. Limits: journals in the plane.
 module bearing_films
-   use film_law, only: film_bearing_t, film_law_t, film_motion_t, n_film_parameter
+   use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter
    use item, only: item_t
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
+   use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
    implicit none (type, external)
    private
@@ -24,14 +25,21 @@ module bearing_films
       real(wp) :: depth = 0.0_wp          !! d: of the transition to dry contact; 0: there is none [m]
       logical :: has_torque = .false.     !! moments of shear act too
       logical :: is_relative = .false.    !! entrained by the difference of the speeds, as the book has it, not by their sum
+      logical :: is_heated = .false.      !! a static analysis finds the temperature by a balance of heat
+      real(wp) :: temperature = 0.0_wp    !! of the film, whose viscosity it has [K]
    end type film_place_t
 
    !> What a film does at a motion.
    type :: film_state_t
       real(wp) :: e(2) = 0.0_wp           !! (2) eccentricity, world frame [m]
       real(wp) :: force(2) = 0.0_wp       !! (2) on the journal, world frame [N]
-      real(wp) :: torque = 0.0_wp         !! moment of shear on the journal [N.m]
+      real(wp) :: torque = 0.0_wp         !! moment of shear on the journal, where it acts [N.m]
       real(wp) :: share = 0.0_wp          !! part of the film in the transition [1]
+      real(wp) :: drag_journal = 0.0_wp   !! moment of shear on the journal, whether it acts or not [N.m]
+      real(wp) :: drag_bearing = 0.0_wp   !! the same on the bearing [N.m]
+      real(wp) :: power = 0.0_wp          !! that the film turns into heat [W]
+      real(wp) :: side_flow = 0.0_wp      !! that leaves at both ends [m^3/s]
+      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow takes all heat along; NaN: there is no flow [K]
    end type film_state_t
 
    !> Films of the items of a set.
@@ -44,36 +52,40 @@ module bearing_films
       real(wp), allocatable :: roughness(:)           !! (n) of the surfaces, 0: not known [m]
       real(wp), allocatable :: parameters(:, :)       !! (n_film_parameter, n) fitted to the bearings [any]
       type(film_place_t), allocatable :: place(:)     !! (n) how they act
+      type(film_bearing_t), allocatable :: bearing(:) !! (n) bearings
+      type(oil_t), allocatable :: oil(:)              !! (n) lubricants
       type(film_motion_t), allocatable :: motion(:)   !! (n) of an evaluation
       real(wp), allocatable :: f(:, :)                !! (2, n) of an evaluation [N]
       real(wp), allocatable :: s(:, :, :)             !! (2, 2, n) centres of bearing and journal, of an evaluation [m]
    contains
       procedure :: bear => films_bear
       procedure :: state_of => films_state_of
+      procedure :: slopes_of => films_slopes_of
       procedure :: fades => films_fade
+      procedure :: warm => films_warm
    end type bearing_films_t
 
 contains
 
    !> The bearing that a row describes, as films see it.
-   pure function film_bearing_of(item, viscosity) result(bearing)
+   pure function film_bearing_of(item, oils) result(bearing)
       type(item_t), intent(in) :: item        !! the row of a revolute joint with clearance
-      real(wp), intent(in) :: viscosity(:)    !! (lubricants) dynamic viscosities [Pa.s]
+      type(oil_t), intent(in) :: oils(:)      !! (lubricants) all of them
       type(film_bearing_t) :: bearing         !! the bearing
 
       bearing%radius = item%number("bearing_radius") - item%number("clearance")
       bearing%clearance = item%number("clearance")
       if (item%word("level") == "hybrid") bearing%clearance = bearing%clearance + item%number("e_t1")
       bearing%length = item%number("length")
-      if (item%reference("lubricant") > 0) bearing%viscosity = viscosity(item%reference("lubricant"))
+      if (item%reference("lubricant") > 0) bearing%viscosity = oils(item%reference("lubricant"))%viscosity
       bearing%eps_max = item%number("eps_max")
    end function film_bearing_of
 
    !> Films of the rows of a set.
-   subroutine new_bearing_films(items, law, viscosity, films)
+   subroutine new_bearing_films(items, law, oils, films)
       type(item_t), intent(in) :: items(:)       !! (n) rows
       class(film_law_t), intent(in) :: law       !! their film
-      real(wp), intent(in) :: viscosity(:)       !! (lubricants) dynamic viscosities [Pa.s]
+      type(oil_t), intent(in) :: oils(:)         !! (lubricants) all of them
       type(bearing_films_t), intent(out) :: films !! the films
 
       character(:), allocatable :: help, message
@@ -82,11 +94,15 @@ contains
       n = size(items)
       allocate (films%law, source=law)
       allocate (films%parameters(n_film_parameter, n), films%eps_max(n), films%roughness(n), films%place(n), films%motion(n))
-      allocate (films%f(2, n), films%s(2, 2, n))
+      allocate (films%f(2, n), films%s(2, 2, n), films%bearing(n), films%oil(n))
       films%acts = items(1)%word("level") == "lubricated" .or. items(1)%word("level") == "hybrid"
       films%is_alone = items(1)%word("level") == "lubricated"
       do k = 1, n
-         call law%fit(film_bearing_of(items(k), viscosity), films%parameters(:, k), message, help)
+         films%bearing(k) = film_bearing_of(items(k), oils)
+         if (items(k)%reference("lubricant") > 0) films%oil(k) = oils(items(k)%reference("lubricant"))
+         films%place(k)%temperature = films%oil(k)%temperature
+         films%place(k)%is_heated = items(k)%word("heat") == "balance" .and. films%acts
+         call law%fit(films%bearing(k), films%parameters(:, k), message, help)
          films%roughness(k) = items(k)%number("roughness")
          films%eps_max(k) = items(k)%number("eps_max")
          films%place(k)%clearance = items(k)%number("clearance")
@@ -206,6 +222,19 @@ contains
       end do
    end subroutine add_film_loads
 
+   !> Give the film of one item another temperature, and its viscosity.
+   subroutine films_warm(self, k, temperature)
+      class(bearing_films_t), intent(inout) :: self  !! the films
+      integer, intent(in) :: k                       !! item
+      real(wp), intent(in) :: temperature            !! of the film [K]
+
+      character(:), allocatable :: help, message
+
+      self%place(k)%temperature = temperature
+      self%bearing(k)%viscosity = viscosity_at(self%oil(k), temperature)
+      call self%law%fit(self%bearing(k), self%parameters(:, k), message, help)
+   end subroutine films_warm
+
    !> Whether films go out over a transition, which items of a set share.
    pure logical function films_fade(self)
       class(bearing_films_t), intent(in) :: self  !! the films
@@ -235,7 +264,7 @@ contains
       type(film_state_t) :: state                 !! what it does
 
       type(film_motion_t) :: one(1)
-      real(wp) :: f(2, 1), s(2, 2, 1), t_b
+      real(wp) :: f(2, 1), s(2, 2, 1)
 
       call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
                          ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, one, s)
@@ -243,10 +272,47 @@ contains
       if (.not. self%acts) return
       state%share = share_of(self%place(k), one(1)%e)
       call self%law%force(1, one, self%parameters(:, k:k), f)
+      call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%drag_journal, state%drag_bearing)
       state%force = state%share*f(:, 1)
-      if (.not. self%place(k)%has_torque) return
-      call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%torque, t_b)
-      state%torque = state%share*state%torque
+      state%drag_journal = state%share*state%drag_journal
+      state%drag_bearing = state%share*state%drag_bearing
+      if (self%place(k)%has_torque) state%torque = state%drag_journal
+      state%power = -dot_product(state%force, one(1)%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
+                    - state%drag_bearing*motion%omega(3, body(1))
+      state%side_flow = state%share*self%law%side_flow(one(1), self%parameters(:, k))
+      state%rise = not_a_number()
+      if (state%side_flow > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*state%side_flow)
    end function films_state_of
+
+   !> How the force of one item's film changes with a small motion of its journal. In a transition to dry contact the film's part of
+   !> it counts, and how that changes.
+   subroutine films_slopes_of(self, k, body, s_i, s_j, motion, one, slopes)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_i(3)              !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_j(3)              !! (3) centre of the journal, frame of its body [m]
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(film_motion_t), intent(out) :: one     !! motion of the bearing
+      type(film_slopes_t), intent(out) :: slopes  !! stiffness and damping
+
+      type(film_motion_t) :: films(1)
+      real(wp) :: distance, f(2, 1), s(2, 2, 1), share
+      integer :: i
+
+      call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
+                         ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, films, s)
+      one = films(1)
+      call self%law%linearise(one, self%parameters(:, k), slopes)
+      share = share_of(self%place(k), one%e)
+      slopes%stiffness = share*slopes%stiffness
+      slopes%damping = share*slopes%damping
+      if (.not. (share > 0.0_wp .and. share < 1.0_wp)) return
+      distance = norm2(one%e)
+      call self%law%force(1, films, self%parameters(:, k:k), f)
+      do i = 1, 2
+         slopes%stiffness(:, i) = slopes%stiffness(:, i) + f(:, 1)*one%e(i)/(distance*self%place(k)%depth)
+      end do
+   end subroutine films_slopes_of
 
 end module bearing_films

@@ -7,8 +7,8 @@ module revolute_level
    private
    public :: add_film_channels, add_film_columns, film_channels, find_level_mistake
 
-   character(*), parameter :: film_channels = " film_force film_torque film_thickness eccentricity_ratio "
-      !! channels of joints that have a film
+   character(*), parameter :: film_channels = " film_force film_torque film_thickness eccentricity_ratio drag_journal "// &
+                              "drag_bearing film_power side_flow temperature_rise "  !! channels of joints that have a film
 
 contains
 
@@ -21,6 +21,8 @@ contains
       call add_word(info, "entrain", "speed that entrains the film: sum of the inertial speeds, or that of journal against " &
                     //"bearing, as in the book", default="inertial", choices="inertial book")
       call add_flag(info, "film_torque", "moments of the shear in the film on journal and bearing", default="off")
+      call add_word(info, "heat", "off: the film has the temperature of the lubricant; balance: in a static analysis half of the " &
+                    //"rise by its heat more", default="off", choices="off balance")
       call add_number(info, "eps_max", dim_none, "eccentricity over clearance where a lubricated run ends, and beyond which a " &
                       //"film keeps its shape", default="0.99999", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
       call add_number(info, "roughness", dim_length, "roughness of the surfaces, a twentieth of the least film that is safe; " &
@@ -39,6 +41,12 @@ contains
       call add_channel(info, "film_torque", "N.m", "world", 1, "moment of the shear in the film on the journal, where it acts")
       call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity")
       call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance")
+      call add_channel(info, "drag_journal", "N.m", "world", 1, "moment of the shear on the journal, whether it acts or not")
+      call add_channel(info, "drag_bearing", "N.m", "world", 1, "moment of the shear on the bearing, whether it acts or not")
+      call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat")
+      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bearing")
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; NaN: " &
+                       //"there is no flow")
    end subroutine add_film_channels
 
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.

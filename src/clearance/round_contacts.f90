@@ -263,6 +263,11 @@ contains
             case ("force"); values(1:2, item) = values(1:2, item) + film%force
             case ("film_force"); values(1:2, item) = film%force
             case ("film_torque"); values(1, item) = film%torque
+            case ("drag_journal"); values(1, item) = film%drag_journal
+            case ("drag_bearing"); values(1, item) = film%drag_bearing
+            case ("film_power"); values(1, item) = film%power
+            case ("side_flow"); values(1, item) = film%side_flow
+            case ("temperature_rise"); values(1, item) = film%rise
             case ("eccentricity_ratio"); values(1, item) = norm2(film%e)/c
             case ("film_thickness"); values(1, item) = max(c - norm2(film%e), 0.0_wp)
             case ("state")

@@ -20,7 +20,7 @@ contains
 
       integer :: k
       logical :: is_nothing, is_used(max(size(scene%frictions), size(scene%laws), size(scene%materials), &
-                                         size(scene%lubrication%films), size(scene%lubrication%viscosity)))
+                                         size(scene%lubrication%films), size(scene%lubrication%oils)))
 
       call say("")
       call say("dropped")
@@ -47,7 +47,7 @@ contains
          if (.not. is_used(k)) call drop("film '"//scene%lubrication%films(k)%law%name//"': used by no joint")
       end do
       call find_used(scene, "lubricant", is_used)
-      do k = 1, size(scene%lubrication%viscosity)
+      do k = 1, size(scene%lubrication%oils)
          if (.not. is_used(k)) then
             call drop("lubricant '"//scene%tables%base(table_lubricants)%items(k)%name//"': used by no joint")
          end if

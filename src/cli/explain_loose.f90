@@ -95,6 +95,7 @@ contains
          if (place%is_relative) words = "entrained by the speed of the journal against the bearing, as in the book"
          if (place%has_torque) words = words//"; the moments of its shear act"
          call say(words, 4)
+         if (place%is_heated) call say("its temperature comes from a balance of heat in a static analysis only", 4)
          if (films%is_alone) then
             call say("nothing else holds the surfaces apart: the run ends at an eccentricity of "// &
                      real_text(films%eps_max(item), 8)//" of the clearance", 4)

@@ -6,6 +6,7 @@ module verb_explain
    use echo, only: all_defaults
    use errors, only: error_t
    use explain_dropped, only: say_dropped
+   use explain_films, only: explain_steady_films
    use explain_floors, only: floors_of_scene
    use explain_friction, only: explain_rubbing_joints
    use explain_guards, only: say_guards
@@ -97,7 +98,7 @@ contains
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case (analysis_static)
          call loaded%system%linkage%deck_state(q, v)
-         call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
+         call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error, .false.)
          if (.not. allocated(error)) y = [q, 0.0_wp*q]
       case default
          call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error)
@@ -127,6 +128,7 @@ contains
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
       call explain_rubbing_joints(loaded%scene, loaded%system)
       call explain_loose_joints(loaded, y)
+      call explain_steady_films(loaded)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method_and_times(loaded)
       call explain_instants_of(loaded)

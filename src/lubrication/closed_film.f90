@@ -10,7 +10,7 @@
 !> Source: Flores et al. (2008), eqs. (5.6)-(5.18), (5.24)-(5.30). Limits: of each form; one length, no grooves.
 module closed_film
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
-      parameter_clearance, parameter_eps_max
+      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, squeezing_velocity
    use item, only: find_place, item_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -38,6 +38,7 @@ module closed_film
    type, abstract, extends(closed_film_t) :: short_film_t
    contains
       procedure :: fit => fit_short
+      procedure :: side_flow => short_side_flow
    end type short_film_t
 
    abstract interface
@@ -93,6 +94,17 @@ contains
       call basic_parameters(bearing, parameters)
       parameters(parameter_scale) = bearing%viscosity*bearing%length**3*bearing%radius/bearing%clearance**2
    end subroutine fit_short
+
+   !> What leaves at the ends of a short bearing where the pressure is positive: all that is squeezed away there, 2 L R |v|. A full
+   !> film takes in as much where it is negative.
+   function short_side_flow(self, motion, parameters) result(flow)
+      class(short_film_t), intent(in) :: self                  !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      real(wp) :: flow                                         !! volume in a time [m^3/s]
+
+      flow = 2.0_wp*parameters(parameter_length)*parameters(parameter_radius)*norm2(squeezing_velocity(motion))
+   end function short_side_flow
 
    !> Forces of n bearings.
    pure subroutine closed_force(self, n, motion, parameters, f)

@@ -9,7 +9,8 @@
 !>
 !> Signs: on the journal, n from the bearing's centre to the journal's, t = z x n. Only w = eps Om is needed: So_D/eps is regular.
 !> Source: H.-J. Butenschoen, Das hydrodynamische, zylindrische Gleitlager endlicher Breite unter instationaerer Belastung,
-!> dissertation, Karlsruhe (1976). Limits: L/D from 1/8 to 1, eps to 0.95, within 6 % of his own tables and 2.5 degrees; where L/D
+!> dissertation, Karlsruhe (1976); all coefficients as the module hydrodynamic_plain_bearing of MBDyn (R. Resch, 2011) has them.
+!> Limits: L/D from 1/8 to 1, eps to 0.95, within 6 % of his own tables and 2.5 degrees; where L/D
 !> is greater or smaller the polynomials have the nearer of these, which is too small a force above 1. No pressure at the widest
 !> gap while it turns. Forces of rotation and squeeze are no sum: where the journal parts fast, the film may feed energy in.
 module film_butenschoen
@@ -31,7 +32,7 @@ module film_butenschoen
    real(wp), parameter :: a2(0:4) = [-1.000026_wp, -0.023634_wp, -0.4215_wp, -0.038817_wp, -0.090551_wp]
    real(wp), parameter :: b1(0:4) = [0.70038_wp, 3.2415_wp, -12.2486_wp, 18.895_wp, -9.3561_wp]
    real(wp), parameter :: b2(0:4) = [-0.999935_wp, 0.0157434_wp, -0.74224_wp, 0.42278_wp, -0.368928_wp]
-   real(wp), parameter :: turn(0:1, 5) = reshape([1.152624_wp, -0.105465_wp, -2.5905_wp, 0.798745_wp, 8.73393_wp, -2.3291_wp, &
+   real(wp), parameter :: turn(0:1, 5) = reshape([1.152624_wp, -0.104565_wp, -2.5905_wp, 0.798745_wp, 8.73393_wp, -2.3291_wp, &
                                                   -13.3414_wp, 3.424337_wp, 6.6294_wp, -1.591732_wp], [2, 5])
       !! coefficients of powers of b: of a1, a2, b1, b2 above and of c1 to c5 here [1]
 

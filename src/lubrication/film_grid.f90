@@ -14,7 +14,7 @@
 !> share them, each solution begins with the wet cells of the one before and does not depend on it.
 module film_grid
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
-      parameter_clearance, parameter_eps_max
+      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_angle, dim_none, dim_pressure, kind_info_t
    use kinds, only: two_pi, wp
@@ -36,6 +36,7 @@ module film_grid
    !> Grids that films share.
    type :: grid_pool_t
       type(reynolds_grid_t), allocatable :: grid(:)  !! the grids
+      real(wp), allocatable :: pressure(:)           !! (grids) P of the supplies in the last solution; huge: there is none [1/s]
    end type grid_pool_t
 
    !> A bearing of finite length.
@@ -49,6 +50,7 @@ module film_grid
       procedure :: prepare => grid_prepare
       procedure :: fit => grid_fit
       procedure :: force => grid_force
+      procedure :: side_flow => grid_side_flow
       procedure :: mistake => grid_mistake
       procedure :: story => grid_story
    end type film_grid_t
@@ -99,7 +101,7 @@ contains
          allocate (self%supply(0))
       end select
       allocate (self%pool)
-      allocate (self%pool%grid(0))
+      allocate (self%pool%grid(0), self%pool%pressure(0))
    end subroutine grid_prepare
 
    !> Supplies that leave no film between them.
@@ -150,9 +152,10 @@ contains
       call new_reynolds_grid(grids(number), ratio, columns_of(self%resolution), rows_of(self%resolution), self%boundary, &
                              self%supply, .false.)
       call move_alloc(grids, self%pool%grid)
+      self%pool%pressure = [self%pool%pressure, huge(1.0_wp)]
    end subroutine find_grid
 
-   !> Forces of n bearings. Should the pressures not be found, those of the last step are taken.
+   !> Forces of n bearings.
    subroutine grid_force(self, n, motion, parameters, f)
       class(film_grid_t), intent(in) :: self                   !! the film
       integer, intent(in) :: n                                 !! number of bearings
@@ -162,22 +165,53 @@ contains
 
       type(film_result_t) :: film
       real(wp) :: cosine, sine
-      integer :: k, number, status
+      integer :: k
 
       do k = 1, n
-         call find_grid(self, parameters(parameter_ratio, k), number)
-         associate (grid => self%pool%grid(number))
-            grid%supply%pressure = parameters(parameter_pressure, k)
-            if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
-            call grid%solve(state_of(motion(k), parameters(:, k)), status)
-            call get_result(grid, film)
-         end associate
+         call find_film(self, motion(k), parameters(:, k), film)
          cosine = cos(motion(k)%angle)
          sine = sin(motion(k)%angle)
          f(1, k) = parameters(parameter_scale, k)*(cosine*film%f(1) - sine*film%f(2))
          f(2, k) = parameters(parameter_scale, k)*(sine*film%f(1) + cosine*film%f(2))
       end do
    end subroutine grid_force
+
+   !> What leaves at the ends less what comes in there: c R^3/(3 L) times that of the grid; none of a full film.
+   function grid_side_flow(self, motion, parameters) result(flow)
+      class(film_grid_t), intent(in) :: self                   !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      real(wp) :: flow                                         !! volume in a time [m^3/s]
+
+      type(film_result_t) :: film
+
+      call find_film(self, motion, parameters, film)
+      flow = film%side_flow*parameters(parameter_clearance)*parameters(parameter_radius)**3/(3.0_wp*parameters(parameter_length))
+   end function grid_side_flow
+
+   !> The film of one bearing; the last solution if it is that of the same motion. Should the pressures not be found, those of the
+   !> last step are taken.
+   subroutine find_film(self, motion, parameters, film)
+      class(film_grid_t), intent(in) :: self                 !! the film
+      type(film_motion_t), intent(in) :: motion              !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)   !! (n_film_parameter) from `fit` [any]
+      type(film_result_t), intent(out) :: film               !! what it does
+
+      type(journal_state_t) :: state
+      integer :: number, status
+
+      call find_grid(self, parameters(parameter_ratio), number)
+      state = state_of(motion, parameters)
+      associate (grid => self%pool%grid(number), solved => self%pool%pressure(number), pressure => parameters(parameter_pressure))
+         if (abs(solved - pressure) > 0.0_wp .or. any(abs([grid%state%e - state%e, grid%state%v - state%v]) > 0.0_wp)) then
+            grid%supply%pressure = pressure
+            if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
+            call grid%solve(state, status)
+            solved = pressure
+         end if
+         call get_result(grid, film)
+      end associate
+   end subroutine find_film
 
    !> The motion in the frame of the bearing's body and parts of the clearance, the journal within eps_max.
    pure function state_of(motion, parameters) result(state)

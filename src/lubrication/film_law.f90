@@ -16,12 +16,15 @@
 !> every eccentricity. Source: Flores et al. (2008), chapter 5, with w_J + w_B for its relative speed: measured in the frame of the
 !> bearing, gamma' would be another one. Limits: axes parallel; viscosity the same everywhere.
 module film_law
+   use finite_flow, only: flow_part
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
    private
-   public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slot_t, n_film_parameter, own_parameters
+   public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, n_film_parameter
+   public :: own_parameters
+   public :: squeezing_velocity
    public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
 
    integer, parameter :: n_film_parameter = 32    !! numbers of a bearing that a film may keep
@@ -50,6 +53,13 @@ module film_law
       real(wp) :: angle = 0.0_wp           !! of the bearing's body [rad]
    end type film_motion_t
 
+   !> How the force changes with a small motion of the journal: F = F_0 - K de - B de'.
+   type :: film_slopes_t
+      real(wp) :: stiffness(2, 2) = 0.0_wp  !! (2, 2) K: component of the force, of the eccentricity; world frame [N/m]
+      real(wp) :: damping(2, 2) = 0.0_wp    !! (2, 2) B: component of the force, of the rate; world frame [N.s/m]
+      real(wp) :: error = 0.0_wp            !! of the greatest entry of each, as a part of it [1]
+   end type film_slopes_t
+
    !> One row of a table of films.
    type, abstract :: film_law_t
       character(:), allocatable :: name  !! name of the row
@@ -59,6 +69,8 @@ module film_law
       procedure(fit_interface), deferred :: fit
       procedure(force_interface), deferred :: force
       procedure :: torques => film_torques
+      procedure :: side_flow => film_side_flow
+      procedure :: linearise => film_linearise
       procedure :: mistake => film_mistake
       procedure :: story => film_story
    end type film_law_t
@@ -150,6 +162,104 @@ contains
       t_j = -drag - half
       t_b = drag - half
    end subroutine film_torques
+
+   !> What leaves at both ends of one bearing: that of a bearing of its length whose pressures are not below zero (`finite_flow`),
+   !> whatever the film itself takes the ends for. A film that knows its own overrides this.
+   function film_side_flow(self, motion, parameters) result(flow)
+      class(film_law_t), intent(in) :: self                    !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      real(wp) :: flow                                         !! volume in a time [m^3/s]
+
+      real(wp) :: e(2), speed, v(2)
+
+      flow = 0.0_wp
+      v = squeezing_velocity(motion)
+      speed = norm2(v)
+      if (.not. speed > 0.0_wp) return
+      associate (radius => parameters(parameter_radius), length => parameters(parameter_length))
+         e = motion%e/parameters(parameter_clearance)
+         e = e*(min(norm2(e), parameters(parameter_eps_max))/max(norm2(e), tiny(1.0_wp)))
+         flow = 2.0_wp*length*radius*speed*flow_part(0.5_wp*length/radius, norm2(e), dot_product(e, v)/speed)
+      end associate
+   end function film_side_flow
+
+   !> The velocity that squeezes, v.
+   pure function squeezing_velocity(motion) result(v)
+      type(film_motion_t), intent(in) :: motion  !! motion of a bearing
+      real(wp) :: v(2)                           !! (2) v, world frame [m/s]
+
+      v = motion%e_dot - 0.5_wp*motion%speed_sum*[-motion%e(2), motion%e(1)]
+   end function squeezing_velocity
+
+   !> Stiffness and damping at a motion, by differences of fourth order of the force; a film that knows them overrides this.
+   !>
+   !> Steps are 1/1000 and 1/2000 of what is left of the gap, and of the speed at which its surface would be squeezed away; the
+   !> results are those of the shorter ones, their error is told by what both differ by. Where nothing moves the speed is c/s: films
+   !> that rupture have no derivative there, and the mean of both senses is given. Source: A. Iserles, A First Course in the
+   !> Numerical Analysis of Differential Equations (2009), section 8.1.
+   subroutine film_linearise(self, motion, parameters, slopes)
+      class(film_law_t), intent(in) :: self                    !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      type(film_slopes_t), intent(out) :: slopes               !! stiffness and damping
+
+      real(wp), parameter :: part = 1.0e-3_wp  ! of the longer step [1]
+      real(wp) :: coarse(2, 2, 2), gap, speed, v(2)
+      integer :: k
+
+      associate (c => parameters(parameter_clearance))
+         gap = c - min(norm2(motion%e), c*parameters(parameter_eps_max))
+         v = squeezing_velocity(motion)
+         speed = max(norm2(v), 0.05_wp*c*abs(motion%speed_sum))
+         if (.not. speed > 0.0_wp) speed = c
+         speed = speed*gap/c
+      end associate
+      do k = 1, 2
+         coarse(:, k, 1) = film_slope(self, motion, parameters, k, part*gap, 0.0_wp)
+         coarse(:, k, 2) = film_slope(self, motion, parameters, k, 0.0_wp, part*speed)
+         slopes%stiffness(:, k) = -film_slope(self, motion, parameters, k, 0.5_wp*part*gap, 0.0_wp)
+         slopes%damping(:, k) = -film_slope(self, motion, parameters, k, 0.0_wp, 0.5_wp*part*speed)
+      end do
+      slopes%error = max(difference(coarse(:, :, 1), slopes%stiffness), difference(coarse(:, :, 2), slopes%damping))
+
+   contains
+
+      !> What two results differ by, as a part of the greatest entry; one of them has the other sign.
+      pure real(wp) function difference(a, b)
+         real(wp), intent(in) :: a(2, 2), b(2, 2)  !! (2, 2) the results [any]
+
+         difference = maxval(abs(a + b))/max(maxval(abs(b)), tiny(1.0_wp))
+      end function difference
+
+   end subroutine film_linearise
+
+   !> Derivative of the force over one component of the eccentricity, or of its rate.
+   function film_slope(self, motion, parameters, component, step_e, step_e_dot) result(slope)
+      class(film_law_t), intent(in) :: self                    !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      integer, intent(in) :: component                         !! 1: x; 2: y
+      real(wp), intent(in) :: step_e                           !! step of the eccentricity, or zero [m]
+      real(wp), intent(in) :: step_e_dot                       !! step of its rate, or zero [m/s]
+      real(wp) :: slope(2)                                     !! (2) derivative [N/m or N.s/m]
+
+      real(wp), parameter :: place(4) = [-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp]  ! in steps [1]
+      real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp  ! of the forces there [1]
+      type(film_motion_t) :: moved(1)
+      real(wp) :: f(2, 1)
+      integer :: k
+
+      slope = 0.0_wp
+      do k = 1, size(place)
+         moved(1) = motion
+         moved(1)%e(component) = moved(1)%e(component) + place(k)*step_e
+         moved(1)%e_dot(component) = moved(1)%e_dot(component) + place(k)*step_e_dot
+         call self%force(1, moved, reshape(parameters, [n_film_parameter, 1]), f)
+         slope = slope + weight(k)*f(:, 1)
+      end do
+      slope = slope/(step_e + step_e_dot)
+   end function film_slope
 
    !> What is wrong with the row as a whole, empty if nothing is; a film with such rules overrides this.
    function film_mistake(self) result(message)

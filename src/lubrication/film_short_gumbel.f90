@@ -11,7 +11,7 @@
 !> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 module film_short_gumbel
    use closed_film, only: narrowing_side, short_film_t
-   use film_law, only: n_film_parameter
+   use film_law, only: film_motion_t, n_film_parameter, parameter_length, parameter_radius, squeezing_velocity
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
    implicit none (type, external)
@@ -23,6 +23,7 @@ module film_short_gumbel
    contains
       procedure, nopass :: info => short_gumbel_info
       procedure :: components => short_gumbel_components
+      procedure :: side_flow => short_gumbel_flow
    end type film_short_gumbel_t
 
 contains
@@ -57,5 +58,20 @@ contains
       f_r = -0.5_wp*(pi*eps_dot*(1.0_wp + 2.0_wp*eps*eps)/root + 2.0_wp*eps*side*w)/(q*q)
       f_t = 0.5_wp*side*(4.0_wp*eps*eps_dot + 0.5_wp*pi*side*w*root)/(q*q)
    end subroutine short_gumbel_components
+
+   !> What leaves at the ends of the half film where the pressure is positive: L R (|v| + |v.t|).
+   function short_gumbel_flow(self, motion, parameters) result(flow)
+      class(film_short_gumbel_t), intent(in) :: self           !! the film
+      type(film_motion_t), intent(in) :: motion                !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)     !! (n_film_parameter) from `fit` [any]
+      real(wp) :: flow                                         !! volume in a time [m^3/s]
+
+      real(wp) :: across, v(2)
+
+      v = squeezing_velocity(motion)
+      across = 0.0_wp
+      if (norm2(motion%e) > tiny(1.0_wp)) across = abs(motion%e(1)*v(2) - motion%e(2)*v(1))/norm2(motion%e)
+      flow = parameters(parameter_length)*parameters(parameter_radius)*(norm2(v) + across)
+   end function short_gumbel_flow
 
 end module film_short_gumbel

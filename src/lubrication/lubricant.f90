@@ -4,16 +4,18 @@
 !> SAE:     mu = mu_0 exp( b/(1.8 T + 127) ),   mu_0 and b of each grade, T in degC
 !>
 !> Sources: G. Vogel's equation with the constants of DIN 31654 for oils of ISO 3448 (VG is the kinematic viscosity at 40 degC in
-!> mm^2/s, viscosity index about 100); A. Seireg and S. Dandage, Empirical design procedure for the thermodynamic behavior of
-!> journal bearings, J. Lubrication Technology 104 (1982) 135-148, for single-grade oils of SAE J300.
+!> mm^2/s, viscosity index about 100: 159.55657/135 - 0.181913 = 1, so that 40 degC is met); A. Seireg and S. Dandage, Empirical
+!> design procedure for the thermodynamic behavior of journal bearings, J. Lubrication Technology 104 (1982) 135-148, for
+!> single-grade oils of SAE J300, their constants as R. G. Budynas and J. K. Nisbett, Shigley's Mechanical Engineering Design,
+!> section 12-6, have them.
 !> Limits: mineral oils between 0 and 150 degC, at the pressure of the surroundings; Newtonian.
 module lubricant
    use item, only: item_t, place_of
-   use kind_info, only: add_number, add_word, dim_temperature, dim_viscosity, kind_info_t
+   use kind_info, only: add_number, add_word, dim_density, dim_t, dim_temperature, dim_viscosity, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: lubricant_info, lubricant_mistake, viscosity_of_grade, viscosity_of_row
+   public :: lubricant_info, lubricant_mistake, oil_of_row, oil_t, viscosity_at, viscosity_of_grade
 
    character(*), parameter :: iso_grades = "iso_vg_10 iso_vg_15 iso_vg_22 iso_vg_32 iso_vg_46 iso_vg_68 iso_vg_100 iso_vg_150 "// &
                               "iso_vg_220 iso_vg_320 iso_vg_460 iso_vg_680 iso_vg_1000"  !! grades of ISO 3448
@@ -24,6 +26,16 @@ module lubricant
    real(wp), parameter :: sae_slope(6) = [1157.5_wp, 1271.6_wp, 1360.0_wp, 1474.4_wp, 1509.6_wp, 1564.0_wp]
       !! b of each, degrees of Fahrenheit [1]
    real(wp), parameter :: ice = 273.15_wp     !! 0 degC [K]
+
+   type(dim_t), parameter :: dim_specific_heat = dim_t(m=2, s=-2, k=-1)  !! J/(kg.K)
+
+   !> A lubricant.
+   type :: oil_t
+      character(12) :: grade = "none"        !! its grade, none: its viscosity is given
+      real(wp) :: viscosity = 0.0_wp         !! dynamic, at its temperature [Pa.s]
+      real(wp) :: temperature = 0.0_wp       !! of the film, or of what comes in where a balance of heat is asked for [K]
+      real(wp) :: heat = 0.0_wp              !! density times heat capacity [J/(m^3.K)]
+   end type oil_t
 
 contains
 
@@ -40,6 +52,10 @@ contains
                     choices="none "//iso_grades//" sae_10 sae_20 sae_30 sae_40 sae_50 sae_60")
       call add_number(info, "temperature", dim_temperature, "temperature of the film, for a grade", default="40 degC", &
                       lower=ice, upper=ice + 150.0_wp)
+      call add_number(info, "density", dim_density, "for the rise of temperature", default="900 kg/m^3", lower=0.0_wp, &
+                      open_lower=.true.)
+      call add_number(info, "heat_capacity", dim_specific_heat, "for the rise of temperature; with the density 1.8 MJ/(m^3.K), " &
+                      //"as DIN 31652 has it", default="2000 J/(kg.K)", lower=0.0_wp, open_lower=.true.)
    end function lubricant_info
 
    !> Viscosity and grade: one of them, not both.
@@ -62,13 +78,25 @@ contains
       end if
    end subroutine lubricant_mistake
 
-   !> Viscosity of a row.
-   pure real(wp) function viscosity_of_row(item) result(viscosity)
+   !> The lubricant of a row.
+   pure type(oil_t) function oil_of_row(item) result(oil)
       type(item_t), intent(in) :: item  !! the row
 
-      viscosity = item%number("viscosity")
-      if (.not. viscosity > 0.0_wp) viscosity = viscosity_of_grade(item%word("grade"), item%number("temperature"))
-   end function viscosity_of_row
+      oil%grade = item%word("grade")
+      oil%viscosity = item%number("viscosity")
+      oil%temperature = item%number("temperature")
+      oil%heat = item%number("density")*item%number("heat_capacity")
+      if (.not. oil%viscosity > 0.0_wp) oil%viscosity = viscosity_at(oil, oil%temperature)
+   end function oil_of_row
+
+   !> Dynamic viscosity at a temperature [Pa.s]; of one without a grade the same at any.
+   pure real(wp) function viscosity_at(oil, temperature) result(viscosity)
+      type(oil_t), intent(in) :: oil       !! the lubricant
+      real(wp), intent(in) :: temperature  !! of the film [K]
+
+      viscosity = oil%viscosity
+      if (oil%grade /= "none") viscosity = viscosity_of_grade(trim(oil%grade), temperature)
+   end function viscosity_at
 
    !> Dynamic viscosity of a grade [Pa.s]; 0 of one that is not known.
    pure real(wp) function viscosity_of_grade(grade, temperature) result(viscosity)

@@ -3,7 +3,8 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ddot, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dpbtrf, dpbtrs, dsyev, dsygv, dtrtrs
+   public :: ddot, dgeev, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dpbtrf, dpbtrs, dsyev, dsygv
+   public :: dtrtrs
 
    interface
       !> Sum of products.
@@ -90,6 +91,19 @@ module lapack
          real(wp), intent(out) :: work(*)         !! (lwork) scratch [any]
          integer, intent(out) :: info             !! 0: done
       end subroutine dsyev
+
+      !> Eigenvalues of any matrix.
+      subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: jobvl, jobvr              !! N: no vectors
+         integer, intent(in) :: n, lda, ldvl, ldvr, lwork   !! sizes
+         real(wp), intent(inout) :: a(lda, *)               !! (lda, n) matrix, destroyed [any]
+         real(wp), intent(out) :: wr(*), wi(*)              !! (n) real and imaginary parts of the eigenvalues [any]
+         real(wp), intent(out) :: vl(ldvl, *), vr(ldvr, *)  !! (ld, n) eigenvectors, if asked for [1]
+         real(wp), intent(out) :: work(*)                   !! (lwork) scratch [any]
+         integer, intent(out) :: info                       !! 0: done
+      end subroutine dgeev
 
       !> Eigenvalues of a symmetric matrix against a positive definite one.
       subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)

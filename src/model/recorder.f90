@@ -6,6 +6,7 @@ module recorder
    use catalogue, only: catalogue_t
    use errors, only: error_t
    use kinds, only: i8, wp
+   use linearised, only: linearised_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -80,6 +81,7 @@ module recorder
       character(:), allocatable :: message         !! why, if not complete; else blank
       type(text_t), allocatable :: warnings(:)     !! (any) what a careful reader should know
       character(:), allocatable :: equilibrium     !! of a static analysis: stable, unstable or indifferent, and why; else blank
+      type(linearised_t) :: linear                 !! of a static analysis with films: small motions about the equilibrium
       real(wp) :: time_start = 0.0_wp              !! first instant [s]
       real(wp) :: time_end = 0.0_wp                !! last instant reached [s]
       integer :: groups = 1                        !! groups of bodies integrated apart; 1: all together

@@ -21,6 +21,7 @@ module hdf5_writer
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
+   use films_group, only: write_films
    use horizon_group, only: write_horizon
    use kinds, only: i8, wp
    use output_marker, only: enter_file
@@ -272,6 +273,7 @@ contains
          end if
          if (self%accuracy%asked > 0.0_wp) call write_accuracy(self%file, self%accuracy, status)
          call text_dataset(self%file, "warnings", warnings, .false., "what a careful reader should know", status)
+         call write_films(self%file, summary%linear, status)
          call write_summary(self%file, summary, status)
          call text_attribute(self%file, "status_message", summary%message, status)
          call write_status(self%file, summary%status, status)

@@ -7,6 +7,7 @@ module summary_writer
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
    use kinds, only: i8, not_a_number, wp
+   use linear_text, only: linear_json, linear_lines
    use output_plan, only: output_plan_t
    use plot_text, only: valid_utf8
    use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, status_complete, summary_t
@@ -83,6 +84,7 @@ contains
       call lines%line(headline(summary))
       if (len_trim(summary%message) > 0) call lines%line(trim(summary%message))
       if (len(summary%equilibrium) > 0) call lines%line("equilibrium: "//summary%equilibrium)
+      call linear_lines(lines, summary%linear)
       call lines%line("")
       call cost_lines(lines, summary)
       call accuracy_lines(lines, summary)
@@ -260,6 +262,7 @@ contains
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
       call put_summary(json, summary)
+      call linear_json(json, summary%linear)
       if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))
       call horizon_json(plan%horizon, json)
       if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))

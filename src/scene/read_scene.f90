@@ -15,7 +15,7 @@ module read_scene
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use option_check, only: check_options
    use precision_info, only: check_precision, precision_section
-   use lubricant, only: lubricant_info, viscosity_of_row
+   use lubricant, only: lubricant_info, oil_of_row
    use read_films, only: check_lubricants, films_from_deck
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
@@ -73,7 +73,7 @@ contains
       call new_points(scene%tables%base(table_points)%items, scene%points)
       call new_materials(scene%tables%base(table_materials)%items, scene%materials)
       associate (items => scene%tables%base(table_lubricants)%items)
-         scene%lubrication%viscosity = [(viscosity_of_row(items(k)), k=1, size(items))]
+         scene%lubrication%oils = [(oil_of_row(items(k)), k=1, size(items))]
       end associate
       call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck

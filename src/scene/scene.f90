@@ -12,6 +12,7 @@ module scene
    use joint_registry, only: n_joint_kinds
    use kind_info, only: kind_info_t
    use kinds, only: wp
+   use lubricant, only: oil_t
    use normal_law, only: normal_law_t
    implicit none (type, external)
    private
@@ -76,7 +77,7 @@ module scene
    !> What lubricates joints.
    type :: lubrication_t
       type(film_slot_t), allocatable :: films(:)   !! (films) lubricant films
-      real(wp), allocatable :: viscosity(:)        !! (lubricants) dynamic viscosities [Pa.s]
+      type(oil_t), allocatable :: oils(:)          !! (lubricants) all of them
    end type lubrication_t
 
    !> What a deck means.

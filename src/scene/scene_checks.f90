@@ -283,8 +283,14 @@ contains
 
       film = cell_index(info, item, "film")
       if (film == 0 .or. cell_text(info, item, "level") == "clearance") return
-      call scene%lubrication%films(film)%law%fit(film_bearing_of(item, scene%lubrication%viscosity), parameters, message, help)
+      call scene%lubrication%films(film)%law%fit(film_bearing_of(item, scene%lubrication%oils), parameters, message, help)
       if (message /= "") column = column_of(info, "film")
+      if (message /= "" .or. item%word("heat") == "off") return
+      if (item%reference("lubricant") == 0) return
+      if (scene%lubrication%oils(item%reference("lubricant"))%grade /= "none") return
+      column = column_of(info, "heat")
+      message = "joint '"//item%name//"' asks for a balance of heat, but its lubricant has the same viscosity at any temperature"
+      help = "give the lubricant a grade and the temperature at which it comes in"
    end subroutine check_film
 
    !> Where the deck puts a point at the start.

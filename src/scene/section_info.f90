@@ -184,6 +184,9 @@ contains
                       lower=least_tolerance, upper=1.0e-4_wp)
       call add_number(info, "maximum_iterations", dim_none, "steps of the search allowed", default="500", lower=1.0_wp, &
                       upper=1.0e9_wp)
+      call add_number(info, "whirl_search", dim_none, "with films: how many times faster, or slower, the drivers are made in " &
+                      //"search of the speed at which whirl sets in; 1: it is not looked for", default="30", lower=1.0_wp, &
+                      upper=1.0e4_wp)
    end function static_info
 
    !> The section [output].

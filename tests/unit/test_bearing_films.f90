@@ -4,7 +4,7 @@ module test_bearing_films
    use check, only: check_close, check_true, suite_t
    use differences, only: five_point, places
    use errors, only: error_t
-   use film_law, only: film_law_t
+   use film_law, only: film_law_t, film_motion_t, film_slopes_t
    use film_registry, only: n_film_kinds, new_film_law
    use fixed_random, only: random_t
    use kind_info, only: kind_info_t
@@ -16,6 +16,7 @@ module test_bearing_films
    use normal_law, only: parameter_deepest
    use scene_fixture, only: channel_pair, nl, system_of_text
    use surfaces, only: shape_internal
+   use text, only: to_text
    implicit none (type, external)
    private
    public :: run_test_bearing_films
@@ -34,6 +35,7 @@ contains
       call suite%test("rigid_rotation", test_rigid_rotation)
       call suite%test("entraining_speed", test_entraining_speed)
       call suite%test("transition", test_transition)
+      call suite%test("coefficients_in_the_transition", test_coefficients_in_the_transition)
       call suite%test("film_beyond_its_end", test_film_beyond_its_end)
       call suite%test("faded_law", test_faded_law)
    end subroutine run_test_bearing_films
@@ -205,6 +207,45 @@ contains
          call check_close(error, f, -expected*direction, 1.0e-7_wp*expected, "transition")
       end do
    end subroutine test_transition
+
+   !> Stiffness and damping of a film that goes out by degrees: differences of the force that it has in the joint, the body of the
+   !> bearing turned.
+   subroutine test_coefficients_in_the_transition(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: step(2) = [1.0e-8_wp, 1.0e-4_wp]  ! of eccentricity [m] and rate [m/s]
+      type(film_motion_t) :: motion
+      type(film_slopes_t) :: slopes
+      type(mechanism_t) :: system
+      real(wp), allocatable :: y(:)
+      real(wp) :: computed(2), e(2), e_dot(2), f(2, 4)
+      integer :: c, k, m
+
+      call system_of_text(deck_of("short_exact", "level e_t0 e_t1", "hybrid 5um 10um"), system, error)
+      if (allocated(error)) return
+      do m = 1, 2
+         do c = 1, 2
+            do k = 1, 4
+               e = (gap + 0.4_wp*depth)*[0.6_wp, 0.8_wp]
+               e_dot = [0.02_wp, -0.03_wp]
+               if (m == 1) e(c) = e(c) + places(k)*step(1)
+               if (m == 2) e_dot(c) = e_dot(c) + places(k)*step(2)
+               f(:, k) = channel_pair(system, 0.0_wp, state_of(system, e, e_dot, [0.2_wp, 1.1_wp], [3.0_wp, 40.0_wp]), &
+                                      "joint", "film_force")
+            end do
+            y = state_of(system, (gap + 0.4_wp*depth)*[0.6_wp, 0.8_wp], [0.02_wp, -0.03_wp], [0.2_wp, 1.1_wp], [3.0_wp, 40.0_wp])
+            computed = channel_pair(system, 0.0_wp, y, "joint", "film_force")
+            associate (set => system%loose%sets(1)%set)
+               call set%laws%films%slopes_of(1, set%items%body(:, 1), set%items%s_i(:, 1), set%items%s_j(:, 1), &
+                                             system%linkage%motion, motion, slopes)
+            end associate
+            computed = slopes%stiffness(:, c)
+            if (m == 2) computed = slopes%damping(:, c)
+            call check_close(error, computed, -[five_point(f(1, :), step(m)), five_point(f(2, :), step(m))], &
+                             1.0e-5_wp*norm2(computed), "slope "//to_text(m)//to_text(c))
+         end do
+      end do
+   end subroutine test_coefficients_in_the_transition
 
    !> A film with contact behind it beyond eps_max: finite, against the approach, and none of suction where it carries no tension.
    subroutine test_film_beyond_its_end(error)

@@ -5,14 +5,16 @@ module test_film_grid
    use film_case, only: components, film_case_t, force_of, make_film, motion_of, unit_bearing
    use film_grid, only: film_grid_t
    use film_grid_case, only: at_widest_gap, make_grid, result_of, steady, two_grooves
-   use film_law, only: film_bearing_t, film_law_t, film_motion_t, n_film_parameter
+   use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter
    use fixed_random, only: random_t
    use generic_item, only: column_number, fill_item
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
+   use published_films, only: grooved
    use reynolds_grid, only: boundary_full, boundary_reynolds, new_reynolds_grid, reynolds_grid_t
    use reynolds_results, only: film_result_t
+   use text, only: to_text
    implicit none (type, external)
    private
    public :: run_test_film_grid
@@ -25,6 +27,7 @@ contains
       call suite%test("scale", test_scale)
       call suite%test("supplies", test_supplies)
       call suite%test("pressure", test_pressure)
+      call suite%test("coefficients", test_coefficients)
       call suite%test("mistakes", test_mistakes)
    end subroutine run_test_film_grid
 
@@ -131,6 +134,35 @@ contains
       call make_grooved("fixed", 1.0_wp, 0.5_wp, 0.8_wp, 4.0e5_wp, double)
       call check_close(error, force_of(double, motion), 2.0_wp*f, 1.0e-9_wp, "twice the pressure", relative=.true.)
    end subroutine test_pressure
+
+   !> Stiffness and damping of the two-groove bearing of Lund and Thomsen where their table has it. Theirs hold the line without
+   !> pressure where it is while the journal moves; here it moves along: 3 % or 0.02.
+   subroutine test_coefficients(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      type(film_case_t) :: case
+      type(film_motion_t) :: motion
+      type(film_slopes_t) :: slopes
+      real(wp) :: computed(7), load
+      integer :: i, k
+
+      call make_grooved("both", 2.0_wp, -0.5_wp*pi, pi/9.0_wp, 0.0_wp, case)
+      motion%speed_sum = 40.0_wp
+      do k = 2, size(grooved, 2), 3
+         associate (row => grooved(:, k), c => case%bearing%clearance, angle => grooved(3, k)*pi/180.0_wp)
+            motion%e = c*row(2)*[cos(angle), sin(angle)]
+            call case%law%linearise(motion, case%parameters, slopes)
+            load = norm2(force_of(case, motion))
+            associate (s => slopes%stiffness*c/load, b => slopes%damping*c*motion%speed_sum/load)
+               computed = [s(1, 1), s(1, 2), s(2, 1), s(2, 2), b(1, 1), b(1, 2), b(2, 2)]
+            end associate
+            do i = 1, size(computed)
+               call check_close(error, computed(i), row(3 + i), max(0.03_wp*abs(row(3 + i)), 0.02_wp), &
+                                "coefficient "//to_text(i)//" of row "//to_text(k))
+            end do
+         end associate
+      end do
+   end subroutine test_coefficients
 
    !> Supplies that take all of the bearing are refused in words; the grid is told.
    subroutine test_mistakes(error)

@@ -1,0 +1,176 @@
+!> Films at a steady state and small motions about it, in words and for scripts.
+module linear_text
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use json_text, only: json_object_t
+   use kinds, only: pi, two_pi, wp
+   use linearised, only: film_coefficients_t, linearised_t
+   use text, only: append_text, real_text, text_t
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: film_lines, linear_json, linear_lines
+
+   integer, parameter :: n_digit = 5                                      !! digits that are printed
+   character(*), parameter :: place(4) = ["xx", "xy", "yx", "yy"]         !! of the entries of a matrix, row by row
+   integer, parameter :: row(4) = [1, 1, 2, 2], column(4) = [1, 2, 1, 2]  !! of these entries
+
+   real(wp), parameter :: ice = 273.15_wp                                 !! 0 degC [K]
+
+contains
+
+   !> Films, and the speed at which whirl sets in; nothing if no film was linearised.
+   subroutine linear_lines(lines, linear)
+      type(buffer_t), intent(inout) :: lines      !! grown
+      type(linearised_t), intent(in) :: linear    !! what is known
+
+      type(text_t), allocatable :: words(:)
+      integer :: i, k
+
+      if (.not. allocated(linear%films)) return
+      do k = 1, size(linear%films)
+         words = film_lines(linear%films(k))
+         call lines%line("film       "//words(1)%s)
+         do i = 2, size(words)
+            call lines%line("           "//words(i)%s)
+         end do
+      end do
+      if (linear%is_searched) call lines%line("whirl      "//linear%onset_words)
+   end subroutine linear_lines
+
+   !> A film in words.
+   function film_lines(film) result(words)
+      type(film_coefficients_t), intent(in) :: film  !! the film
+      type(text_t), allocatable :: words(:)          !! (4 or 5) lines
+
+      allocate (words(0))
+      call append_text(words, film%joint//": eccentricity "//real_text(film%eccentricity_ratio, n_digit)// &
+                       " of the clearance, attitude "//real_text(film%attitude*180.0_wp/pi, n_digit)//" deg, load "// &
+                       real_text(film%load, n_digit)//" N, journal at "//real_text(film%journal_speed, n_digit)//" rad/s")
+      if (film%is_heated) then
+         call append_text(words, "temperature "//real_text(film%temperature - ice, n_digit)// &
+                          " degC by a balance of heat, viscosity "//real_text(film%viscosity, n_digit)//" Pa.s")
+      end if
+      call append_text(words, "stiffness [N/m]   "//entries(film%stiffness, film%error))
+      call append_text(words, "damping [N.s/m]   "//entries(film%damping, film%error)//"; error "//real_text(film%error, 1))
+      call append_text(words, "a rigid rotor alone on it "//rotor_words(film))
+   end function film_lines
+
+   !> The entries of a matrix; those within the error of the greatest as zero.
+   function entries(matrix, error) result(words)
+      real(wp), intent(in) :: matrix(2, 2)   !! (2, 2) the matrix [any]
+      real(wp), intent(in) :: error          !! of the greatest entry, as a part of it [1]
+      character(:), allocatable :: words     !! as `xx 1.5 xy 2 ...`
+
+      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the greatest entry at least [1]
+      real(wp) :: value
+      integer :: k
+
+      words = ""
+      do k = 1, size(place)
+         value = matrix(row(k), column(k))
+         if (abs(value) <= max(error, round_off)*maxval(abs(matrix))) value = 0.0_wp
+         words = words//"  "//place(k)//" "//real_text(value, n_digit)
+      end do
+   end function entries
+
+   !> When a rigid rotor whirls.
+   function rotor_words(film) result(words)
+      type(film_coefficients_t), intent(in) :: film  !! the film
+      character(:), allocatable :: words             !! to follow the rotor
+
+      if (.not. ieee_is_finite(film%critical_mass)) then
+         words = "does not whirl, whatever its mass"
+      else if (.not. film%critical_mass > 0.0_wp) then
+         words = "whirls, whatever its mass"
+      else
+         words = "whirls from "//real_text(film%critical_mass, n_digit)//" kg on, at "// &
+                 real_text(film%whirl_frequency/two_pi, n_digit)//" Hz"//ratio_words(film)
+      end if
+   end function rotor_words
+
+   !> The frequency of a whirl over the speed of the journal.
+   function ratio_words(film) result(words)
+      type(film_coefficients_t), intent(in) :: film  !! the film
+      character(:), allocatable :: words             !! as `, 0.49 of the journal's speed`; blank where that stands
+
+      words = ""
+      if (abs(film%journal_speed) > 0.0_wp) words = ", "//real_text(film%whirl_frequency/abs(film%journal_speed), n_digit)// &
+                                                    " of the journal's speed"
+   end function ratio_words
+
+   !> The same for scripts; nothing if no film was linearised.
+   subroutine linear_json(json, linear)
+      type(json_object_t), intent(inout) :: json  !! the object
+      type(linearised_t), intent(in) :: linear    !! what is known
+
+      type(json_object_t) :: part
+      type(text_t), allocatable :: films(:), values(:)
+      integer :: k
+
+      if (.not. allocated(linear%films)) return
+      allocate (films(0), values(0))
+      do k = 1, size(linear%films)
+         call append_text(films, film_object(linear%films(k)))
+      end do
+      call json%put_objects("films", films)
+      call part%start(1)
+      call part%put_logical("judged", linear%is_judged)
+      if (linear%is_judged) then
+         do k = 1, size(linear%eigenvalues, 2)
+            call append_text(values, eigenvalue_object(linear%eigenvalues(:, k)))
+         end do
+         call part%put_objects("eigenvalues", values)
+      end if
+      if (linear%is_searched) then
+         call part%put_text("onset_text", linear%onset_words)
+         call part%put_real("onset", linear%onset)
+         call part%put_real("onset_frequency", linear%onset_frequency)
+         call part%put_real("searched_to", linear%searched_to)
+      end if
+      call json%put_object("small_motions", part%get())
+   end subroutine linear_json
+
+   !> An eigenvalue as an object.
+   function eigenvalue_object(value) result(object)
+      real(wp), intent(in) :: value(2)      !! (2) real and imaginary part [1/s]
+      character(:), allocatable :: object   !! as text
+
+      type(json_object_t) :: json
+
+      call json%start(2)
+      call json%put_real("growth", value(1))
+      call json%put_real("frequency", value(2))
+      object = json%get()
+   end function eigenvalue_object
+
+   !> A film as an object.
+   function film_object(film) result(object)
+      type(film_coefficients_t), intent(in) :: film  !! the film
+      character(:), allocatable :: object            !! as text
+
+      type(json_object_t) :: json
+      integer :: k
+
+      call json%start(1)
+      call json%put_text("joint", film%joint)
+      call json%put_real("eccentricity_ratio", film%eccentricity_ratio)
+      call json%put_real("attitude", film%attitude)
+      call json%put_real("load", film%load)
+      call json%put_real("journal_speed", film%journal_speed)
+      call json%put_logical("heated", film%is_heated)
+      call json%put_real("temperature", film%temperature)
+      call json%put_real("viscosity", film%viscosity)
+      do k = 1, size(place)
+         call json%put_real("stiffness_"//place(k), film%stiffness(row(k), column(k)))
+      end do
+      do k = 1, size(place)
+         call json%put_real("damping_"//place(k), film%damping(row(k), column(k)))
+      end do
+      call json%put_real("error", film%error)
+      call json%put_real("equivalent_stiffness", film%equivalent_stiffness)
+      call json%put_real("whirl_frequency", film%whirl_frequency)
+      call json%put_real("critical_mass", film%critical_mass)
+      object = json%get()
+   end function film_object
+
+end module linear_text
