@@ -10,13 +10,17 @@
 !> Signs: forces and moments on the journal. Source: Flores et al. (2008), eqs. (5.23)-(5.32). Without the moments of shear what is
 !> lost may be negative: the shaft that would give the energy back is not asked for its moment. Limits: journals in the plane.
 module bearing_films
-   use film_law, only: film_bearing_t, film_law_t, film_motion_t, n_film_parameter
+   use film_fields, only: film_field_t
+   use film_law, only: film_bearing_t, film_law_t, film_motion_t, n_film_parameter, parameter_clearance, parameter_length
    use item, only: item_t
-   use kinds, only: wp
+   use kinds, only: two_pi, wp
    use motion, only: loads_t, motion_t
    implicit none (type, external)
    private
    public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
+
+   integer, parameter :: n_around = 360  !! parts of the angle of an unwrapped film
+   integer, parameter :: n_along = 40    !! parts of its length
 
    !> How a film acts in a joint.
    type :: film_place_t
@@ -51,6 +55,8 @@ module bearing_films
       procedure :: bear => films_bear
       procedure :: state_of => films_state_of
       procedure :: fades => films_fade
+      procedure :: motion_of => films_motion_of
+      procedure :: unwrap => films_unwrap
    end type bearing_films_t
 
 contains
@@ -235,10 +241,9 @@ contains
       type(film_state_t) :: state                 !! what it does
 
       type(film_motion_t) :: one(1)
-      real(wp) :: f(2, 1), s(2, 2, 1), t_b
+      real(wp) :: f(2, 1), t_b
 
-      call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
-                         ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, one, s)
+      one(1) = self%motion_of(k, body, s_i, s_j, motion)
       state%e = one(1)%e
       if (.not. self%acts) return
       state%share = share_of(self%place(k), one(1)%e)
@@ -248,5 +253,45 @@ contains
       call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%torque, t_b)
       state%torque = state%share*state%torque
    end function films_state_of
+
+   !> The motion of one item.
+   function films_motion_of(self, k, body, s_i, s_j, motion) result(film)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_i(3)              !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_j(3)              !! (3) centre of the journal, frame of its body [m]
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(film_motion_t) :: film                 !! motion of the bearing
+
+      type(film_motion_t) :: one(1)
+      real(wp) :: s(2, 2, 1)
+
+      call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
+                         ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, one, s)
+      film = one(1)
+   end function films_motion_of
+
+   !> Pressures and gaps of the film of one item, what of it acts in a transition.
+   subroutine films_unwrap(self, k, motion, field)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: motion   !! its motion
+      type(film_field_t), intent(inout) :: field  !! pressures, gaps and where they are
+
+      integer :: i
+
+      field%film = self%law%name
+      field%clearance = self%parameters(parameter_clearance, k)
+      field%angle = motion%angle
+      field%e = [cos(motion%angle)*motion%e(1) + sin(motion%angle)*motion%e(2), &
+                 cos(motion%angle)*motion%e(2) - sin(motion%angle)*motion%e(1)]
+      field%theta = [(two_pi*i/n_around, i=0, n_around)]
+      field%y = [(real(2*i - n_along, wp)/n_along, i=0, n_along)]
+      allocate (field%pressure(n_along + 1, n_around + 1), field%gap(n_along + 1, n_around + 1))
+      call self%law%field(motion, self%parameters(:, k), field%theta, field%y, field%pressure, field%gap)
+      field%pressure = share_of(self%place(k), motion%e)*field%pressure
+      field%y = 0.5_wp*self%parameters(parameter_length, k)*field%y
+   end subroutine films_unwrap
 
 end module bearing_films

@@ -10,7 +10,7 @@
 !> squeezing and suction for fast parting; the force would jump where Om changes its sign while eps' does not vanish, and
 !> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 module film_short_gumbel
-   use closed_film, only: narrowing_side, short_film_t
+   use closed_film, only: half_share, narrowing_side, short_film_t, short_shape
    use film_law, only: n_film_parameter
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
@@ -23,6 +23,8 @@ module film_short_gumbel
    contains
       procedure, nopass :: info => short_gumbel_info
       procedure :: components => short_gumbel_components
+      procedure, nopass :: has_field => short_gumbel_has_field
+      procedure :: shape => short_gumbel_shape
    end type film_short_gumbel_t
 
 contains
@@ -57,5 +59,25 @@ contains
       f_r = -0.5_wp*(pi*eps_dot*(1.0_wp + 2.0_wp*eps*eps)/root + 2.0_wp*eps*side*w)/(q*q)
       f_t = 0.5_wp*side*(4.0_wp*eps*eps_dot + 0.5_wp*pi*side*w*root)/(q*q)
    end subroutine short_gumbel_components
+
+   !> It has pressures.
+   pure logical function short_gumbel_has_field() result(has)
+      has = .true.
+   end function short_gumbel_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function short_gumbel_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_short_gumbel_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      real(wp) :: side
+
+      side = 1.0_wp
+      if (.not. self%is_book) side = narrowing_side(eps, eps_dot, w)
+      shape = half_share(side, theta)*short_shape(eps, eps_dot, w, theta)
+   end function short_gumbel_shape
 
 end module film_short_gumbel
