@@ -32,7 +32,6 @@ module bearing_films
 
    !> What a film does at a motion.
    type :: film_state_t
-      real(wp) :: e(2) = 0.0_wp           !! (2) eccentricity, world frame [m]
       real(wp) :: force(2) = 0.0_wp       !! (2) on the journal, world frame [N]
       real(wp) :: torque = 0.0_wp         !! moment of shear on the journal [N.m]
       real(wp) :: share = 0.0_wp          !! part of the film in the transition [1]
@@ -55,6 +54,7 @@ module bearing_films
       procedure :: bear => films_bear
       procedure :: state_of => films_state_of
       procedure :: fades => films_fade
+      procedure :: greatest_pressure => films_greatest_pressure
       procedure :: motion_of => films_motion_of
       procedure :: unwrap => films_unwrap
    end type bearing_films_t
@@ -231,28 +231,38 @@ contains
    end function share_of
 
    !> What the film of one item does at a motion.
-   function films_state_of(self, k, body, s_i, s_j, motion) result(state)
+   function films_state_of(self, k, motion) result(state)
       class(bearing_films_t), intent(in) :: self  !! the films
       integer, intent(in) :: k                    !! item
-      integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
-      real(wp), intent(in) :: s_i(3)              !! (3) centre of the bearing, frame of its body [m]
-      real(wp), intent(in) :: s_j(3)              !! (3) centre of the journal, frame of its body [m]
-      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(film_motion_t), intent(in) :: motion   !! its motion
       type(film_state_t) :: state                 !! what it does
 
-      type(film_motion_t) :: one(1)
       real(wp) :: f(2, 1), t_b
 
-      one(1) = self%motion_of(k, body, s_i, s_j, motion)
-      state%e = one(1)%e
       if (.not. self%acts) return
-      state%share = share_of(self%place(k), one(1)%e)
-      call self%law%force(1, one, self%parameters(:, k:k), f)
+      state%share = share_of(self%place(k), motion%e)
+      call self%law%force(1, [motion], self%parameters(:, k:k), f)
       state%force = state%share*f(:, 1)
       if (.not. self%place(k)%has_torque) return
-      call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%torque, t_b)
+      call self%law%torques(motion, self%parameters(:, k), f(:, 1), state%torque, t_b)
       state%torque = state%share*state%torque
    end function films_state_of
+
+   !> Greatest pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.
+   real(wp) function films_greatest_pressure(self, k, motion) result(pressure)
+      class(bearing_films_t), intent(in) :: self  !! the films, which have pressures
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: motion   !! its motion
+
+      real(wp) :: h(1, n_around), p(1, n_around), theta(n_around)
+      integer :: i
+
+      pressure = 0.0_wp
+      if (.not. self%acts) return
+      theta = [(two_pi*i/n_around, i=1, n_around)]
+      call self%law%field(motion, self%parameters(:, k), theta, [0.0_wp], p, h)
+      pressure = share_of(self%place(k), motion%e)*maxval(p)
+   end function films_greatest_pressure
 
    !> The motion of one item.
    function films_motion_of(self, k, body, s_i, s_j, motion) result(film)
