@@ -23,6 +23,7 @@ module dynamic
    public :: run_dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
+   integer, parameter :: many_steps = 100000       !! from which on a run is told what makes its steps short
 
    !> The state of a run.
    type :: run_t
@@ -351,6 +352,9 @@ contains
          guards = limits%guards
          call whole%seen(guards)
          call guards%warn(whole%system, summary%warnings)
+         if (method%is_explicit() .and. summary%count%steps > many_steps) then
+            call guards%films%warn_of_stiffness(whole%system, summary%method%integrator, summary%warnings)
+         end if
       end associate
       summary%status = status_complete
       summary%message = ""

@@ -55,6 +55,7 @@ module bearing_films
       procedure :: state_of => films_state_of
       procedure :: fades => films_fade
       procedure :: greatest_pressure => films_greatest_pressure
+      procedure :: decay_of => films_decay_of
       procedure :: motion_of => films_motion_of
       procedure :: unwrap => films_unwrap
    end type bearing_films_t
@@ -263,6 +264,27 @@ contains
       call self%law%field(motion, self%parameters(:, k), theta, [0.0_wp], p, h)
       pressure = share_of(self%place(k), motion%e)*maxval(p)
    end function films_greatest_pressure
+
+   !> How fast the film of one item brings the way of the journal along the line of centres to rest, while it approaches [1/s].
+   real(wp) function films_decay_of(self, k, motion, inverse_mass) result(decay)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: motion   !! its motion
+      real(wp), intent(in) :: inverse_mass        !! sum of those of journal and bearing [1/kg]
+
+      real(wp), parameter :: part = 1.0e-3_wp  ! change of the speed, of itself or of a clearance in a second [1]
+      type(film_motion_t) :: two(2)
+      real(wp) :: change, f(2, 2), n(2)
+
+      decay = 0.0_wp
+      if (.not. self%acts .or. .not. norm2(motion%e) > 0.0_wp) return
+      n = motion%e/norm2(motion%e)
+      change = part*max(norm2(motion%e_dot), self%parameters(parameter_clearance, k))
+      two = motion
+      two(2)%e_dot = motion%e_dot + change*n
+      call self%law%force(2, two, self%parameters(:, [k, k]), f)
+      decay = share_of(self%place(k), motion%e)*abs(dot_product(f(:, 2) - f(:, 1), n))/change*inverse_mass
+   end function films_decay_of
 
    !> The motion of one item.
    function films_motion_of(self, k, body, s_i, s_j, motion) result(film)
