@@ -128,7 +128,6 @@ def combustion(gudgeon, film, words=None):
     """The first 25 ms, to behind the combustion."""
     text = DECK.read_text().replace('"engine_gas.txt"', f'"{ROOT}/inputs/engine_gas.txt"')
     text = changed(changed(text, "analysis.dynamic", end="25 ms"), "output", figures=words)
-    text = changed(text, "statistics", after="5 ms")
     out = scratch() / "out"
     return Run(out, call(gudgeon, "run", written(scratch(), text), "--out", out, "--write", "channels", "--tolerance", "1e-7", "--set", f"film={film}"))
 

@@ -1,6 +1,5 @@
 """The hard cases of inputs/hard: the fast ones of the table of `make stability`, and the generator of chains."""
 
-import re
 import shutil
 import subprocess
 import sys
@@ -31,8 +30,7 @@ def start_accelerations(gudgeon, deck, solver):
     directory = scratch()
     for beside in deck.parent.glob("*.txt"):  # tables that decks name
         shutil.copy(beside, directory)
-    text = re.sub(r"(?ms)^\[statistics\].*?(?=^\[)", "", deck.read_text())  # of a motion longer than a microsecond
-    text = changed(text, "analysis.dynamic", solver=solver, start="ideal", end="1 us")
+    text = changed(deck.read_text(), "analysis.dynamic", solver=solver, start="ideal", end="1 us")
     text = changed(text, "output", every="1 us", channels="*.acceleration *.angular_acceleration", figures=None)
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     bodies = Run(directory / "out").group("bodies")
