@@ -23,6 +23,7 @@ module dynamic
    public :: run_dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
+   integer, parameter :: many_steps = 100000       !! from which on a run is told what makes its steps short
 
    !> The state of a run.
    type :: run_t
@@ -59,7 +60,7 @@ contains
       allocate (run%waiting(size(run%whole%parts)))
       call new_sampler(system, plan, run%sampler)
       call recorder%start(run%sampler%catalogue, error)
-      if (.not. allocated(error)) call run%sampler%ask(recorder, run%stop)
+      if (.not. allocated(error)) call run%sampler%ask(system, recorder, run%stop)
       call cpu_time(cpu_0)
       call run%budget%begin(limits%cpu)
       if (.not. allocated(error)) call integrate(run, y, plan, recorder, error)
@@ -88,6 +89,7 @@ contains
 
       call begin(run, y, plan, recorder, error)
       if (allocated(error)) return
+      if (run%sampler%films%has_least) call look_at_films(run)
       call look_for_stop(run, error)
       if (allocated(error)) return
       call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
@@ -132,6 +134,17 @@ contains
       end associate
    end subroutine begin
 
+   !> Films of all parts as they begin.
+   subroutine look_at_films(run)
+      type(run_t), intent(inout) :: run  !! state of the run
+
+      integer :: k
+
+      do k = 1, size(run%whole%parts)
+         call run%sampler%films%look(run%whole%parts(k)%system, run%whole%t)
+      end do
+   end subroutine look_at_films
+
    !> A step of each part that is behind.
    subroutine step(run, plan, error)
       type(run_t), intent(inout) :: run                   !! state of the run
@@ -149,6 +162,7 @@ contains
                   call describe_failure(part%system, part%method, time_used_up, error)
                end if
                if (allocated(error)) return
+               if (run%sampler%films%has_least) call run%sampler%films%look(part%system, part%method%t)
                call whole%note_step(whole%front(k))
             end associate
          end do
@@ -338,6 +352,9 @@ contains
          guards = limits%guards
          call whole%seen(guards)
          call guards%warn(whole%system, summary%warnings)
+         if (method%is_explicit() .and. summary%count%steps > many_steps) then
+            call guards%films%warn_of_stiffness(whole%system, summary%method%integrator, summary%warnings)
+         end if
       end associate
       summary%status = status_complete
       summary%message = ""

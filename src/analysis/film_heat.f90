@@ -11,6 +11,7 @@
 module film_heat
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: error_t, exit_assembly, set_error
+   use film_law, only: film_motion_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use static_film, only: settle_in_films
@@ -63,6 +64,7 @@ contains
       character(:), allocatable, intent(out) :: worst       !! joint that has it
       type(error_t), allocatable, intent(out) :: error      !! a film has no flow, or gets too hot
 
+      type(film_motion_t) :: motion
       real(wp) :: change
       integer :: i, k
 
@@ -74,7 +76,8 @@ contains
             associate (films => set%laws%films, items => set%items)
                do i = 1, set%n
                   if (.not. films%place(i)%is_heated) cycle
-                  associate (state => films%state_of(i, items%body(:, i), items%s_i(:, i), items%s_j(:, i), system%linkage%motion))
+                  motion = films%motion_of(i, items%body(:, i), items%s_i(:, i), items%s_j(:, i), system%linkage%motion)
+                  associate (state => films%state_of(i, items%body(:, i), motion, system%linkage%motion))
                      if (.not. ieee_is_finite(state%rise)) then
                         call set_error(error, exit_assembly, "no lubricant leaves the film of joint '"//set%names(i)%s// &
                                        "', so that its heat has no balance"//new_line("a")// &

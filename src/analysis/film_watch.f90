@@ -7,7 +7,7 @@
 !> R. M. Phelan, Fundamentals of Mechanical Design (1970), for that of the diameter. Limits: of steps, so that a least film between
 !> two ends is told a little too thick.
 module film_watch
-   use film_law, only: parameter_radius
+   use film_law, only: film_motion_t, parameter_radius
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use text, only: append_text, real_text, text_t
@@ -24,6 +24,9 @@ module film_watch
    real(wp), parameter :: of_diameter = 1.5e-4_wp  !! least film over the journal's diameter [1]
    real(wp), parameter :: of_roughness = 20.0_wp   !! least film over the roughness [1]
 
+   real(wp), parameter :: stiff_from = 0.1_wp    !! step over the time of a decay, from which on the decay decides the step [1]
+   real(wp), parameter :: stiff_to = 20.0_wp    !! beyond what explicit methods can bear: the step was not one of theirs [1]
+
    !> The film of a joint.
    type :: thin_film_t
       logical :: is_watched = .false.                  !! it has a film that acts
@@ -33,17 +36,21 @@ module film_watch
       real(wp) :: limit(n_limit) = 0.0_wp              !! (limits) the limits, 0: none [m]
       real(wp) :: least = huge(1.0_wp)                 !! least thickness [m]
       real(wp) :: time = 0.0_wp                        !! when that was [s]
+      real(wp) :: step = 0.0_wp                        !! step that ended then [s]
+      type(film_motion_t) :: motion                    !! motion of the bearing then
    end type thin_film_t
 
    !> The films of all loose joints.
    type :: film_watch_t
       type(thin_film_t), allocatable :: joint(:)   !! (contacts) films, each of one contact; unallocated: no joint has one
       real(wp), allocatable :: delta(:), rate(:)   !! (contacts) penetrations [m] and their rates [m/s]
+      real(wp) :: t = 0.0_wp                       !! end of the last step [s]
    contains
       procedure :: begin => watch_begin
       procedure :: look => watch_look
       procedure :: gather => watch_gather
       procedure :: warn => watch_warn
+      procedure :: warn_of_stiffness => watch_warn_of_stiffness
    end type film_watch_t
 
 contains
@@ -93,6 +100,9 @@ contains
                   if (.not. joint%is_watched .or. thickness >= joint%least) cycle
                   joint%least = thickness
                   joint%time = t
+                  joint%step = t - self%t
+                  joint%motion = set%laws%films%motion_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
+                                                          system%linkage%motion)
                   do limit = 1, n_limit
                      if (joint%is_below(limit) .or. thickness >= joint%limit(limit)) cycle
                      joint%is_below(limit) = .true.
@@ -102,6 +112,7 @@ contains
             end do
          end associate
       end do
+      self%t = t
    end subroutine watch_look
 
    !> What the watch of a part of the mechanism has seen.
@@ -143,6 +154,38 @@ contains
          end associate
       end do
    end subroutine watch_warn
+
+   !> Append a warning for each joint whose film, not the motion, made the steps of an explicit method as short as they were where
+   !> it was thinnest: no longer than some multiple of the time in which it brings the journal to rest.
+   subroutine watch_warn_of_stiffness(self, system, method, warnings)
+      class(film_watch_t), intent(in) :: self                    !! the watch
+      type(mechanism_t), intent(in) :: system                    !! the system
+      character(*), intent(in) :: method                         !! name of the explicit method
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+
+      real(wp) :: decay
+      integer :: i, k
+
+      if (.not. allocated(self%joint)) return
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
+            if (.not. allocated(set%laws%films)) cycle
+            do i = 1, set%n
+               associate (joint => self%joint(set%before%contacts + i), &
+                          inverse => system%linkage%inverse_mass(1, set%items%body(1, i)) &
+                                     + system%linkage%inverse_mass(1, set%items%body(2, i)))
+                  if (.not. joint%is_watched .or. .not. joint%step > 0.0_wp) cycle
+                  decay = set%laws%films%decay_of(i, joint%motion, inverse)
+                  if (joint%step*decay < stiff_from .or. joint%step*decay > stiff_to) cycle
+                  call append_text(warnings, "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name// &
+                                   "' is stiff: where it is thinnest it brings the journal to rest within "// &
+                                   real_text(1.0e6_wp/decay, 2)//" us, and '"//method//"' takes steps of "// &
+                                   real_text(1.0e6_wp*joint%step, 2)//" us; method = bdf takes steps that follow the motion")
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine watch_warn_of_stiffness
 
    !> A limit in words.
    function limit_words(limit, value) result(words)

@@ -6,6 +6,7 @@
 module sampling
    use catalogue, only: catalogue_t
    use errors, only: error_t
+   use film_moments, only: film_moments_t
    use integrator, only: advance_failed_evaluation
    use kinds, only: i8, wp
    use mechanism_report, only: build_catalogue, report_state
@@ -28,6 +29,7 @@ module sampling
       integer(i8) :: n_reports = 0               !! evaluations made for all these
       real(wp) :: aside = 0.0_wp                 !! CPU time spent [s]
       real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
+      type(film_moments_t) :: films              !! films that are asked for
       integer(i8), private :: n_last_sample = 0  !! number of the last output instant, from 0
       real(wp), private :: t_row = -1.0_wp       !! time of the last row [s]
       logical, private :: has_onset = .false.    !! of the events in hand: a contact begins
@@ -58,8 +60,9 @@ contains
    end subroutine new_sampler
 
    !> Learn what is read of a report: nothing else is found.
-   subroutine ask_readers(self, recorder, stop)
+   subroutine ask_readers(self, system, recorder, stop)
       class(sampler_t), intent(inout) :: self         !! what is reported
+      type(mechanism_t), intent(in) :: system         !! the system
       class(recorder_t), intent(in) :: recorder       !! keeps the results, started
       type(stop_t), intent(in) :: stop                !! conditions that end the run
 
@@ -68,6 +71,7 @@ contains
       do k = 1, size(self%catalogue%groups)
          self%catalogue%groups(k)%is_wanted = recorder%wants(k) .or. stop%wants(k)
       end do
+      call self%films%begin(system, recorder)
    end subroutine ask_readers
 
    !> All output instants and peaks of contacts up to the time that all parts have reached; an output instant at which functions of
@@ -87,6 +91,8 @@ contains
          if (plan%strobes(self%n_strobe + 1) <= reached) call take_strobes(self, whole, plan, residual, recorder, error)
          if (allocated(error)) return
       end if
+      if (self%films%next() <= reached) call take_fields(self, whole, residual, recorder, error)
+      if (allocated(error)) return
       t = next_instant(self, whole%system, plan)
       t_peak = whole%next_peak()
       if (min(t, t_peak) > reached) return
@@ -197,7 +203,7 @@ contains
       call whole%note_row()
    end subroutine after_events
 
-   !> The end of the run: the row of a contact whose greatest force is that of the last instant.
+   !> The end of the run: the row of a contact whose greatest force is that of the last instant, and films.
    subroutine finish_samples(self, whole, plan, residual, recorder, error)
       class(sampler_t), intent(inout) :: self             !! what is reported
       type(whole_motion_t), intent(inout) :: whole        !! the motion, at the end
@@ -210,6 +216,11 @@ contains
          call put_row(self, whole, plan, whole%t, row_peak, residual, recorder, error)
       end if
       call whole%note_row()
+      if (allocated(error) .or. .not. allocated(recorder%wants_fields)) return
+      if (self%films%next() <= min(whole%t, self%until)) call take_fields(self, whole, residual, recorder, error)
+      if (allocated(error)) return
+      call report(self, whole, min(whole%t, self%until), .false., 0.0_wp, residual, error)
+      if (.not. allocated(error)) call self%films%tell_rest(whole%system, min(whole%t, self%until), recorder)
    end subroutine finish_samples
 
    !> A row at the time that all have reached, if it is wanted; what it costs is set aside.
@@ -284,6 +295,28 @@ contains
       call cpu_time(cpu_1)
       self%aside = self%aside + (cpu_1 - cpu_0)
    end subroutine take_strobes
+
+   !> Films of all times up to that which all have reached.
+   subroutine take_fields(self, whole, residual, recorder, error)
+      class(sampler_t), intent(inout) :: self             !! what is reported
+      type(whole_motion_t), intent(inout) :: whole        !! the motion
+      real(wp), intent(in) :: residual                    !! of the ledger at the last step [J]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
+
+      real(wp) :: cpu_0, cpu_1, t
+
+      call cpu_time(cpu_0)
+      do
+         t = self%films%next()
+         if (t > min(whole%t, self%until)) exit
+         call report(self, whole, t, .false., 0.0_wp, residual, error)
+         if (allocated(error)) return
+         call self%films%tell_at(whole%system, t, recorder)
+      end do
+      call cpu_time(cpu_1)
+      self%aside = self%aside + (cpu_1 - cpu_0)
+   end subroutine take_fields
 
    !> Fill the catalogue with the values at a time that the last steps hold.
    subroutine report(self, whole, t, at_peak, shift, residual, error)

@@ -14,6 +14,7 @@ module static
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
    use film_heat, only: balance_heat
+   use film_moments, only: film_moments_t
    use inverse_dynamics, only: find_reactions
    use kinds, only: i8, not_a_number, two_pi, wp
    use mobility, only: moving_bodies
@@ -331,6 +332,7 @@ contains
       type(catalogue_t) :: catalogue
       type(energy_t) :: energy
       type(error_t), allocatable :: late_error
+      type(film_moments_t) :: films
       real(wp) :: rest(size(equilibrium%q)), unbalanced, y(2*size(equilibrium%q))
 
       call build_catalogue(system, catalogue)
@@ -360,6 +362,8 @@ contains
          call fill_catalogue(system, 0.0_wp, y, 0.0_wp, catalogue)
          call recorder%sample(0.0_wp, catalogue, error)
          if (.not. allocated(error)) summary%count%samples = 1
+         call films%begin(system, recorder)
+         call films%tell_rest(system, 0.0_wp, recorder)
       end if
       summary%status = status_complete
       summary%message = ""

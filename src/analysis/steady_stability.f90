@@ -90,7 +90,7 @@ contains
 
       associate (body => set%items%body(:, item), films => set%laws%films)
          call films%slopes_of(item, body, set%items%s_i(:, item), set%items%s_j(:, item), system%linkage%motion, motion, slopes)
-         associate (state => films%state_of(item, body, set%items%s_i(:, item), set%items%s_j(:, item), system%linkage%motion))
+         associate (state => films%state_of(item, body, motion, system%linkage%motion))
             film%load = norm2(state%force)
             film%attitude = turn_between(-state%force, motion%e, motion%speed_sum)
          end associate
@@ -226,9 +226,9 @@ contains
          associate (set => system%loose%sets(k)%set)
             if (.not. has_films(set)) cycle
             do i = 1, set%n
-               associate (state => set%laws%films%state_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
+               associate (film => set%laws%films%motion_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
                                                            system%linkage%motion), c => set%items%clearance(i))
-                  gap = min(gap, max(c - norm2(state%e), 1.0e-3_wp*c))
+                  gap = min(gap, max(c - norm2(film%e), 1.0e-3_wp*c))
                end associate
             end do
          end associate

@@ -10,14 +10,19 @@
 !> Signs: forces and moments on the journal. Source: Flores et al. (2008), eqs. (5.23)-(5.32). Without the moments of shear what is
 !> lost may be negative: the shaft that would give the energy back is not asked for its moment. Limits: journals in the plane.
 module bearing_films
-   use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter
+   use film_fields, only: film_field_t
+   use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter, parameter_clearance, &
+      parameter_length
    use item, only: item_t
-   use kinds, only: not_a_number, wp
+   use kinds, only: not_a_number, two_pi, wp
    use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
    implicit none (type, external)
    private
    public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
+
+   integer, parameter :: n_around = 360  !! parts of the angle of an unwrapped film
+   integer, parameter :: n_along = 40    !! parts of its length
 
    !> How a film acts in a joint.
    type :: film_place_t
@@ -31,7 +36,6 @@ module bearing_films
 
    !> What a film does at a motion.
    type :: film_state_t
-      real(wp) :: e(2) = 0.0_wp           !! (2) eccentricity, world frame [m]
       real(wp) :: force(2) = 0.0_wp       !! (2) on the journal, world frame [N]
       real(wp) :: torque = 0.0_wp         !! moment of shear on the journal, where it acts [N.m]
       real(wp) :: share = 0.0_wp          !! part of the film in the transition [1]
@@ -63,6 +67,10 @@ module bearing_films
       procedure :: slopes_of => films_slopes_of
       procedure :: fades => films_fade
       procedure :: warm => films_warm
+      procedure :: greatest_pressure => films_greatest_pressure
+      procedure :: decay_of => films_decay_of
+      procedure :: motion_of => films_motion_of
+      procedure :: unwrap => films_unwrap
    end type bearing_films_t
 
 contains
@@ -254,35 +262,107 @@ contains
    end function share_of
 
    !> What the film of one item does at a motion.
-   function films_state_of(self, k, body, s_i, s_j, motion) result(state)
+   function films_state_of(self, k, body, film, motion) result(state)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
+      type(film_motion_t), intent(in) :: film     !! its motion
+      type(motion_t), intent(in) :: motion        !! that of the bodies
+      type(film_state_t) :: state                 !! what it does
+
+      real(wp) :: f(2, 1)
+
+      if (.not. self%acts) return
+      state%share = share_of(self%place(k), film%e)
+      call self%law%force(1, [film], self%parameters(:, k:k), f)
+      call self%law%torques(film, self%parameters(:, k), f(:, 1), state%drag_journal, state%drag_bearing)
+      state%force = state%share*f(:, 1)
+      state%drag_journal = state%share*state%drag_journal
+      state%drag_bearing = state%share*state%drag_bearing
+      if (self%place(k)%has_torque) state%torque = state%drag_journal
+      state%power = -dot_product(state%force, film%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
+                    - state%drag_bearing*motion%omega(3, body(1))
+      state%side_flow = state%share*self%law%side_flow(film, self%parameters(:, k))
+      state%rise = not_a_number()
+      if (state%side_flow > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*state%side_flow)
+   end function films_state_of
+
+   !> Greatest pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.
+   real(wp) function films_greatest_pressure(self, k, motion) result(pressure)
+      class(bearing_films_t), intent(in) :: self  !! the films, which have pressures
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: motion   !! its motion
+
+      real(wp) :: h(1, n_around), p(1, n_around), theta(n_around)
+      integer :: i
+
+      pressure = 0.0_wp
+      if (.not. self%acts) return
+      theta = [(two_pi*i/n_around, i=1, n_around)]
+      call self%law%field(motion, self%parameters(:, k), theta, [0.0_wp], p, h)
+      pressure = share_of(self%place(k), motion%e)*maxval(p)
+   end function films_greatest_pressure
+
+   !> How fast the film of one item brings the way of the journal along the line of centres to rest, while it approaches [1/s].
+   real(wp) function films_decay_of(self, k, motion, inverse_mass) result(decay)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: motion   !! its motion
+      real(wp), intent(in) :: inverse_mass        !! sum of those of journal and bearing [1/kg]
+
+      real(wp), parameter :: part = 1.0e-3_wp  ! change of the speed, of itself or of a clearance in a second [1]
+      type(film_motion_t) :: two(2)
+      real(wp) :: change, f(2, 2), n(2)
+
+      decay = 0.0_wp
+      if (.not. self%acts .or. .not. norm2(motion%e) > 0.0_wp) return
+      n = motion%e/norm2(motion%e)
+      change = part*max(norm2(motion%e_dot), self%parameters(parameter_clearance, k))
+      two = motion
+      two(2)%e_dot = motion%e_dot + change*n
+      call self%law%force(2, two, self%parameters(:, [k, k]), f)
+      decay = share_of(self%place(k), motion%e)*abs(dot_product(f(:, 2) - f(:, 1), n))/change*inverse_mass
+   end function films_decay_of
+
+   !> The motion of one item.
+   function films_motion_of(self, k, body, s_i, s_j, motion) result(film)
       class(bearing_films_t), intent(in) :: self  !! the films
       integer, intent(in) :: k                    !! item
       integer, intent(in) :: body(2)              !! (2) bodies of bearing and journal
       real(wp), intent(in) :: s_i(3)              !! (3) centre of the bearing, frame of its body [m]
       real(wp), intent(in) :: s_j(3)              !! (3) centre of the journal, frame of its body [m]
       type(motion_t), intent(in) :: motion        !! positions and velocities
-      type(film_state_t) :: state                 !! what it does
+      type(film_motion_t) :: film                 !! motion of the bearing
 
       type(film_motion_t) :: one(1)
-      real(wp) :: f(2, 1), s(2, 2, 1)
+      real(wp) :: s(2, 2, 1)
 
       call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
                          ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, one, s)
-      state%e = one(1)%e
-      if (.not. self%acts) return
-      state%share = share_of(self%place(k), one(1)%e)
-      call self%law%force(1, one, self%parameters(:, k:k), f)
-      call self%law%torques(one(1), self%parameters(:, k), f(:, 1), state%drag_journal, state%drag_bearing)
-      state%force = state%share*f(:, 1)
-      state%drag_journal = state%share*state%drag_journal
-      state%drag_bearing = state%share*state%drag_bearing
-      if (self%place(k)%has_torque) state%torque = state%drag_journal
-      state%power = -dot_product(state%force, one(1)%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
-                    - state%drag_bearing*motion%omega(3, body(1))
-      state%side_flow = state%share*self%law%side_flow(one(1), self%parameters(:, k))
-      state%rise = not_a_number()
-      if (state%side_flow > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*state%side_flow)
-   end function films_state_of
+      film = one(1)
+   end function films_motion_of
+
+   !> Pressures and gaps of the film of one item, what of it acts in a transition.
+   subroutine films_unwrap(self, k, motion, field)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: motion   !! its motion
+      type(film_field_t), intent(inout) :: field  !! pressures, gaps and where they are
+
+      integer :: i
+
+      field%film = self%law%name
+      field%clearance = self%parameters(parameter_clearance, k)
+      field%angle = motion%angle
+      field%e = [cos(motion%angle)*motion%e(1) + sin(motion%angle)*motion%e(2), &
+                 cos(motion%angle)*motion%e(2) - sin(motion%angle)*motion%e(1)]
+      field%theta = [(two_pi*i/n_around, i=0, n_around)]
+      field%y = [(real(2*i - n_along, wp)/n_along, i=0, n_along)]
+      allocate (field%pressure(n_along + 1, n_around + 1), field%gap(n_along + 1, n_around + 1))
+      call self%law%field(motion, self%parameters(:, k), field%theta, field%y, field%pressure, field%gap)
+      field%pressure = share_of(self%place(k), motion%e)*field%pressure
+      field%y = 0.5_wp*self%parameters(parameter_length, k)*field%y
+   end subroutine films_unwrap
 
    !> How the force of one item's film changes with a small motion of its journal. In a transition to dry contact the film's part of
    !> it counts, and how that changes.

@@ -5,10 +5,11 @@ module revolute_level
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: add_film_channels, add_film_columns, film_channels, find_level_mistake
+   public :: add_film_channels, add_film_columns, film_channels, find_level_mistake, pressure_channels
 
-   character(*), parameter :: film_channels = " film_force film_torque film_thickness eccentricity_ratio drag_journal "// &
-                              "drag_bearing film_power side_flow temperature_rise "  !! channels of joints that have a film
+   character(*), parameter :: film_channels = " film_force film_torque film_thickness film_pressure eccentricity_ratio "// &
+                              "drag_journal drag_bearing film_power side_flow temperature_rise "  !! channels of joints that have a film
+   character(*), parameter :: pressure_channels = " film_pressure "  !! channels of joints whose film has pressures
 
 contains
 
@@ -40,6 +41,7 @@ contains
       call add_channel(info, "film_force", "N", "world", 2, "force of the film on the journal")
       call add_channel(info, "film_torque", "N.m", "world", 1, "moment of the shear in the film on the journal, where it acts")
       call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity")
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees")
       call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance")
       call add_channel(info, "drag_journal", "N.m", "world", 1, "moment of the shear on the journal, whether it acts or not")
       call add_channel(info, "drag_bearing", "N.m", "world", 1, "moment of the shear on the bearing, whether it acts or not")

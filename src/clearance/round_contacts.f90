@@ -16,6 +16,7 @@ module round_contacts
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
+   use film_law, only: film_motion_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t
@@ -25,6 +26,11 @@ module round_contacts
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t
+
+   !> Channels that films tell, or add to.
+   character(*), parameter :: told_of_films = &
+      " force film_force film_torque film_pressure film_thickness eccentricity_ratio state drag_journal drag_bearing film_power "// &
+      "side_flow temperature_rise "
 
    !> The surfaces of one joint.
    type :: journal_t
@@ -251,27 +257,35 @@ contains
       type(motion_t), intent(in) :: motion         !! positions and velocities
       real(wp), intent(inout) :: values(:, :)      !! (components, all items or contacts) values [any]
 
-      type(film_state_t) :: film
+      type(film_motion_t) :: film
+      type(film_state_t) :: state
       integer :: k
 
       call point_report(self, channel, motion, values)
       if (.not. allocated(self%laws%films)) return
+      if (index(told_of_films, " "//channel//" ") == 0) return
       do k = 1, self%n
-         film = self%laws%films%state_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
-         associate (item => self%before%items + k, contact => self%before%contacts + k, c => self%items%clearance(k))
+         associate (films => self%laws%films, item => self%before%items + k, contact => self%before%contacts + k, &
+                    c => self%items%clearance(k))
+            film = films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
             select case (channel)
-            case ("force"); values(1:2, item) = values(1:2, item) + film%force
-            case ("film_force"); values(1:2, item) = film%force
-            case ("film_torque"); values(1, item) = film%torque
-            case ("drag_journal"); values(1, item) = film%drag_journal
-            case ("drag_bearing"); values(1, item) = film%drag_bearing
-            case ("film_power"); values(1, item) = film%power
-            case ("side_flow"); values(1, item) = film%side_flow
-            case ("temperature_rise"); values(1, item) = film%rise
+            case ("film_pressure"); values(1, item) = films%greatest_pressure(k, film)
             case ("eccentricity_ratio"); values(1, item) = norm2(film%e)/c
             case ("film_thickness"); values(1, item) = max(c - norm2(film%e), 0.0_wp)
+            case default
+               state = films%state_of(k, self%items%body(:, k), film, motion)
+            end select
+            select case (channel)
+            case ("force"); values(1:2, item) = values(1:2, item) + state%force
+            case ("film_force"); values(1:2, item) = state%force
+            case ("film_torque"); values(1, item) = state%torque
+            case ("drag_journal"); values(1, item) = state%drag_journal
+            case ("drag_bearing"); values(1, item) = state%drag_bearing
+            case ("film_power"); values(1, item) = state%power
+            case ("side_flow"); values(1, item) = state%side_flow
+            case ("temperature_rise"); values(1, item) = state%rise
             case ("state")
-               if (film%share > 0.0_wp) then
+               if (state%share > 0.0_wp) then
                   values(1, contact) = real(merge(state_mixed, state_film, nint(values(1, contact)) == state_contact), wp)
                end if
             end select

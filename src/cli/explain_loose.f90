@@ -2,7 +2,7 @@
 module explain_loose
    use clearance_set, only: clearance_set_t
    use console, only: say
-   use film_law, only: parameter_length, parameter_radius, parameter_viscosity
+   use film_law, only: film_motion_t, parameter_length, parameter_radius, parameter_viscosity
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use load, only: loaded_t
@@ -41,7 +41,7 @@ contains
                words = ""
                if (set%traits%is_round) words = "radial clearance "//to_text(1.0e3_wp*set%items%clearance(i))//" mm, "
                call say(set%names(i)%s//": "//words//"law "//law//", "//set%laws%normal%story(set%laws%parameters(:, c)), 2)
-               call explain_film(set, i)
+               call explain_film(set, i, loaded%system%linkage%inverse_mass(1, :))
                last = set%before%contacts + i*set%n_contact_item
                if (allocated(y)) call say("gap at the start "//real_text(-1.0e3_wp*maxval( &
                   delta(last - set%n_contact_item + 1:last)), 6)//" mm", 4)
@@ -72,11 +72,14 @@ contains
    end function is_film_alone
 
    !> The film of a joint: its kind, what it is fitted to, and how it acts.
-   subroutine explain_film(set, item)
+   subroutine explain_film(set, item, inverse_mass)
       class(clearance_set_t), intent(in) :: set     !! the joint's set
       integer, intent(in) :: item                   !! item of the set
+      real(wp), intent(in) :: inverse_mass(0:)      !! (0:bodies) one over the mass, 0 for the ground [1/kg]
 
+      real(wp), parameter :: near = 0.9_wp  ! eccentricity over clearance at which a decay is told [1]
       character(:), allocatable :: words
+      real(wp) :: decay
       type(kind_info_t) :: info
 
       if (.not. allocated(set%laws%films)) return
@@ -104,6 +107,10 @@ contains
          else
             call say("keeps its shape beyond "//real_text(films%eps_max(item), 8)//" of the clearance; the contact adds to it", 4)
          end if
+         decay = films%decay_of(item, film_motion_t(e=[near*place%clearance, 0.0_wp]), sum(inverse_mass(set%items%body(:, item))))
+         if (decay > 0.0_wp) call say("at "//real_text(near, 1)//" of the clearance it brings the journal to rest within "// &
+                                      real_text(1.0e6_wp/decay, 2)//" us: verner, rk4 and adams take no longer steps than some "// &
+                                      "times that, bdf and ida follow the motion", 4)
       end associate
    end subroutine explain_film
 

@@ -9,8 +9,9 @@ module load
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
-   use figure_words, only: check_figures, figure_bifurcation, figure_portrait, figure_section, figure_statistics, figure_t, &
-      new_figure
+   use figure_words, only: check_figures, figure_bifurcation, figure_film, figure_portrait, figure_section, figure_statistics, &
+      figure_t, new_figure
+   use film_figures, only: check_film_figures
    use function_range, only: check_function_ranges
    use item, only: item_t, location_t, place_of, value_t
    use kind_info, only: kind_info_t
@@ -82,7 +83,7 @@ contains
       call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
-      call check_words(loaded%scene, catalogue, mistakes)
+      call check_words(loaded%scene, loaded%plan%end, catalogue, mistakes)
       call check_conditions(loaded%scene, catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
@@ -221,8 +222,9 @@ contains
    end subroutine apply_options
 
    !> Channels and figures must name what the scene has.
-   subroutine check_words(scene, catalogue, mistakes)
+   subroutine check_words(scene, end, catalogue, mistakes)
       type(scene_t), intent(in) :: scene              !! the scene
+      real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
 
@@ -237,6 +239,7 @@ contains
       associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
          call check_figures(value%words, catalogue, bad, message, hint)
          if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
+         if (bad == 0) call check_film_figures(value%words, scene, end, catalogue, bad, message, hint)
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no figure of this deck", hint)
       end associate
       if (.not. scene%settings%statistics%is_present) return
@@ -266,7 +269,7 @@ contains
       associate (words => scene%settings%output%values(place_of(scene%settings%output, "figures"))%words)
          do bad = 1, size(words)
             call new_figure(words(bad)%s, catalogue, figure, message, hint)
-            if (figure%kind <= figure_portrait) cycle
+            if (figure%kind <= figure_portrait .or. figure%kind == figure_film) cycle
             if (.not. scene%settings%statistics%is_present) then
                message = "'"//words(bad)%s//"' needs a section [statistics]"
                hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"

@@ -35,7 +35,7 @@ module verb_run
    use start_state, only: find_start, ideal_start_t
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use subsystems, only: new_subsystems, subsystem_t
-   use text, only: append_text, starts_with, to_text
+   use text, only: append_text, starts_with, text_t, to_text
    implicit none (type, external)
    private
    public :: directory_of, new_method, run_deck
@@ -219,15 +219,28 @@ contains
       call directory%open(directory_of(options, loaded), error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, keeper%plan)
-      if (size(keeper%plan%figures) > 0) then
-         call append_text(keeper%plan%warnings, "figures left out: an equilibrium is one instant")
-         keeper%plan%with%figures = .false.
-         deallocate (keeper%plan%figures)
-         allocate (keeper%plan%figures(0))
-      end if
+      call keep_films(keeper%plan)
       call record_equilibrium(loaded%system, equilibrium, keeper, summary, error)
       call directory%close()
    end subroutine run_equilibrium
+
+   !> Of an equilibrium there are figures of films only; a warning for the others.
+   subroutine keep_films(plan)
+      type(output_plan_t), intent(inout) :: plan  !! plan of the run
+
+      type(text_t), allocatable :: films(:)
+      integer :: k
+
+      allocate (films(0))
+      do k = 1, size(plan%figures)
+         if (starts_with(plan%figures(k)%s, "film(")) call append_text(films, plan%figures(k)%s)
+      end do
+      if (size(films) < size(plan%figures)) then
+         call append_text(plan%warnings, "figures left out: an equilibrium is one instant")
+      end if
+      plan%with%figures = plan%with%figures .and. size(films) > 0
+      call move_alloc(films, plan%figures)
+   end subroutine keep_films
 
    !> The integrator that a scene asks for, with its controls.
    subroutine new_method(scene, method)

@@ -21,6 +21,7 @@ module bdf
    type, extends(multistep_t) :: bdf_t
    contains
       procedure, nopass :: info => bdf_info
+      procedure, nopass :: is_explicit => bdf_is_explicit
       procedure :: make_library => bdf_make_library
    end type bdf_t
 
@@ -45,5 +46,10 @@ contains
       library%is_stiff = .true.
       call move_alloc(library, self%library)
    end subroutine bdf_make_library
+
+   !> A method for stiff equations.
+   pure logical function bdf_is_explicit()
+      bdf_is_explicit = .false.
+   end function bdf_is_explicit
 
 end module bdf

@@ -22,6 +22,7 @@ module ida
    type, extends(multistep_t) :: ida_t
    contains
       procedure, nopass :: info => ida_info
+      procedure, nopass :: is_explicit => ida_is_explicit
       procedure :: make_library => ida_make_library
    end type ida_t
 
@@ -48,5 +49,10 @@ contains
       ! off the constraints by more than the local error allowed, the first step after an event fails however short it is
       self%mends = .true.
    end subroutine ida_make_library
+
+   !> A method for stiff equations.
+   pure logical function ida_is_explicit()
+      ida_is_explicit = .false.
+   end function ida_is_explicit
 
 end module ida

@@ -80,6 +80,7 @@ module integrator
       procedure(restart_interface), deferred :: restart
       procedure(refine_interface), deferred :: refine
       procedure, nopass :: steps => integrator_steps
+      procedure, nopass :: is_explicit => integrator_is_explicit
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
       procedure :: state_at => integrator_state_at
@@ -196,6 +197,11 @@ contains
 
       call interpolate(self%step, system%n_position, s, y)
    end subroutine integrator_within
+
+   !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.
+   pure logical function integrator_is_explicit()
+      integrator_is_explicit = .true.
+   end function integrator_is_explicit
 
    !> Which steps a method makes.
    pure integer function integrator_steps() result(steps)

@@ -7,15 +7,18 @@
 !> w is formed, never gamma', so that nothing is divided by e. Beyond eps_max the form has eps_max for eps, but eps' and w as they
 !> are, so that F.v <= 0 stays.
 !>
+!> A kind whose force is the integral of a pressure gives that too: p = s_p(y) P(theta), with theta from the widest gap on, s_p =
+!> 6 mu (R/c)^2 of a long bearing, 3 mu (L/(2 c))^2 (1 - y^2) of a short one, y from -1 to 1 along the axis.
+!>
 !> Source: Flores et al. (2008), eqs. (5.6)-(5.18), (5.24)-(5.30). Limits: of each form; one length, no grooves.
 module closed_film
-   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
-      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, squeezing_velocity
+   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, gap_at, n_film_parameter, own_parameters, &
+      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity, squeezing_velocity
    use item, only: find_place, item_t
-   use kinds, only: pi, wp
+   use kinds, only: not_a_number, pi, wp
    implicit none (type, external)
    private
-   public :: closed_film_t, fit_long, long_film_t, narrowing_side, positive_part, short_film_t
+   public :: closed_film_t, fit_long, half_share, long_film_t, long_shape, narrowing_side, positive_part, short_film_t, short_shape
 
    integer, parameter :: parameter_scale = own_parameters + 1  !! s [N.s]
 
@@ -25,6 +28,9 @@ module closed_film
    contains
       procedure :: prepare => closed_prepare
       procedure :: force => closed_force
+      procedure :: field => closed_field
+      procedure :: shape => closed_shape
+      procedure, nopass :: profile => closed_profile
       procedure(components_interface), deferred :: components
    end type closed_film_t
 
@@ -32,6 +38,7 @@ module closed_film
    type, abstract, extends(closed_film_t) :: long_film_t
    contains
       procedure :: fit => fit_long
+      procedure, nopass :: profile => long_profile
    end type long_film_t
 
    !> One whose force grows with the cube of the length.
@@ -39,6 +46,7 @@ module closed_film
    contains
       procedure :: fit => fit_short
       procedure :: side_flow => short_side_flow
+      procedure, nopass :: profile => short_profile
    end type short_film_t
 
    abstract interface
@@ -114,34 +122,138 @@ contains
       real(wp), intent(in) :: parameters(n_film_parameter, n)    !! (n_film_parameter, n) from `fit` [any]
       real(wp), intent(out) :: f(2, n)                           !! (2, n) forces on the journals, world frame [N]
 
-      real(wp) :: distance, f_r, f_t, n_x, n_y, per_c, per_distance, speed, w
+      real(wp) :: eps, eps_dot, f_r, f_t, n_x, n_y, w
       integer :: k
 
       do k = 1, n
-         associate (e => motion(k)%e, e_dot => motion(k)%e_dot, c => parameters(parameter_clearance, k))
-            distance = sqrt(e(1)**2 + e(2)**2)
-            n_x = 1.0_wp
-            n_y = 0.0_wp
-            if (distance > tiny(1.0_wp)) then
-               per_distance = 1.0_wp/distance
-               n_x = e(1)*per_distance
-               n_y = e(2)*per_distance
-            else
-               speed = sqrt(e_dot(1)**2 + e_dot(2)**2)
-               if (speed > tiny(1.0_wp)) then
-                  n_x = e_dot(1)/speed
-                  n_y = e_dot(2)/speed
-               end if
-            end if
-            per_c = 1.0_wp/c
-            w = (motion(k)%speed_sum*distance - 2.0_wp*(e_dot(2)*n_x - e_dot(1)*n_y))*per_c
-            call self%components(parameters(:, k), min(distance*per_c, parameters(parameter_eps_max, k)), &
-                                 (e_dot(1)*n_x + e_dot(2)*n_y)*per_c, w, f_r, f_t)
-            f(1, k) = parameters(parameter_scale, k)*(f_r*n_x - f_t*n_y)
-            f(2, k) = parameters(parameter_scale, k)*(f_r*n_y + f_t*n_x)
-         end associate
+         call line_of_centres(motion(k), parameters(:, k), n_x, n_y, eps, eps_dot, w)
+         call self%components(parameters(:, k), eps, eps_dot, w, f_r, f_t)
+         f(1, k) = parameters(parameter_scale, k)*(f_r*n_x - f_t*n_y)
+         f(2, k) = parameters(parameter_scale, k)*(f_r*n_y + f_t*n_x)
       end do
    end subroutine closed_force
+
+   !> The motion along the line of centres and across it.
+   pure subroutine line_of_centres(motion, parameters, n_x, n_y, eps, eps_dot, w)
+      type(film_motion_t), intent(in) :: motion             !! the motion
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(out) :: n_x, n_y                     !! direction from the bearing's centre to the journal's, world frame [1]
+      real(wp), intent(out) :: eps                          !! eccentricity ratio, at most eps_max [1]
+      real(wp), intent(out) :: eps_dot                      !! its rate [1/s]
+      real(wp), intent(out) :: w                            !! eps Om [rad/s]
+
+      real(wp) :: distance, per_c, per_distance, speed
+
+      associate (e => motion%e, e_dot => motion%e_dot, c => parameters(parameter_clearance))
+         distance = sqrt(e(1)**2 + e(2)**2)
+         n_x = 1.0_wp
+         n_y = 0.0_wp
+         if (distance > tiny(1.0_wp)) then
+            per_distance = 1.0_wp/distance
+            n_x = e(1)*per_distance
+            n_y = e(2)*per_distance
+         else
+            speed = sqrt(e_dot(1)**2 + e_dot(2)**2)
+            if (speed > tiny(1.0_wp)) then
+               n_x = e_dot(1)/speed
+               n_y = e_dot(2)/speed
+            end if
+         end if
+         per_c = 1.0_wp/c
+         w = (motion%speed_sum*distance - 2.0_wp*(e_dot(2)*n_x - e_dot(1)*n_y))*per_c
+         eps = min(distance*per_c, parameters(parameter_eps_max))
+         eps_dot = (e_dot(1)*n_x + e_dot(2)*n_y)*per_c
+      end associate
+   end subroutine line_of_centres
+
+   !> Pressures and gaps of one bearing.
+   subroutine closed_field(self, motion, parameters, theta, y, p, h)
+      class(closed_film_t), intent(in) :: self              !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: theta(:)                      !! (n) angles, frame of the bearing's body [rad]
+      real(wp), intent(in) :: y(:)                          !! (m) places along the axis, from -1 at one end to 1 at the other [1]
+      real(wp), intent(out) :: p(:, :)                      !! (m, n) pressures [Pa]
+      real(wp), intent(out) :: h(:, :)                      !! (m, n) gaps [m]
+
+      real(wp) :: eps, eps_dot, from_widest, n_x, n_y, shape, w
+      integer :: j, k
+
+      call line_of_centres(motion, parameters, n_x, n_y, eps, eps_dot, w)
+      do k = 1, size(theta)
+         from_widest = modulo(theta(k) + motion%angle - atan2(-n_y, -n_x), 2.0_wp*pi)
+         shape = self%shape(eps, eps_dot, w, from_widest)
+         do j = 1, size(y)
+            p(j, k) = self%profile(parameters, y(j))*shape
+            h(j, k) = gap_at(motion, parameters, theta(k))
+         end do
+      end do
+   end subroutine closed_field
+
+   !> The pressure around the bearing: of a film that has none it is no number.
+   pure real(wp) function closed_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(closed_film_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps               !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot           !! its rate [1/s]
+      real(wp), intent(in) :: w                 !! eps Om [rad/s]
+      real(wp), intent(in) :: theta             !! angle from the widest gap, 0 to 2 pi [rad]
+
+      shape = not_a_number()
+   end function closed_shape
+
+   !> The pressure along the bearing: of a film that has none it is no number.
+   pure real(wp) function closed_profile(parameters, y) result(profile)
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: y                             !! place, from -1 to 1 [1]
+
+      profile = not_a_number()
+   end function closed_profile
+
+   !> The same of a long bearing: even.
+   pure real(wp) function long_profile(parameters, y) result(profile)
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: y                             !! place, from -1 to 1 [1]
+
+      profile = 6.0_wp*parameters(parameter_viscosity)*(parameters(parameter_radius)/parameters(parameter_clearance))**2
+   end function long_profile
+
+   !> The same of a short bearing: a parabola.
+   pure real(wp) function short_profile(parameters, y) result(profile)
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: y                             !! place, from -1 to 1 [1]
+
+      profile = 3.0_wp*parameters(parameter_viscosity)*(0.5_wp*parameters(parameter_length)/parameters(parameter_clearance))**2 &
+                *(1.0_wp - y)*(1.0_wp + y)
+   end function short_profile
+
+   !> Pressure of a full short film around the bearing, eq. (5.3).
+   pure real(wp) function short_shape(eps, eps_dot, w, theta) result(shape)
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap [rad]
+
+      shape = (w*sin(theta) - 2.0_wp*eps_dot*cos(theta))/(1.0_wp + eps*cos(theta))**3
+   end function short_shape
+
+   !> Pressure of a full long film around the bearing, eq. (5.5), with p = 0 at +-90 degrees, eq. (5.21).
+   pure real(wp) function long_shape(eps, eps_dot, w, theta) result(shape)
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap [rad]
+
+      shape = (w/(2.0_wp + eps*eps)*sin(theta) - eps_dot*cos(theta))*(2.0_wp + eps*cos(theta))/(1.0_wp + eps*cos(theta))**2
+   end function long_shape
+
+   !> How much a half film counts at an angle: 1 on its half, 0 on the other; between, as long as its half changes
+   !> (`narrowing_side`).
+   pure real(wp) function half_share(side, theta) result(share)
+      real(wp), intent(in) :: side   !! from -1, the half from pi to 2 pi, to 1, that from 0 to pi [1]
+      real(wp), intent(in) :: theta  !! angle from the widest gap, 0 to 2 pi [rad]
+
+      share = 0.5_wp*(1.0_wp + merge(side, -side, theta < pi))
+   end function half_share
 
    !> Which half of the gap narrows, for half films: the sign of Om, smooth over |w| < 0.01 eps |eps'| or so, since such films jump
    !> there while the journal moves along the line of centres, and a motion would stick in the jump.

@@ -14,10 +14,11 @@
 !> share them, each solution begins with the wet cells of the one before and does not depend on it.
 module film_grid
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
-      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius
+      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_angle, dim_none, dim_pressure, kind_info_t
-   use kinds, only: two_pi, wp
+   use kinds, only: not_a_number, two_pi, wp
+   use reynolds_field, only: film_field
    use reynolds_grid, only: boundary_full, boundary_reynolds, journal_state_t, new_reynolds_grid, reynolds_grid_t
    use reynolds_mesh, only: supply_t
    use reynolds_results, only: film_result_t, get_result
@@ -51,6 +52,8 @@ module film_grid
       procedure :: fit => grid_fit
       procedure :: force => grid_force
       procedure :: side_flow => grid_side_flow
+      procedure, nopass :: has_field => grid_has_field
+      procedure :: field => grid_field
       procedure :: mistake => grid_mistake
       procedure :: story => grid_story
    end type film_grid_t
@@ -165,10 +168,11 @@ contains
 
       type(film_result_t) :: film
       real(wp) :: cosine, sine
-      integer :: k
+      integer :: k, number, status
 
       do k = 1, n
-         call find_film(self, motion(k), parameters(:, k), film)
+         call solve_one(self, motion(k), parameters(:, k), number, status)
+         call get_result(self%pool%grid(number), film)
          cosine = cos(motion(k)%angle)
          sine = sin(motion(k)%angle)
          f(1, k) = parameters(parameter_scale, k)*(cosine*film%f(1) - sine*film%f(2))
@@ -184,34 +188,61 @@ contains
       real(wp) :: flow                                         !! volume in a time [m^3/s]
 
       type(film_result_t) :: film
+      integer :: number, status
 
-      call find_film(self, motion, parameters, film)
+      call solve_one(self, motion, parameters, number, status)
+      call get_result(self%pool%grid(number), film)
       flow = film%side_flow*parameters(parameter_clearance)*parameters(parameter_radius)**3/(3.0_wp*parameters(parameter_length))
    end function grid_side_flow
 
-   !> The film of one bearing; the last solution if it is that of the same motion. Should the pressures not be found, those of the
-   !> last step are taken.
-   subroutine find_film(self, motion, parameters, film)
-      class(film_grid_t), intent(in) :: self                 !! the film
-      type(film_motion_t), intent(in) :: motion              !! motion of the bearing
-      real(wp), intent(in) :: parameters(n_film_parameter)   !! (n_film_parameter) from `fit` [any]
-      type(film_result_t), intent(out) :: film               !! what it does
+   !> Solve the film of one bearing; the last solution is taken if it is that of the same motion. Should the pressures not be found,
+   !> those of the last step stay.
+   subroutine solve_one(self, motion, parameters, number, status)
+      class(film_grid_t), intent(in) :: self                !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      integer, intent(out) :: number                        !! of the grid that has the solution
+      integer, intent(out) :: status                        !! 0: done
 
       type(journal_state_t) :: state
-      integer :: number, status
 
+      status = 0
       call find_grid(self, parameters(parameter_ratio), number)
       state = state_of(motion, parameters)
       associate (grid => self%pool%grid(number), solved => self%pool%pressure(number), pressure => parameters(parameter_pressure))
-         if (abs(solved - pressure) > 0.0_wp .or. any(abs([grid%state%e - state%e, grid%state%v - state%v]) > 0.0_wp)) then
-            grid%supply%pressure = pressure
-            if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
-            call grid%solve(state, status)
-            solved = pressure
+         if (.not. abs(solved - pressure) > 0.0_wp) then
+            if (.not. any(abs([grid%state%e - state%e, grid%state%v - state%v]) > 0.0_wp)) return
          end if
-         call get_result(grid, film)
+         grid%supply%pressure = pressure
+         if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
+         call grid%solve(state, status)
+         solved = merge(pressure, huge(1.0_wp), status == 0)
       end associate
-   end subroutine find_film
+   end subroutine solve_one
+
+   !> It has pressures.
+   pure logical function grid_has_field() result(has)
+      has = .true.
+   end function grid_has_field
+
+   !> Pressures and gaps of one bearing; no numbers should the pressures not be found.
+   subroutine grid_field(self, motion, parameters, theta, y, p, h)
+      class(film_grid_t), intent(in) :: self                !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: theta(:)                      !! (n) angles, frame of the bearing's body [rad]
+      real(wp), intent(in) :: y(:)                          !! (m) places along the axis, from -1 at one end to 1 at the other [1]
+      real(wp), intent(out) :: p(:, :)                      !! (m, n) pressures [Pa]
+      real(wp), intent(out) :: h(:, :)                      !! (m, n) gaps [m]
+
+      integer :: number, status
+
+      call solve_one(self, motion, parameters, number, status)
+      call film_field(self%pool%grid(number), theta, y, p, h)
+      p = p*parameters(parameter_viscosity)*(parameters(parameter_radius)/parameters(parameter_clearance))**2
+      if (status /= 0) p = not_a_number()
+      h = h*parameters(parameter_clearance)
+   end subroutine grid_field
 
    !> The motion in the frame of the bearing's body and parts of the clearance, the journal within eps_max.
    pure function state_of(motion, parameters) result(state)

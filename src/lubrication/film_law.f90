@@ -19,10 +19,10 @@ module film_law
    use finite_flow, only: flow_part
    use item, only: item_t
    use kind_info, only: kind_info_t
-   use kinds, only: pi, wp
+   use kinds, only: not_a_number, pi, wp
    implicit none (type, external)
    private
-   public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, n_film_parameter
+   public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, gap_at, n_film_parameter
    public :: own_parameters
    public :: squeezing_velocity
    public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
@@ -71,6 +71,8 @@ module film_law
       procedure :: torques => film_torques
       procedure :: side_flow => film_side_flow
       procedure :: linearise => film_linearise
+      procedure, nopass :: has_field => film_has_field
+      procedure :: field => film_field
       procedure :: mistake => film_mistake
       procedure :: story => film_story
    end type film_law_t
@@ -260,6 +262,47 @@ contains
       end do
       slope = slope/(step_e + step_e_dot)
    end function film_slope
+
+   !> Whether the film has pressures of its own that `field` gives, not only a force; one that has them overrides this.
+   pure logical function film_has_field()
+      film_has_field = .false.
+   end function film_has_field
+
+   !> Pressure and gap of one bearing at places of one's own. A film without pressures gives the gap, and pressures that are no
+   !> numbers. Not pure, as `force`.
+   subroutine film_field(self, motion, parameters, theta, y, p, h)
+      class(film_law_t), intent(in) :: self                 !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: theta(:)                      !! (n) angles, frame of the bearing's body [rad]
+      real(wp), intent(in) :: y(:)                          !! (m) places along the axis, from -1 at one end to 1 at the other [1]
+      real(wp), intent(out) :: p(:, :)                      !! (m, n) pressures [Pa]
+      real(wp), intent(out) :: h(:, :)                      !! (m, n) gaps [m]
+
+      integer :: j, k
+
+      do k = 1, size(theta)
+         do j = 1, size(y)
+            p(j, k) = not_a_number()
+            h(j, k) = gap_at(motion, parameters, theta(k))
+         end do
+      end do
+   end subroutine film_field
+
+   !> The gap of an aligned journal at an angle in the frame of the bearing's body; beyond eps_max that of eps_max.
+   pure real(wp) function gap_at(motion, parameters, theta) result(h)
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(in) :: theta                         !! the angle [rad]
+
+      real(wp) :: distance, e(2), longest
+
+      distance = hypot(motion%e(1), motion%e(2))
+      longest = parameters(parameter_eps_max)*parameters(parameter_clearance)
+      e = motion%e
+      if (distance > longest) e = e*(longest/distance)
+      h = parameters(parameter_clearance) - e(1)*cos(theta + motion%angle) - e(2)*sin(theta + motion%angle)
+   end function gap_at
 
    !> What is wrong with the row as a whole, empty if nothing is; a film with such rules overrides this.
    function film_mistake(self) result(message)

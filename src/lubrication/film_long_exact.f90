@@ -10,7 +10,7 @@
 !> Source: Flores et al. (2008), eq. (5.5) with the reference pressure of (5.21), integrated where it is positive. Limits: L/D above
 !> about 2, where the force is still too large. Smooth once, always dissipative, the same in all directions for e -> 0.
 module film_long_exact
-   use closed_film, only: long_film_t, positive_part
+   use closed_film, only: long_film_t, long_shape, positive_part
    use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -23,6 +23,8 @@ module film_long_exact
    contains
       procedure, nopass :: info => long_exact_info
       procedure :: components => long_exact_components
+      procedure, nopass :: has_field => long_exact_has_field
+      procedure :: shape => long_exact_shape
    end type film_long_exact_t
 
 contains
@@ -64,5 +66,21 @@ contains
       f_t = 6.0_wp*(a*(q*width - eps*(sine(2) - sine(1)) + product)*root*per_q**2 &
                     + eps_dot*(step_square + 2.0_wp*eps*step_cosine)*per_q**2)
    end subroutine long_exact_components
+
+   !> It has pressures.
+   pure logical function long_exact_has_field() result(has)
+      has = .true.
+   end function long_exact_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function long_exact_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_long_exact_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      shape = max(long_shape(eps, eps_dot, w, theta), 0.0_wp)
+   end function long_exact_shape
 
 end module film_long_exact

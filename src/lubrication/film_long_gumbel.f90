@@ -11,7 +11,7 @@
 !> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 !> It depends on the direction of n even for e -> 0, where that is no direction: its damping is 3.57 along n and 18.85 across.
 module film_long_gumbel
-   use closed_film, only: long_film_t, narrowing_side
+   use closed_film, only: half_share, long_film_t, long_shape, narrowing_side
    use film_law, only: n_film_parameter
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
@@ -24,6 +24,8 @@ module film_long_gumbel
    contains
       procedure, nopass :: info => long_gumbel_info
       procedure :: components => long_gumbel_components
+      procedure, nopass :: has_field => long_gumbel_has_field
+      procedure :: shape => long_gumbel_shape
    end type film_long_gumbel_t
 
 contains
@@ -59,5 +61,30 @@ contains
       f_r = -12.0_wp*(eps*side*w/(s*q) + eps_dot/(q*root)*(0.5_wp*pi - 8.0_wp/(pi*s)))
       f_t = 12.0_wp*side*(0.5_wp*pi*side*w/(s*root) + 2.0_wp*eps*eps_dot/(s*q))
    end subroutine long_gumbel_components
+
+   !> It has pressures.
+   pure logical function long_gumbel_has_field() result(has)
+      has = .true.
+   end function long_gumbel_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function long_gumbel_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_long_gumbel_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      real(wp) :: mirrored, q, side, x
+
+      side = 1.0_wp
+      if (.not. self%is_book) side = narrowing_side(eps, eps_dot, w)
+      q = (1.0_wp - eps)*(1.0_wp + eps)
+      mirrored = min(theta, 2.0_wp*pi - theta)
+      x = atan2(sqrt(q)*sin(mirrored), eps + cos(mirrored))
+      shape = long_shape(eps, eps_dot, w, theta) + eps_dot*((2.0_wp + eps)/(1.0_wp + eps)**2 - 8.0_wp/(pi*(2.0_wp + eps*eps)*q**2) &
+              *((1.0_wp + 0.5_wp*eps*eps)*x - 2.0_wp*eps*sin(x) + 0.25_wp*eps*eps*sin(2.0_wp*x)))
+      shape = half_share(side, theta)*shape
+   end function long_gumbel_shape
 
 end module film_long_gumbel

@@ -7,7 +7,7 @@
 !> Source: Flores et al. (2008), eqs. (5.5), (5.10), (5.11). Limits: L/D above about 2, where the force is still too large; carries
 !> tension as well as pressure, so that a load at rest has no damping: the centre whirls at about half the speed of the shaft.
 module film_long_sommerfeld
-   use closed_film, only: long_film_t
+   use closed_film, only: long_film_t, long_shape
    use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
@@ -20,6 +20,8 @@ module film_long_sommerfeld
    contains
       procedure, nopass :: info => long_sommerfeld_info
       procedure :: components => long_sommerfeld_components
+      procedure, nopass :: has_field => long_sommerfeld_has_field
+      procedure :: shape => long_sommerfeld_shape
    end type film_long_sommerfeld_t
 
 contains
@@ -51,5 +53,21 @@ contains
       f_r = -12.0_wp*pi*eps_dot/(q*root)
       f_t = 12.0_wp*pi*w/((2.0_wp + eps*eps)*root)
    end subroutine long_sommerfeld_components
+
+   !> It has pressures.
+   pure logical function long_sommerfeld_has_field() result(has)
+      has = .true.
+   end function long_sommerfeld_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function long_sommerfeld_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_long_sommerfeld_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      shape = long_shape(eps, eps_dot, w, theta) + eps_dot*(2.0_wp + eps)/(1.0_wp + eps)**2
+   end function long_sommerfeld_shape
 
 end module film_long_sommerfeld

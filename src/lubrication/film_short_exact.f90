@@ -12,7 +12,7 @@
 !> J. Basic Engineering 87 (1965) 533-535. Limits: L/D below about 1/2, where the force is still too large. Smooth once, always
 !> dissipative, the same in all directions for e -> 0.
 module film_short_exact
-   use closed_film, only: positive_part, short_film_t
+   use closed_film, only: positive_part, short_film_t, short_shape
    use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -25,6 +25,8 @@ module film_short_exact
    contains
       procedure, nopass :: info => short_exact_info
       procedure :: components => short_exact_components
+      procedure, nopass :: has_field => short_exact_has_field
+      procedure :: shape => short_exact_shape
    end type film_short_exact_t
 
 contains
@@ -66,5 +68,21 @@ contains
       f_r = 0.5_wp*(w*i11 - 2.0_wp*eps_dot*i02)
       f_t = 0.5_wp*(w*i20 - 2.0_wp*eps_dot*i11)
    end subroutine short_exact_components
+
+   !> It has pressures.
+   pure logical function short_exact_has_field() result(has)
+      has = .true.
+   end function short_exact_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function short_exact_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_short_exact_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      shape = max(short_shape(eps, eps_dot, w, theta), 0.0_wp)
+   end function short_exact_shape
 
 end module film_short_exact

@@ -10,7 +10,7 @@
 !> squeezing and suction for fast parting; the force would jump where Om changes its sign while eps' does not vanish, and
 !> changes from one side to the other over |w| < 0.01 eps |eps'| instead (`narrowing_side`).
 module film_short_gumbel
-   use closed_film, only: narrowing_side, short_film_t
+   use closed_film, only: half_share, narrowing_side, short_film_t, short_shape
    use film_law, only: film_motion_t, n_film_parameter, parameter_length, parameter_radius, squeezing_velocity
    use kind_info, only: add_word, kind_info_t
    use kinds, only: pi, wp
@@ -24,6 +24,8 @@ module film_short_gumbel
       procedure, nopass :: info => short_gumbel_info
       procedure :: components => short_gumbel_components
       procedure :: side_flow => short_gumbel_flow
+      procedure, nopass :: has_field => short_gumbel_has_field
+      procedure :: shape => short_gumbel_shape
    end type film_short_gumbel_t
 
 contains
@@ -73,5 +75,25 @@ contains
       if (norm2(motion%e) > tiny(1.0_wp)) across = abs(motion%e(1)*v(2) - motion%e(2)*v(1))/norm2(motion%e)
       flow = parameters(parameter_length)*parameters(parameter_radius)*(norm2(v) + across)
    end function short_gumbel_flow
+
+   !> It has pressures.
+   pure logical function short_gumbel_has_field() result(has)
+      has = .true.
+   end function short_gumbel_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function short_gumbel_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_short_gumbel_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      real(wp) :: side
+
+      side = 1.0_wp
+      if (.not. self%is_book) side = narrowing_side(eps, eps_dot, w)
+      shape = half_share(side, theta)*short_shape(eps, eps_dot, w, theta)
+   end function short_gumbel_shape
 
 end module film_short_gumbel

@@ -7,7 +7,7 @@
 !> Source: Flores et al. (2008), eqs. (5.3), (5.6), (5.7). Limits: L/D below about 1/2, where the force is still too large; carries
 !> tension as well as pressure, so that a load at rest has no damping: the centre whirls.
 module film_short_sommerfeld
-   use closed_film, only: short_film_t
+   use closed_film, only: short_film_t, short_shape
    use film_law, only: n_film_parameter
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
@@ -20,6 +20,8 @@ module film_short_sommerfeld
    contains
       procedure, nopass :: info => short_sommerfeld_info
       procedure :: components => short_sommerfeld_components
+      procedure, nopass :: has_field => short_sommerfeld_has_field
+      procedure :: shape => short_sommerfeld_shape
    end type film_short_sommerfeld_t
 
 contains
@@ -51,5 +53,21 @@ contains
       f_r = -pi*eps_dot*(1.0_wp + 2.0_wp*eps*eps)/(q*q*root)
       f_t = 0.5_wp*pi*w/(q*root)
    end subroutine short_sommerfeld_components
+
+   !> It has pressures.
+   pure logical function short_sommerfeld_has_field() result(has)
+      has = .true.
+   end function short_sommerfeld_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function short_sommerfeld_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_short_sommerfeld_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      shape = short_shape(eps, eps_dot, w, theta)
+   end function short_sommerfeld_shape
 
 end module film_short_sommerfeld

@@ -9,7 +9,7 @@
 !> Limits: L/D above about 2; no load is carried at rest, whatever the speed. A journal that moves across the line of centres meets
 !> no film, so that its force depends on the direction of n even for e -> 0.
 module film_squeeze
-   use closed_film, only: long_film_t
+   use closed_film, only: long_film_t, long_shape
    use film_law, only: n_film_parameter
    use item, only: item_t
    use kind_info, only: add_word, kind_info_t
@@ -25,6 +25,8 @@ module film_squeeze
       procedure, nopass :: info => squeeze_info
       procedure :: prepare => squeeze_prepare
       procedure :: components => squeeze_components
+      procedure, nopass :: has_field => squeeze_has_field
+      procedure :: shape => squeeze_shape
    end type film_squeeze_t
 
 contains
@@ -69,5 +71,22 @@ contains
          f_r = -12.0_wp*pi*eps_dot/(q*root)
       end if
    end subroutine squeeze_components
+
+   !> It has pressures.
+   pure logical function squeeze_has_field() result(has)
+      has = .true.
+   end function squeeze_has_field
+
+   !> The pressure around the bearing.
+   pure real(wp) function squeeze_shape(self, eps, eps_dot, w, theta) result(shape)
+      class(film_squeeze_t), intent(in) :: self  !! the film
+      real(wp), intent(in) :: eps      !! eccentricity ratio, below 1 [1]
+      real(wp), intent(in) :: eps_dot  !! its rate [1/s]
+      real(wp), intent(in) :: w        !! eps Om, of no influence [rad/s]
+      real(wp), intent(in) :: theta    !! angle from the widest gap, 0 to 2 pi [rad]
+
+      shape = long_shape(eps, eps_dot, 0.0_wp, theta)
+      if (self%is_positive) shape = max(shape, 0.0_wp)
+   end function squeeze_shape
 
 end module film_squeeze

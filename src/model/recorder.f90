@@ -1,10 +1,11 @@
 !> The contract between an analysis and whatever keeps its results.
 !>
-!> The order of calls is `start`, then any number of `sample`, `further_row`, `strobe`, `event` and `progress`, then
+!> The order of calls is `start`, then any number of `sample`, `further_row`, `strobe`, `field`, `event` and `progress`, then
 !> `finish`, which is also called when the analysis failed: nothing already recorded may be lost.
 module recorder
    use catalogue, only: catalogue_t
    use errors, only: error_t
+   use film_fields, only: field_request_t, film_field_t
    use kinds, only: i8, wp
    use linearised, only: linearised_t
    use text, only: text_t
@@ -95,12 +96,14 @@ module recorder
    !> Whatever keeps the results of an analysis.
    type, abstract :: recorder_t
       logical :: wants_contact_rows = .false.      !! whether `further_row` is to be called at contacts
+      type(field_request_t), allocatable :: wants_fields(:)  !! (any) films that `field` is to be called with; unallocated: none
    contains
       procedure(start_interface), deferred :: start
       procedure(sample_interface), deferred :: sample
       procedure :: wants => wants_all
       procedure :: further_row => skip_further_row
       procedure :: strobe => skip_strobe
+      procedure :: field => skip_field
       procedure(event_interface), deferred :: event
       procedure(progress_interface), deferred :: progress
       procedure(finish_interface), deferred :: finish
@@ -181,5 +184,11 @@ contains
       real(wp), intent(in) :: t                          !! time [s]
       type(catalogue_t), intent(in) :: catalogue         !! values at t
    end subroutine skip_strobe
+
+   !> Keep a film that was asked for: unless a recorder asks for some, nothing.
+   subroutine skip_field(self, field)
+      class(recorder_t), intent(inout) :: self           !! the recorder
+      type(film_field_t), intent(in) :: field            !! pressures and gaps
+   end subroutine skip_field
 
 end module recorder

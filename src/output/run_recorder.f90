@@ -8,9 +8,11 @@ module run_recorder
    use channels, only: select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
-   use figure_words, only: add_figure_channels, extra_tables, figure_t, is_of_run, new_figure, spectral_scalars, &
-      stroboscopic_scalars
+   use figure_words, only: add_figure_channels, extra_tables, figure_film, figure_t, film_requests, is_of_run, new_figure, &
+      spectral_scalars, stroboscopic_scalars
    use figures, only: make_figures
+   use film_fields, only: append_field, film_field_t
+   use film_words, only: missing_films
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
@@ -42,6 +44,7 @@ module run_recorder
       type(text_writer_t), private :: texts                   !! time histories and events.dat
       type(progress_t), private :: display                    !! how far the run is
       type(statistics_t), private :: statistics               !! what is gathered for the statistics
+      type(film_field_t), allocatable, private :: fields(:)   !! (any) films that were asked for
       real(wp), private :: last_time = 0.0_wp                 !! time of the last sample [s]
       logical, private :: has_started = .false.               !! files were made
       logical, private :: is_broken = .false.                 !! a file could not be written
@@ -51,6 +54,7 @@ module run_recorder
       procedure :: sample => sample_run
       procedure :: further_row => further_row_run
       procedure :: strobe => strobe_run
+      procedure :: field => field_run
       procedure :: event => event_run
       procedure :: progress => progress_run
       procedure :: finish => finish_run
@@ -77,6 +81,10 @@ contains
       call self%statistics%start(self%plan%statistics, catalogue, [stroboscopic_scalars(self%figures), &
                                  stroboscopic_scalars(self%of_sweep)], &
                                  spectral_scalars(self%figures))
+      allocate (self%fields(0))
+      if (self%plan%with%hdf5 .and. self%plan%with%histories .or. self%plan%with%figures) then
+         if (any(self%figures%kind == figure_film)) self%wants_fields = film_requests(self%figures)
+      end if
       if (.not. self%plan%with%histories) call self%selection%clear(catalogue)
       if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
@@ -225,6 +233,14 @@ contains
       call self%statistics%strobe(t, catalogue)
    end subroutine strobe_run
 
+   !> Keep a film.
+   subroutine field_run(self, field)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      type(film_field_t), intent(in) :: field            !! pressures and gaps
+
+      call append_field(self%fields, field)
+   end subroutine field_run
+
    !> Two failures in one.
    subroutine join_errors(error, second)
       type(error_t), allocatable, intent(inout) :: error   !! the first, takes both
@@ -283,8 +299,9 @@ contains
       allocate (outcome%pictures(0), outcome%warnings(0))
       call append_all(outcome%warnings, self%plan%warnings)
       call append_all(outcome%warnings, full%warnings)
+      if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
       if (self%plan%with%hdf5) then
-         call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, outcome%warnings, error)
+         call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, self%fields, outcome%warnings, error)
       end if
       allocate (outcome%files(0))
       if (self%plan%with%texts) then
@@ -301,8 +318,8 @@ contains
             call statistics_table(self%figures(k), self%statistics, self%items, self%events, full%time_end, &
                                   file_heading(self%plan), tables(k))
          end do
-         call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, outcome%pictures, &
-                           missing, second)
+         call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, self%fields, &
+                           outcome%pictures, missing, second)
          call append_all(outcome%warnings, missing)
          call join_errors(error, second)
       end if

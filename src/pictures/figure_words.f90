@@ -4,11 +4,14 @@
 !> `gudgeon.orbit`: path of the journal in its clearance. `portrait(slider.velocity.x,slider.acceleration.x)`:
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
-!> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it.
+!> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
+!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time.
 module figure_words
    use catalogue, only: catalogue_t, room_clearances, room_contacts
    use channel_names, only: item_name, scalar_t
    use channels, only: list_scalars, match_word, selection_t
+   use film_fields, only: field_request_t
+   use film_words, only: film_hint, take_film
    use kinds, only: wp
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t
@@ -17,7 +20,7 @@ module figure_words
    private
    public :: add_figure_channels, check_figures, extra_tables, figure_t, new_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
-   public :: figure_spectrum, figure_statistics, is_of_run, spectral_scalars, stroboscopic_scalars
+   public :: figure_film, figure_spectrum, figure_statistics, film_requests, is_of_run, spectral_scalars, stroboscopic_scalars
 
    integer, parameter :: figure_history = 1   !! channels over time
    integer, parameter :: figure_orbit = 2     !! eccentricity, y over x
@@ -27,11 +30,12 @@ module figure_words
    integer, parameter :: figure_histogram = 6    !! number of impacts over speed or force
    integer, parameter :: figure_bifurcation = 7  !! of a sweep: a channel once per period over the parameter
    integer, parameter :: figure_statistics = 8   !! of a sweep: numbers with their spread over the parameter
+   integer, parameter :: figure_film = 9         !! pressure of a film around a bearing, unwrapped
    integer, parameter :: most_panels = 4         !! of a figure of statistics
    integer, parameter :: most_curves = 12     !! of one figure
    !> How the figures with arguments begin, by their kind.
-   character(*), parameter :: call_words(figure_portrait:figure_statistics) = [character(12) :: "portrait(", "section(", &
-      "spectrum(", "histogram(", "bifurcation(", "statistics("]
+   character(*), parameter :: call_words(figure_portrait:figure_film) = [character(12) :: "portrait(", "section(", &
+      "spectrum(", "histogram(", "bifurcation(", "statistics(", "film("]
    character(*), parameter :: histogram_words = "impact_speed peak_force"  !! what there are histograms of
    character(*), parameter :: orbit_word = ".orbit"        !! how an orbit ends
 
@@ -42,6 +46,7 @@ module figure_words
       character(:), allocatable :: name             !! of its files: letters, digits, `_`, `-` and dots
       type(scalar_t), allocatable :: scalars(:)     !! (n) curves; of an orbit its coordinates; of a portrait x and y
       integer :: joint = 0                          !! of an orbit: number of the clearance joint
+      type(field_request_t) :: film                 !! of a film: which, and when
       type(text_t), allocatable :: numbers(:)       !! (n) of statistics: their names; of a histogram: joint, quantity
    end type figure_t
 
@@ -132,7 +137,7 @@ contains
       if (len(message) > 0) then
          message = "unknown figure"//message(len("unknown channel") + 1:)
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
-                "histogram(JOINT.impact_speed), bifurcation(X) and statistics(NUMBER)"
+                "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER) and film(JOINT)"
          return
       end if
       if (size(figure%scalars) == 0 .or. size(figure%scalars) > most_curves) then
@@ -200,7 +205,7 @@ contains
    pure integer function kind_of_call(word) result(kind)
       character(*), intent(in) :: word  !! a word of the deck
 
-      do kind = figure_portrait, figure_statistics
+      do kind = figure_portrait, figure_film
          if (starts_with(word, trim(call_words(kind)))) return
       end do
       kind = 0
@@ -220,12 +225,14 @@ contains
       allocate (figure%scalars(0), figure%numbers(0))
       least = merge(2, 1, figure%kind == figure_portrait .or. figure%kind == figure_section)
       most = merge(most_panels, least, figure%kind == figure_statistics)
+      if (figure%kind == figure_film) most = 2
       arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
       if (size(arguments) < least .or. size(arguments) > most .or. word(len(word):) /= ")") then
          message = "cannot read '"//word//"'"
          hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", least == 2))// &
                 ") without blanks"
          if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers, without blanks"
+         if (figure%kind == figure_film) hint = film_hint
          return
       end if
       select case (figure%kind)
@@ -233,6 +240,9 @@ contains
          call take_histogram(arguments(1)%s, catalogue, figure, message, hint)
       case (figure_statistics)
          figure%numbers = arguments
+      case (figure_film)
+         figure%film%name = figure%name
+         call take_film(arguments, catalogue, figure%film, message, hint)
       case default
          do k = 1, size(arguments)
             call take_scalar(arguments(k)%s, catalogue, figure, message, hint)
@@ -302,6 +312,27 @@ contains
       message = "no histogram of '"//word//"'"
       hint = "write histogram(JOINT.impact_speed) or histogram(JOINT.peak_force) for a joint with clearance"
    end subroutine take_histogram
+
+   !> The films that figures need.
+   function film_requests(figures) result(list)
+      type(figure_t), intent(in) :: figures(:)             !! (n) figures
+      type(field_request_t), allocatable :: list(:)        !! (any) films, each once
+
+      type(field_request_t), allocatable :: grown(:)
+      integer :: i, k
+
+      allocate (list(0))
+      do k = 1, size(figures)
+         if (figures(k)%kind /= figure_film) cycle
+         if (any([(list(i)%name == figures(k)%name, i=1, size(list))])) cycle
+         allocate (grown(size(list) + 1))
+         do i = 1, size(list)
+            grown(i) = list(i)
+         end do
+         grown(size(grown)) = figures(k)%film
+         call move_alloc(grown, list)
+      end do
+   end function film_requests
 
    !> Whether a figure is one of a single run, not of a sweep.
    pure logical function is_of_run(figure)

@@ -6,9 +6,11 @@
 module figures
    use catalogue, only: catalogue_t
    use errors, only: error_t
+   use field_plot, only: write_field_plot
    use figure_data, only: curve_t, data_files_t, find_curves
    use figure_script, only: figure_text
-   use figure_words, only: figure_portrait, figure_t
+   use figure_words, only: figure_film, figure_portrait, figure_t
+   use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, write_plot
    use kinds, only: i8
    use output_marker, only: enter_file
@@ -30,12 +32,13 @@ module figures
 contains
 
    !> Write the scripts of all figures and draw them.
-   subroutine make_figures(directory, title, list, catalogue, tables, pictures, warnings, error)
+   subroutine make_figures(directory, title, list, catalogue, tables, fields, pictures, warnings, error)
       character(*), intent(in) :: directory                        !! of the run
       character(*), intent(in) :: title                            !! of the scene, any text
       type(figure_t), intent(in) :: list(:)                        !! (n) figures
       type(catalogue_t), intent(in) :: catalogue                   !! what was recorded
       type(plot_table_t), intent(in) :: tables(:)                  !! (n) numbers of those that are no histories
+      type(film_field_t), intent(in) :: fields(:)                  !! (any) films
       type(text_t), allocatable, intent(out) :: pictures(:)        !! (m) pictures made, paths within the directory
       type(text_t), allocatable, intent(out) :: warnings(:)        !! (k) what was not made, and why
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
@@ -58,11 +61,15 @@ contains
       do k = 1, size(list)
          if (is_named(list(k)%name, names)) cycle
          if (list(k)%kind > figure_portrait) then
-            call write_plot(directory//"/figures", title, tables(k), is_written, error)
+            if (list(k)%kind == figure_film) then
+               call write_field_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, fields, is_written, error)
+            else
+               call write_plot(directory//"/figures", title, tables(k), is_written, error)
+            end if
             if (allocated(error)) return
             if (is_written) then
                call append_text(names, list(k)%name)
-            else
+            else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder tells
                call append_text(warnings, "figure "//list(k)%word//": no numbers to draw")
             end if
             cycle

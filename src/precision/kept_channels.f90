@@ -30,6 +30,7 @@ module kept_channels
    end type series_t
 
    !> What is kept. Set `arm`, `asked` and `stride` before it starts.
+   !> Components: what every recorder has, and what it kept of a run.
    type, extends(kept_run_t) :: kept_channels_t
       integer, allocatable :: asked(:, :)         !! (3, n) group, component, item of the channels
       integer :: stride = 1                       !! output instants from one that is kept to the next

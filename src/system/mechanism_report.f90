@@ -10,7 +10,7 @@ module mechanism_report
    use kinds, only: not_a_number, wp
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
-   use revolute_level, only: film_channels
+   use revolute_level, only: film_channels, pressure_channels
    implicit none (type, external)
    private
    public :: build_catalogue, energy_info, fill_catalogue, report_state
@@ -152,10 +152,15 @@ contains
 
       integer :: k
 
+      character(:), allocatable :: missing
+
       info = set%info()
-      if (allocated(set%laws%films)) return
-      info%channels = pack(info%channels, [(index(film_channels, " "//info%channels(k)%name//" ") == 0, &
-                                            k=1, size(info%channels))])
+      missing = film_channels
+      if (allocated(set%laws%films)) missing = pressure_channels
+      if (allocated(set%laws%films)) then
+         if (set%laws%films%law%has_field()) return
+      end if
+      info%channels = pack(info%channels, [(index(missing, " "//info%channels(k)%name//" ") == 0, k=1, size(info%channels))])
    end function loose_info
 
    !> The channels of a joint with clearance that is taken as ideal.

@@ -1,5 +1,7 @@
 """The energy ledger, which needs no reference, and laws and solvers that must keep it closed."""
 
+import shutil
+
 import numpy as np
 import pytest
 from reference_values import INERTIA, MASS
@@ -140,6 +142,8 @@ def test_hertz_gives_back_what_it_got(gudgeon):
 def test_decks_with_loose_joints_close(gudgeon, deck):
     """As they stand: what does not add up stays below 1e-6 of the energy that comes and goes."""
     directory = scratch()
+    for beside in deck.parent.glob("*.txt"):  # tables that decks name
+        shutil.copy(beside, directory)
     text = changed(deck.read_text(), "output", figures=None, channels=None)
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     run = Run(directory / "out")

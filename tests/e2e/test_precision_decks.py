@@ -16,7 +16,8 @@ from support import call, changed, scratch, text_of, written
 
 DECKS = sorted(path for folder in ("inputs", "inputs/hard") for path in (ROOT / folder).glob("*.deck"))
 LADDER = "\n[precision]\ncoarsest = 1e-4\nfinest = 1e-9\nper_decade = 2\nrounds = 1\ninstants = 50\nperturbation = 0\n"
-SHORTER = {"a02_four_bars_40": "0.5 s", "shaken_pendulum": "0.2 s", "friction": "0.2 s", "journal_bearing": "0.2 s"}
+SHORTER = {"a02_four_bars_40": "0.5 s", "shaken_pendulum": "0.2 s", "friction": "0.2 s", "journal_bearing": "0.2 s",
+           "big_end": "0.5 ms", "stressed_bearing": "0.02 s"}
 REFUSED = {"four_bar_kinematic": (2, "a comparison runs the section [analysis.dynamic]"), "dead_point": (5, "no run came to its end")}
 LEAST_FALL = 3  # of the median error of a decade over two decades; in proportion it is 100
 
@@ -25,7 +26,7 @@ def deck_text(deck):
     """A deck with files at their places and a ladder."""
     text = deck.read_text()
     text = re.sub(r'(?m)^(\s*include\s+)"([^"]+)"', lambda found: f'{found.group(1)}"{deck.parent / found.group(2)}"', text)
-    text = text.replace('"valve_lift.txt"', f'"{ROOT / "inputs" / "valve_lift.txt"}"')
+    text = re.sub(r'"([^"/\s]+\.txt)"', lambda found: f'"{deck.parent / found.group(1)}"', text)
     if deck.stem in SHORTER:
         text = changed(text, "analysis.dynamic", end=SHORTER[deck.stem])
     return text + LADDER

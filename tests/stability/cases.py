@@ -15,6 +15,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "e2e"))
 import contact_measures as contact  # noqa: E402
+from film_cases import film_cases  # noqa: E402
 import references as ref  # noqa: E402
 from support import changed  # noqa: E402
 
@@ -350,4 +351,5 @@ CASES = (
          must(1e-3, "1e-8", fast="1e-8") + tuple(Way("1e-8", stabilise=hold) for hold in HOLDS),
          ends_early=True, says=("top|crankpin|pivot|motor|main", "dead point|try")),
     *CONTACTS,
+    *film_cases(Case, Way, with_parameters),
 )

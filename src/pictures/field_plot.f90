@@ -1,0 +1,215 @@
+!> The figure of an unwrapped film: its table and its script for gnuplot.
+!>
+!> Above: pressure over angle and place along the axis, colours and contours; the angles of the greatest pressure and of the least
+!> film. Below: pressure in the middle of the bearing, and the gap.
+module field_plot
+   use display_units, only: choose_unit, display_unit_t
+   use errors, only: error_t
+   use film_fields, only: film_field_t
+   use kinds, only: pi, wp
+   use plot_text, only: quoted
+   use script_parts, only: colours, preamble
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   use text_file, only: write_file
+   implicit none (type, external)
+   private
+   public :: write_field_plot
+
+   integer, parameter :: row_step = 2                 !! of the places along the axis every second is drawn
+   integer, parameter :: contours = 8                 !! lines between no pressure and the greatest
+   real(wp), parameter :: degree = pi/180.0_wp        !! [rad]
+   real(wp), parameter :: nothing = 1.0e-9_wp         !! pressures below this part of the greatest are none [1]
+
+contains
+
+   !> Write the table and its script into a folder; nothing if the film was not found.
+   subroutine write_field_plot(folder, title, heading, name, fields, is_written, error)
+      character(*), intent(in) :: folder                 !! of the figures
+      character(*), intent(in) :: title                  !! of the scene, any text
+      character(*), intent(in) :: heading                !! lines with `#` for the table
+      character(*), intent(in) :: name                   !! of the figure
+      type(film_field_t), intent(in) :: fields(:)        !! (any) films of the run
+      logical, intent(out) :: is_written                 !! whether there was something to draw
+      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+
+      integer :: k
+
+      is_written = .false.
+      do k = 1, size(fields)
+         if (fields(k)%request%name /= name) cycle
+         call write_file(folder//"/"//name//".dat", heading//table_text(fields(k)), error)
+         if (.not. allocated(error)) call write_file(folder//"/"//name//".gp", script_of(fields(k), name, title), error)
+         is_written = .not. allocated(error)
+         return
+      end do
+   end subroutine write_field_plot
+
+   !> The table: a block for each angle, a row for each place; after two empty lines a row for each angle, at mid-length.
+   function table_text(field) result(text)
+      type(film_field_t), intent(in) :: field  !! the film
+      character(:), allocatable :: text        !! whole lines
+
+      type(buffer_t) :: lines
+      character(100) :: row
+      integer :: j, k
+
+      call lines%line("""angle [rad]"" ""place [m]"" ""pressure [Pa]"" ""gap [m]""")
+      do k = 1, size(field%theta)
+         if (k > 1) call lines%line("")
+         do j = 1, size(field%y), row_step
+            call put(j, k)
+         end do
+      end do
+      call lines%line(new_line("a"))
+      do k = 1, size(field%theta)
+         call put((size(field%y) + 1)/2, k)
+      end do
+      text = lines%get()
+
+   contains
+
+      !> A row.
+      subroutine put(j, k)
+         integer, intent(in) :: j, k  !! numbers of place and angle
+
+         write (row, "(3(es24.16e3, 1x), es24.16e3)") field%theta(k), field%y(j), field%pressure(j, k), field%gap(j, k)
+         call lines%line(trim(row))
+      end subroutine put
+
+   end function table_text
+
+   !> The script.
+   function script_of(field, name, title) result(script)
+      type(film_field_t), intent(in) :: field   !! the film
+      character(*), intent(in) :: name          !! of the figure
+      character(*), intent(in) :: title         !! of the scene, any text
+      character(:), allocatable :: script       !! lines for gnuplot
+
+      type(buffer_t) :: lines
+      type(display_unit_t) :: degrees, h, p, y
+      real(wp) :: greatest, least, size_of_p
+      integer :: peak(2), thin(2)
+
+      peak = maxloc(field%pressure)
+      thin = minloc(field%gap)
+      greatest = maxval(field%pressure)
+      least = minval(field%pressure)
+      size_of_p = max(greatest, -least, tiny(1.0_wp))
+      p = choose_unit("Pa", size_of_p)
+      y = choose_unit("m", field%y(size(field%y)))
+      h = choose_unit("m", maxval(field%gap))
+      degrees%factor = 1.0_wp/degree
+      call preamble(lines, name, 1200, 900)
+      call lines%line("unset key")
+      call lines%line("set multiplot layout 2,1 title "//quoted(title)//" font ',17'")
+      call lines%line("set xrange [0:360]; set xtics 45; set lmargin at screen 0.1; set rmargin at screen 0.84")
+      call label(lines, field%request%joint//", film "//field%film//", t = "//real_text(field%t, 6)//" s")
+      call map_lines(lines, name, field, p, y)
+      call label(lines, "greatest pressure "//shown(field%pressure(peak(1), peak(2)), p)//" at "// &
+                 real_text(field%theta(peak(2))/degree, 4)//"°, least gap "// &
+                 shown(field%gap(thin(1), thin(2)), choose_unit("m", field%gap(thin(1), thin(2))))//" at "// &
+                 real_text(field%theta(thin(2))/degree, 4)//"°")
+      call lines%line("set yrange [*:*]; set y2range [0:*]; set ytics auto nomirror; set y2tics; unset view")
+      call lines%line("set xlabel 'angle in the frame of the bearing [°]'")
+      call lines%line("set ylabel "//quoted("pressure at mid-length ["//p%symbol//"]")//" textcolor rgb '"//colours(1)//"'")
+      call lines%line("set y2label "//quoted("gap ["//h%symbol//"]")//" textcolor rgb '"//colours(2)//"'")
+      call mark(lines, field%theta(peak(2)), colours(1))
+      call mark(lines, field%theta(thin(2)), colours(2))
+      call lines%line("plot '"//name//".dat' index 1 using "//column(1, degrees)//":"//column(3, p)// &
+                      " with lines linewidth 2 linecolor rgb '"//colours(1)//"', \")
+      call lines%line("     '' index 1 using "//column(1, degrees)//":"//column(4, h)// &
+                      " axes x1y2 with lines linewidth 2 dashtype 2 linecolor rgb '"//colours(2)//"'")
+      call lines%line("unset multiplot")
+      call lines%line("unset output")
+      script = lines%get()
+   end function script_of
+
+   !> The map of the pressure.
+   subroutine map_lines(lines, name, field, p, y)
+      type(buffer_t), intent(inout) :: lines    !! the script
+      character(*), intent(in) :: name          !! of the figure
+      type(film_field_t), intent(in) :: field   !! the film
+      type(display_unit_t), intent(in) :: p, y  !! scales
+
+      character(:), allocatable :: columns, high, high_y, low, low_y
+      real(wp) :: greatest, least
+      integer :: k
+
+      greatest = max(maxval(field%pressure), 0.0_wp)*p%factor
+      least = min(minval(field%pressure), 0.0_wp)*p%factor
+      if (greatest < -nothing*least) greatest = 0.0_wp
+      if (-least < nothing*greatest) least = 0.0_wp
+      high = real_text(greatest, 6)
+      low = real_text(least, 6)
+      columns = column(1, display_unit_t(factor=1.0_wp/degree))//":"//column(2, y)//":"//column(3, p)
+      call lines%line("set view map; set pm3d corners2color mean interpolate 2,2")
+      if (least < 0.0_wp .and. greatest > 0.0_wp) then
+         call lines%line("set palette defined ("//low//" '#b2182b', 0 '#ffffff', "//high//" '#08306b')")
+      else if (least < 0.0_wp) then
+         call lines%line("set palette defined (0 '#b2182b', 1 '#ffffff')")
+      else
+         call lines%line("set palette defined (0 '#ffffff', 0.01 '#dbe9f6', 0.4 '#6aaed6', 1 '#08306b')")
+      end if
+      if (greatest > least) then
+         call lines%line("set cbrange ["//low//":"//high//"]")
+         call lines%line("set contour base")
+         call lines%add("set cntrparam levels discrete ")
+         do k = 1, contours
+            call lines%add(real_text(least + (greatest - least)*k/(contours + 1), 6))
+            if (k < contours) call lines%add(", ")
+         end do
+         call lines%line("")
+      else
+         call lines%line("set cbrange [0:1]")
+      end if
+      call lines%line("set for [i=1:20] linetype i linecolor rgb '#303030'")
+      call lines%line("set cblabel "//quoted("pressure ["//p%symbol//"]"))
+      low_y = real_text(field%y(1)*y%factor, 6)
+      high_y = real_text(field%y(size(field%y))*y%factor, 6)
+      call lines%line("set yrange ["//low_y//":"//high_y//"]")
+      call lines%line("set ytics 0.25*("//high_y//"-("//low_y//"))")
+      call lines%line("set ylabel "//quoted("place along the axis ["//y%symbol//"]"))
+      call lines%add("splot '"//name//".dat' index 0 using "//columns//" with pm3d")
+      if (greatest > least) call lines%add(", '' index 0 using "//columns//" with lines linewidth 0.8 nosurface")
+      call lines%line("")
+      call lines%line("unset contour")
+   end subroutine map_lines
+
+   !> A line of text above a panel.
+   subroutine label(lines, text)
+      type(buffer_t), intent(inout) :: lines  !! the script
+      character(*), intent(in) :: text        !! any text
+
+      call lines%line("set label 1 "//quoted(text)//" at graph 0, 1.07 left")
+   end subroutine label
+
+   !> A column of the table, scaled.
+   function column(number, unit) result(s)
+      integer, intent(in) :: number             !! of the column
+      type(display_unit_t), intent(in) :: unit  !! its scale
+      character(:), allocatable :: s            !! for `using`
+
+      s = "($"//to_text(number)//"*"//real_text(unit%factor, 12)//")"
+   end function column
+
+   !> A line across a panel at an angle.
+   subroutine mark(lines, theta, colour)
+      type(buffer_t), intent(inout) :: lines  !! the script
+      real(wp), intent(in) :: theta           !! the angle [rad]
+      character(*), intent(in) :: colour      !! of the line
+
+      call lines%line("set arrow from first "//real_text(theta/degree, 8)//", graph 0 to first "//real_text(theta/degree, 8)// &
+                      ", graph 1 nohead dashtype 3 linecolor rgb '"//colour//"'")
+   end subroutine mark
+
+   !> A number with its unit.
+   function shown(x, unit) result(words)
+      real(wp), intent(in) :: x                 !! the number, SI [any]
+      type(display_unit_t), intent(in) :: unit  !! how it is shown
+      character(:), allocatable :: words        !! as `1.23 MPa`
+
+      words = real_text(x*unit%factor, 3)//" "//unit%symbol
+   end function shown
+
+end module field_plot
