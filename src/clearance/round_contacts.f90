@@ -29,8 +29,8 @@ module round_contacts
 
    !> Channels that films tell, or add to.
    character(*), parameter :: told_of_films = &
-      " force film_force film_torque film_pressure film_thickness eccentricity_ratio state drag_journal drag_bearing film_power "// &
-      "side_flow temperature_rise "
+      " force film_force film_torque film_pressure film_thickness eccentricity_ratio state drag_journal drag_bearing "// &
+      "film_power side_flow temperature_rise "
 
    !> The surfaces of one joint.
    type :: journal_t
