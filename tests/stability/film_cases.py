@@ -40,7 +40,7 @@ def sound(run):
         for group in ("bodies", "clearances", "energy"):
             for name, values in file[group].items():
                 if isinstance(values, h5py.Dataset) and values.dtype.kind == "f" and not np.isfinite(values[()]).all() \
-                        and name not in ("film_pressure", "length", "clearance"):
+                        and name not in ("film_pressure", "temperature_rise", "length", "clearance"):
                     return np.inf
         ratio = file["clearances/eccentricity_ratio"][:]
         energy = {name: np.abs(values[:]).max() for name, values in file["energy"].items()}
