@@ -19,6 +19,8 @@ module bearing_films
    private
    public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
 
+   real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that carries heat away, of L R c and both angular speeds [1]
+
    !> How a film acts in a joint.
    type :: film_place_t
       real(wp) :: clearance = 0.0_wp      !! c of the joint [m]
@@ -39,7 +41,7 @@ module bearing_films
       real(wp) :: drag_bearing = 0.0_wp   !! the same on the bearing [N.m]
       real(wp) :: power = 0.0_wp          !! that the film turns into heat [W]
       real(wp) :: side_flow = 0.0_wp      !! that leaves at both ends [m^3/s]
-      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow takes all heat along; NaN: there is no flow [K]
+      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow takes all heat along; NaN: next to no flow [K]
    end type film_state_t
 
    !> Films of the items of a set.
@@ -281,7 +283,11 @@ contains
                     - state%drag_bearing*motion%omega(3, body(1))
       state%side_flow = state%share*self%law%side_flow(one(1), self%parameters(:, k))
       state%rise = not_a_number()
-      if (state%side_flow > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*state%side_flow)
+      associate (b => self%bearing(k), speed => abs(motion%omega(3, body(1))) + abs(motion%omega(3, body(2))))
+         if (state%side_flow > least_flow*b%length*b%radius*b%clearance*speed) then
+            state%rise = state%power/(self%oil(k)%heat*state%side_flow)
+         end if
+      end associate
    end function films_state_of
 
    !> How the force of one item's film changes with a small motion of its journal. In a transition to dry contact the film's part of
