@@ -12,14 +12,14 @@
 module bearing_films
    use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter
    use item, only: item_t
-   use kinds, only: not_a_number, wp
+   use kinds, only: wp
    use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
    implicit none (type, external)
    private
    public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
 
-   real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that carries heat away, of L R c and both angular speeds [1]
+   real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that is next to none, of L R c and both angular speeds [1]
 
    !> How a film acts in a joint.
    type :: film_place_t
@@ -41,7 +41,8 @@ module bearing_films
       real(wp) :: drag_bearing = 0.0_wp   !! the same on the bearing [N.m]
       real(wp) :: power = 0.0_wp          !! that the film turns into heat [W]
       real(wp) :: side_flow = 0.0_wp      !! that leaves at both ends [m^3/s]
-      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow takes all heat along; NaN: next to no flow [K]
+      logical :: has_flow = .false.       !! that is enough to carry heat away
+      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow, at least next to none, takes all heat along [K]
    end type film_state_t
 
    !> Films of the items of a set.
@@ -266,7 +267,7 @@ contains
       type(film_state_t) :: state                 !! what it does
 
       type(film_motion_t) :: one(1)
-      real(wp) :: f(2, 1), s(2, 2, 1)
+      real(wp) :: f(2, 1), least, s(2, 2, 1)
 
       call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
                          ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, one, s)
@@ -282,12 +283,11 @@ contains
       state%power = -dot_product(state%force, one(1)%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
                     - state%drag_bearing*motion%omega(3, body(1))
       state%side_flow = state%share*self%law%side_flow(one(1), self%parameters(:, k))
-      state%rise = not_a_number()
       associate (b => self%bearing(k), speed => abs(motion%omega(3, body(1))) + abs(motion%omega(3, body(2))))
-         if (state%side_flow > least_flow*b%length*b%radius*b%clearance*speed) then
-            state%rise = state%power/(self%oil(k)%heat*state%side_flow)
-         end if
+         least = least_flow*b%length*b%radius*b%clearance*speed
       end associate
+      state%has_flow = state%side_flow > least
+      if (max(state%side_flow, least) > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*max(state%side_flow, least))
    end function films_state_of
 
    !> How the force of one item's film changes with a small motion of its journal. In a transition to dry contact the film's part of
