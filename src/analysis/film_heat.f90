@@ -9,7 +9,6 @@
 !> as the mean of inlet and outlet). Limits: steady states; no heat goes through the housing; the pressure at which lubricant is
 !> supplied adds no flow.
 module film_heat
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: error_t, exit_assembly, set_error
    use film_law, only: film_motion_t
    use kinds, only: wp
@@ -78,7 +77,7 @@ contains
                   if (.not. films%place(i)%is_heated) cycle
                   motion = films%motion_of(i, items%body(:, i), items%s_i(:, i), items%s_j(:, i), system%linkage%motion)
                   associate (state => films%state_of(i, items%body(:, i), motion, system%linkage%motion))
-                     if (.not. ieee_is_finite(state%rise)) then
+                     if (.not. state%has_flow) then
                         call set_error(error, exit_assembly, "no lubricant leaves the film of joint '"//set%names(i)%s// &
                                        "', so that its heat has no balance"//new_line("a")// &
                                        "  = with heat = off the film has the temperature of the lubricant")

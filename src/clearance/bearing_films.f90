@@ -14,7 +14,7 @@ module bearing_films
    use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter, parameter_clearance, &
       parameter_length
    use item, only: item_t
-   use kinds, only: not_a_number, two_pi, wp
+   use kinds, only: two_pi, wp
    use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
    implicit none (type, external)
@@ -23,6 +23,8 @@ module bearing_films
 
    integer, parameter :: n_around = 360  !! parts of the angle of an unwrapped film
    integer, parameter :: n_along = 40    !! parts of its length
+
+   real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that is next to none, of L R c and both angular speeds [1]
 
    !> How a film acts in a joint.
    type :: film_place_t
@@ -43,7 +45,8 @@ module bearing_films
       real(wp) :: drag_bearing = 0.0_wp   !! the same on the bearing [N.m]
       real(wp) :: power = 0.0_wp          !! that the film turns into heat [W]
       real(wp) :: side_flow = 0.0_wp      !! that leaves at both ends [m^3/s]
-      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow takes all heat along; NaN: there is no flow [K]
+      logical :: has_flow = .false.       !! that is enough to carry heat away
+      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow, at least next to none, takes all heat along [K]
    end type film_state_t
 
    !> Films of the items of a set.
@@ -270,7 +273,7 @@ contains
       type(motion_t), intent(in) :: motion        !! that of the bodies
       type(film_state_t) :: state                 !! what it does
 
-      real(wp) :: f(2, 1)
+      real(wp) :: f(2, 1), least
 
       if (.not. self%acts) return
       state%share = share_of(self%place(k), film%e)
@@ -283,8 +286,11 @@ contains
       state%power = -dot_product(state%force, film%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
                     - state%drag_bearing*motion%omega(3, body(1))
       state%side_flow = state%share*self%law%side_flow(film, self%parameters(:, k))
-      state%rise = not_a_number()
-      if (state%side_flow > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*state%side_flow)
+      associate (b => self%bearing(k), speed => abs(motion%omega(3, body(1))) + abs(motion%omega(3, body(2))))
+         least = least_flow*b%length*b%radius*b%clearance*speed
+      end associate
+      state%has_flow = state%side_flow > least
+      if (max(state%side_flow, least) > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*max(state%side_flow, least))
    end function films_state_of
 
    !> Greatest pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.

@@ -47,8 +47,8 @@ contains
       call add_channel(info, "drag_bearing", "N.m", "world", 1, "moment of the shear on the bearing, whether it acts or not")
       call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat")
       call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bearing")
-      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; NaN: " &
-                       //"there is no flow")
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; one " &
+                       //"below L R c (|w_i| + |w_j|)/1000 counts as that")
    end subroutine add_film_channels
 
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.

@@ -40,7 +40,7 @@ contains
    !> A film in words.
    function film_lines(film) result(words)
       type(film_coefficients_t), intent(in) :: film  !! the film
-      type(text_t), allocatable :: words(:)          !! (4 or 5) lines
+      type(text_t), allocatable :: words(:)          !! (2 to 5) lines
 
       allocate (words(0))
       call append_text(words, film%joint//": eccentricity "//real_text(film%eccentricity_ratio, n_digit)// &
@@ -49,6 +49,10 @@ contains
       if (film%is_heated) then
          call append_text(words, "temperature "//real_text(film%temperature - ice, n_digit)// &
                           " degC by a balance of heat, viscosity "//real_text(film%viscosity, n_digit)//" Pa.s")
+      end if
+      if (.not. film%load > 0.0_wp) then
+         call append_text(words, "it carries nothing here")
+         return
       end if
       call append_text(words, "stiffness [N/m]   "//entries(film%stiffness, film%error))
       call append_text(words, "damping [N.s/m]   "//entries(film%damping, film%error)//"; error "//real_text(film%error, 1))
@@ -79,7 +83,7 @@ contains
       character(:), allocatable :: words             !! to follow the rotor
 
       if (.not. ieee_is_finite(film%critical_mass)) then
-         words = "does not whirl, whatever its mass"
+         words = "has no mass at which it begins to whirl"
       else if (.not. film%critical_mass > 0.0_wp) then
          words = "whirls, whatever its mass"
       else

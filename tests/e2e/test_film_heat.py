@@ -56,6 +56,10 @@ def test_flows_agree(gudgeon, film):
 def test_power_is_what_the_ledger_books(gudgeon):
     """With the moments of shear the power of the film is the rate at which the ledger books its losses, also while it squeezes."""
     run = film_run(gudgeon, BEARING, film="finite", torque="on", duration="0.1s")
+    rise = run.item("clearances/temperature_rise", "bearing").ravel()
+    flow = LENGTH * RADIUS * CLEARANCE * SPEED / 1000  # it begins in the middle, with next to none
+    assert_close(rise[0], run.item("clearances/film_power", "bearing").ravel()[0] / (HEAT * flow), relative=1e-9, what="rise")
+    assert np.all(rise[1:] < 2)
     lost = run.read("energy/dissipated_film").ravel()
     power = run.item("clearances/film_power", "bearing").ravel()
     rate = np.gradient(lost, run.time)
