@@ -21,9 +21,7 @@ module bearing_films
    private
    public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
 
-   integer, parameter :: n_around = 360  !! parts of the angle of an unwrapped film
-   integer, parameter :: n_along = 40    !! parts of its length
-
+   integer, parameter :: n_around = 360, n_along = 40  !! parts of the angle and of the length of an unwrapped film
    real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that is next to none, of L R c and both angular speeds [1]
 
    !> How a film acts in a joint.
@@ -286,9 +284,7 @@ contains
       state%power = -dot_product(state%force, film%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
                     - state%drag_bearing*motion%omega(3, body(1))
       state%side_flow = state%share*self%law%side_flow(film, self%parameters(:, k))
-      associate (b => self%bearing(k), speed => abs(motion%omega(3, body(1))) + abs(motion%omega(3, body(2))))
-         least = least_flow*b%length*b%radius*b%clearance*speed
-      end associate
+      least = least_flow*self%bearing(k)%length*self%bearing(k)%radius*self%bearing(k)%clearance*sum(abs(motion%omega(3, body)))
       state%has_flow = state%side_flow > least
       if (max(state%side_flow, least) > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*max(state%side_flow, least))
    end function films_state_of

@@ -15,10 +15,9 @@ module cvode_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use fcvode_mod, only: cv_adams, cv_bdf, cv_one_step, fcvode, fcvodefree, fcvodegetcurrentstep, fcvodegetdky, &
       fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, fcvodeinit, fcvodereinit, fcvodesetinitstep, &
-      fcvodesetjacfn, fcvodesetlinearsolver, fcvodesetmaxstep, fcvodesetminstep, fcvodesetnonlinearsolver, &
-      fcvodesetpreconditioner, &
-      fcvodesetprojerrest, &
-      fcvodesetprojfn, fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
+      fcvodesetjacfn, fcvodesetlinearsolver, fcvodesetmaxconvfails, fcvodesetmaxerrtestfails, fcvodesetmaxstep, &
+      fcvodesetminstep, fcvodesetnonlinearsolver, fcvodesetpreconditioner, fcvodesetprojerrest, fcvodesetprojfn, &
+      fcvodesetstoptime, fcvodesetuserdata, fcvodewftolerances
    use dae_system, only: dae_system_t
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
@@ -27,7 +26,7 @@ module cvode_library
    use fsunnonlinsol_fixedpoint_mod, only: fsunnonlinsol_fixedpoint
    use kinds, only: wp
    use sundials, only: fn_vgetarraypointer, fsunnonlinsolfree, n_vector, new_cvode, sunindextype, sunmatrix, sunnonlinearsolver
-   use sundials_library, only: dense_block, increments, library_t, note, problem_t, weigh
+   use sundials_library, only: dense_block, increments, library_t, most_failures, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: cvode_library_t
@@ -81,6 +80,8 @@ contains
          call note(fcvodesetinitstep(self%memory, first_step), status)
          call note(fcvodesetminstep(self%memory, method%controls%minimum_step), status)
          call note(fcvodesetmaxstep(self%memory, method%controls%maximum_step), status)
+         call note(fcvodesetmaxerrtestfails(self%memory, most_failures), status)
+         call note(fcvodesetmaxconvfails(self%memory, most_failures), status)
       end associate
       self%problem%holds_copies = .not. self%is_stiff
       if (self%problem%system%holds .and. self%is_stiff) then

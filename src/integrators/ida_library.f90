@@ -22,7 +22,8 @@ module ida_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
    use dae_system, only: dae_system_t
    use fida_mod, only: fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, fidagetnumnonlinsolvconvfails, &
-      fidainit, fidareinit, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxstep, fidasetminstep, &
+      fidainit, fidareinit, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxconvfails, fidasetmaxerrtestfails, &
+      fidasetmaxstep, fidasetminstep, &
       fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
@@ -32,7 +33,7 @@ module ida_library
       fsunsparsematrix_indexvalues
    use kinds, only: wp
    use sundials, only: fn_vdestroy, fn_vgetarraypointer, n_vector, new_ida, sunindextype, sunmatrix
-   use sundials_library, only: dense_block, increments, library_t, note, problem_t, weigh
+   use sundials_library, only: dense_block, increments, library_t, most_failures, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: ida_library_t
@@ -86,6 +87,8 @@ contains
          call note(fidasetinitstep(self%memory, first_step), status)
          call note(fidasetminstep(self%memory, controls%minimum_step), status)
          call note(fidasetmaxstep(self%memory, controls%maximum_step), status)
+         call note(fidasetmaxerrtestfails(self%memory, most_failures), status)
+         call note(fidasetmaxconvfails(self%memory, most_failures), status)
       end associate
       is_good = status == 0
    end subroutine ida_begin

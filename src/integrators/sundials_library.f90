@@ -19,8 +19,9 @@ module sundials_library
       sunlinearsolver, sunmatrix
    implicit none (type, external)
    private
-   public :: dense_block, increments, library_t, note, problem_t, weigh
+   public :: dense_block, increments, library_t, most_failures, note, problem_t, weigh
 
+   integer(c_int), parameter :: most_failures = 30  !! of a step: from a long one to those of a film that lets go, 7 are too few
    real(wp), parameter :: no_weight = 1.0e-30_wp  !! weight of what stays out of the norm; nought would be divided by [any]
 
    !> What the library hands back.

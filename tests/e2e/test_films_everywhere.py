@@ -1,0 +1,104 @@
+"""Films beside everything else: places and tilts, every method, repeats bit for bit, sweeps, statistics, chosen tolerances."""
+
+import csv
+import math
+
+import h5py
+import numpy as np
+import pytest
+from film_decks import BEARING, film_run
+from support import Run, assert_close, call, changed, scratch, written
+
+TILT, AWAY = math.radians(37), (3000, -2000)  # [rad], [mm]
+
+
+def moved(tilt=TILT, away=AWAY):
+    """The journal bearing elsewhere, its load and its weight turned."""
+    text = BEARING.read_text()
+    x, y = away
+    for name, rest in (("shaft     1          2.5e-4            ", "0       0"), ("journal   0.13       2.5e-4            ", "0       0"),
+                       ("housing   ground    ", "0        0")):
+        assert name + rest in text
+        text = text.replace(name + rest, f"{name}{x}   {y}")
+    text = text.replace("0 -9.81 m/s^2", f"{9.81 * math.sin(tilt):.17g} {-9.81 * math.cos(tilt):.17g} m/s^2")
+    return text.replace("name     point    fy\nweight   centre   {-load}",
+                        f"name     point    fx   fy\nweight   centre   {{load*sin({tilt:.17g})}}   {{-load*cos({tilt:.17g})}}")
+
+
+def run_of(gudgeon, text, *options, expect=0):
+    """A run of a deck's text, numbers only."""
+    out = scratch() / "out"
+    return Run(out, call(gudgeon, "run", written(scratch(), text), "--out", out, "--write", "channels", *options, expect=expect))
+
+
+@pytest.mark.parametrize("film", ["finite", "short_gumbel", "pinkus_sternlicht", "grid"])
+def test_moved_and_tilted(gudgeon, film):
+    """Bearing, load and weight turned by 37 degrees, 3.6 m away: the same orbit, turned."""
+    options = ("--set", f"film={film}", "--set", "duration=0.05s", "--tolerance", "1e-9")
+    here = run_of(gudgeon, BEARING.read_text(), *options).item("clearances/eccentricity", "bearing")
+    there = run_of(gudgeon, moved(), *options).item("clearances/eccentricity", "bearing")
+    turn = np.array([[math.cos(TILT), math.sin(TILT)], [-math.sin(TILT), math.cos(TILT)]])
+    assert_close(there, here @ turn, absolute=1e-5 * 0.2e-3, what=film)
+
+
+@pytest.mark.parametrize("method", ["verner", "adams", "ida", "rk4"])
+@pytest.mark.parametrize("film", ["finite", "short_exact"])
+def test_every_method(gudgeon, film, method):
+    """Twenty milliseconds by each method as by bdf at 1e-13."""
+    settings = {"film": film, "duration": "20ms"}
+    right = film_run(gudgeon, BEARING, **settings).item("clearances/eccentricity_ratio", "bearing")
+    if method == "rk4":
+        text = changed(BEARING.read_text(), "analysis.dynamic", method="rk4", step="0.2 us", tolerance=None)
+        run = run_of(gudgeon, text, "--set", f"film={film}", "--set", "duration=20ms")
+    else:
+        run = film_run(gudgeon, BEARING, "--method", method, "--tolerance", "1e-9", **settings)
+    assert_close(run.item("clearances/eccentricity_ratio", "bearing"), right, absolute=5e-6, what=f"{film}, {method}")
+
+
+def test_grid_repeats_itself(gudgeon):
+    """The pressures that a grid begins with are those of the solution before, and leave no trace: two runs are equal bit for bit."""
+    runs = [run_of(gudgeon, BEARING.read_text(), "--set", "film=grid", "--set", "duration=10ms", "--tolerance", "1e-8") for _ in range(2)]
+    for path in ("bodies/position", "clearances/film_force", "clearances/film_pressure", "energy/dissipated_film"):
+        assert np.array_equal(*(run.read(path) for run in runs)), path
+
+
+SWEPT = """
+[statistics]
+after    = 0.9 s
+channels = bearing.eccentricity_ratio bearing.film_thickness
+
+[sweep]
+film      = short_exact finite
+viscosity = 100 400 cP
+c         = 0.1 0.2 mm
+"""
+
+
+def test_sweep(gudgeon):
+    """Film, viscosity and clearance swept: thicker oil and less clearance carry at less eccentricity; each run is that of `run`."""
+    deck = written(scratch(), changed(BEARING.read_text(), "output", figures=None, channels="bearing.*") + SWEPT)
+    out = scratch() / "out"
+    call(gudgeon, "sweep", deck, "--set", "duration=1s", "--out", out)
+    with (out / "cases.csv").open() as file:
+        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    head, cases = rows[0], rows[1:]
+    assert len(cases) == 8
+    column = next(k for k, name in enumerate(head) if "bearing.eccentricity_ratio.mean" in name)
+    values = [float(row[column]) for row in cases]
+    for film in (0, 4):
+        thin_small, thin_wide, thick_small, thick_wide = values[film : film + 4]
+        assert thick_small < thin_small < thin_wide and thick_small < thick_wide < thin_wide
+    alone = run_of(gudgeon, deck.read_text(), "--set", "duration=1s", "--set", "film=finite", "--set", "viscosity=400cP", "--set", "c=0.2mm")
+    with h5py.File(alone.directory / "run.h5") as file:
+        names = [name.decode() for name in file["statistics/names"][()]]
+        number = file["statistics/values"][names.index("bearing.eccentricity_ratio.mean")]
+    assert values[-1] == pytest.approx(number, rel=1e-12)
+
+
+def test_chosen_tolerance(gudgeon):
+    """`--accuracy` on a film: the tolerance it takes gives what it claims."""
+    text = changed(BEARING.read_text(), "output", channels="bearing.eccentricity_ratio", figures=None)
+    run = run_of(gudgeon, text, "--set", "film=finite", "--set", "duration=0.1s", "--accuracy", "1e-5")
+    right = run_of(gudgeon, text, "--set", "film=finite", "--set", "duration=0.1s", "--tolerance", "1e-13")
+    found, exact = (r.item("clearances/eccentricity_ratio", "bearing").ravel() for r in (run, right))
+    assert_close(found, exact, absolute=1e-5 * np.abs(exact).max())
