@@ -8,7 +8,7 @@ module revolute_level
    public :: add_film_channels, add_film_columns, film_channels, find_level_mistake, pressure_channels
 
    character(*), parameter :: film_channels = " film_force film_torque film_thickness film_pressure eccentricity_ratio "// &
-                              "drag_journal drag_bearing film_power side_flow temperature_rise "  !! channels of joints that have a film
+                              "drag_journal drag_bearing film_power side_flow temperature_rise "  !! channels of films
    character(*), parameter :: pressure_channels = " film_pressure "  !! channels of joints whose film has pressures
 
 contains

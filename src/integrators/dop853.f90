@@ -88,10 +88,10 @@ module dop853
 
    !> The method with its workspace.
    type, extends(one_step_t) :: dop853_t
-      real(wp), allocatable :: k(:, :)      !! (n, 16) derivatives of the stages; the last four are for interpolation [any]
-      real(wp), allocatable :: y(:)         !! (n) state of a stage [any]
-      real(wp), allocatable :: term(:, :)   !! (n, 7) terms of the interpolant of the last step [any]
-      real(wp) :: h_stages = 0.0_wp         !! length of the step whose stages `k` holds [s]
+      real(wp), allocatable, private :: k(:, :)    !! (n, 16) derivatives of the stages; the last four are for interpolation [any]
+      real(wp), allocatable, private :: y(:)       !! (n) state of a stage [any]
+      real(wp), allocatable, private :: term(:, :) !! (n, 7) terms of the interpolant of the last step [any]
+      real(wp), private :: h_stages = 0.0_wp         !! length of the step whose stages `k` holds [s]
    contains
       procedure, nopass :: info => dop853_info
       procedure :: prepare => dop853_prepare
@@ -226,7 +226,7 @@ contains
       norm = h*norm/self%controls%tolerance
    end function dop853_error_norm
 
-   !> The interpolant of order 7 of the last step. Stages of another length, as a search within the step leaves them, are made again.
+   !> The interpolant of order 7 of the last step. Stages of another length, as a search in the step leaves them, are made again.
    subroutine dop853_prepare_output(self, system, status)
       class(dop853_t), intent(inout) :: self        !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system

@@ -8,8 +8,8 @@ module run_recorder
    use channels, only: select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
-   use figure_words, only: add_figure_channels, extra_tables, figure_film, figure_t, film_requests, is_of_run, new_figure, &
-      spectral_scalars, stroboscopic_scalars
+   use figure_needs, only: add_figure_channels, extra_tables, film_requests, spectral_scalars, stroboscopic_scalars
+   use figure_words, only: figure_film, figure_t, is_of_run, new_figure
    use figures, only: make_figures
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films

@@ -1,4 +1,4 @@
-!> The deck's words for figures, and the channels that each of them needs.
+!> The deck's words for figures.
 !>
 !> `slider.velocity`, `guide.penetration`, `energy.*`: time histories of channels of one unit.
 !> `gudgeon.orbit`: path of the journal in its clearance. `portrait(slider.velocity.x,slider.acceleration.x)`:
@@ -8,19 +8,18 @@
 !> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time.
 module figure_words
    use catalogue, only: catalogue_t, room_clearances, room_contacts
-   use channel_names, only: item_name, scalar_t
+   use channel_names, only: scalar_t
    use channels, only: list_scalars, match_word, selection_t
    use film_fields, only: field_request_t
    use film_words, only: film_hint, take_film
    use kinds, only: wp
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t
-   use text_writer, only: extra_table_t
    implicit none (type, external)
    private
-   public :: add_figure_channels, check_figures, extra_tables, figure_t, new_figure
+   public :: check_figures, figure_t, new_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
-   public :: figure_film, figure_spectrum, figure_statistics, film_requests, is_of_run, spectral_scalars, stroboscopic_scalars
+   public :: figure_film, figure_spectrum, figure_statistics, is_of_run
 
    integer, parameter :: figure_history = 1   !! channels over time
    integer, parameter :: figure_orbit = 2     !! eccentricity, y over x
@@ -313,108 +312,11 @@ contains
       hint = "write histogram(JOINT.impact_speed) or histogram(JOINT.peak_force) for a joint with clearance"
    end subroutine take_histogram
 
-   !> The films that figures need.
-   function film_requests(figures) result(list)
-      type(figure_t), intent(in) :: figures(:)             !! (n) figures
-      type(field_request_t), allocatable :: list(:)        !! (any) films, each once
-
-      type(field_request_t), allocatable :: grown(:)
-      integer :: i, k
-
-      allocate (list(0))
-      do k = 1, size(figures)
-         if (figures(k)%kind /= figure_film) cycle
-         if (any([(list(i)%name == figures(k)%name, i=1, size(list))])) cycle
-         allocate (grown(size(list) + 1))
-         do i = 1, size(list)
-            grown(i) = list(i)
-         end do
-         grown(size(grown)) = figures(k)%film
-         call move_alloc(grown, list)
-      end do
-   end function film_requests
-
    !> Whether a figure is one of a single run, not of a sweep.
    pure logical function is_of_run(figure)
       type(figure_t), intent(in) :: figure  !! the figure
 
       is_of_run = figure%kind /= figure_bifurcation .and. figure%kind /= figure_statistics
    end function is_of_run
-
-   !> The channels that figures need once per period.
-   function stroboscopic_scalars(figures) result(list)
-      type(figure_t), intent(in) :: figures(:)         !! (n) figures
-      type(scalar_t), allocatable :: list(:)           !! (any) channels
-
-      integer :: k
-
-      allocate (list(0))
-      do k = 1, size(figures)
-         if (figures(k)%kind == figure_section .or. figures(k)%kind == figure_bifurcation) list = [list, figures(k)%scalars]
-      end do
-   end function stroboscopic_scalars
-
-   !> The channels whose spectra figures need.
-   function spectral_scalars(figures) result(list)
-      type(figure_t), intent(in) :: figures(:)         !! (n) figures
-      type(scalar_t), allocatable :: list(:)           !! (any) channels
-
-      integer :: k
-
-      allocate (list(0))
-      do k = 1, size(figures)
-         if (figures(k)%kind == figure_spectrum) list = [list, figures(k)%scalars]
-      end do
-   end function spectral_scalars
-
-   !> Add the channels that figures need to a selection.
-   subroutine add_figure_channels(figures, selection)
-      type(figure_t), intent(in) :: figures(:)         !! (n) figures
-      type(selection_t), intent(inout) :: selection    !! channels that are kept
-
-      integer :: i, k
-
-      do k = 1, size(figures)
-         if (figures(k)%kind > figure_portrait) cycle
-         do i = 1, size(figures(k)%scalars)
-            associate (this => figures(k)%scalars(i))
-               selection%groups(this%group)%mask(this%component, this%item) = .true.
-            end associate
-         end do
-      end do
-   end subroutine add_figure_channels
-
-   !> Tables for portraits whose channels are not in the same file.
-   function extra_tables(figures, catalogue) result(tables)
-      type(figure_t), intent(in) :: figures(:)          !! (n) figures
-      type(catalogue_t), intent(in) :: catalogue        !! what can be recorded
-      type(extra_table_t), allocatable :: tables(:)     !! (n) tables
-
-      logical :: apart(size(figures))
-      integer :: k, n
-
-      apart = .false.
-      do k = 1, size(figures)
-         if (figures(k)%kind /= figure_portrait) cycle
-         apart(k) = file_of(figures(k)%scalars(1), catalogue) /= file_of(figures(k)%scalars(2), catalogue)
-      end do
-      allocate (tables(count(apart)))
-      n = 0
-      do k = 1, size(figures)
-         if (.not. apart(k)) cycle
-         n = n + 1
-         tables(n)%name = "figures/"//figures(k)%name
-         tables(n)%columns = figures(k)%scalars
-      end do
-   end function extra_tables
-
-   !> Name of the item in whose file a number is.
-   pure function file_of(scalar, catalogue) result(name)
-      type(scalar_t), intent(in) :: scalar        !! the number
-      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      character(:), allocatable :: name           !! of the item
-
-      name = item_name(catalogue, catalogue%groups(scalar%group)%room, scalar%item)
-   end function file_of
 
 end module figure_words
