@@ -351,10 +351,7 @@ contains
          end do
          guards = limits%guards
          call whole%seen(guards)
-         call guards%warn(whole%system, summary%warnings)
-         if (method%is_explicit() .and. summary%count%steps > many_steps) then
-            call guards%films%warn_of_stiffness(whole%system, summary%method%integrator, summary%warnings)
-         end if
+         call warn_by_guards(guards, whole%system, method, summary)
       end associate
       summary%status = status_complete
       summary%message = ""
@@ -364,6 +361,18 @@ contains
          summary%message = error%message
       end if
    end subroutine sum_up
+
+   !> What the guards have seen.
+   subroutine warn_by_guards(guards, system, method, summary)
+      type(guards_t), intent(in) :: guards           !! the guards
+      type(mechanism_t), intent(in) :: system        !! the whole
+      class(integrator_t), intent(in) :: method      !! the integrator
+      type(summary_t), intent(inout) :: summary      !! its warnings grow
+
+      call guards%warn(system, summary%warnings)
+      if (.not. method%is_explicit() .or. summary%count%steps < many_steps) return
+      call guards%films%warn_of_stiffness(system, summary%method%integrator, summary%warnings)
+   end subroutine warn_by_guards
 
    !> Name of an integrator.
    function method_name(method) result(name)
