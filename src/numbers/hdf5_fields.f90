@@ -1,4 +1,4 @@
-!> Unwrapped films in run.h5: a group /films/NAME for each (docs/output.md).
+!> Unwrapped films in run.h5: a group /film_fields/NAME for each (docs/output.md).
 module hdf5_fields
    use film_fields, only: film_field_t, moment_end, moment_least
    use hdf5, only: h5gclose_f, hid_t
@@ -36,10 +36,10 @@ contains
       integer :: closed, k
 
       if (size(fields) == 0) return
-      call new_group(file, "films", group, status)
+      call new_group(file, "film_fields", group, status)
       if (status >= 0) call h5gclose_f(group, closed)
       do k = 1, size(fields)
-         call write_field(file, "films/"//fields(k)%request%name, fields(k), status)
+         call write_field(file, "film_fields/"//fields(k)%request%name, fields(k), status)
       end do
    end subroutine write_fields
 

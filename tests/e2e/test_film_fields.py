@@ -38,7 +38,7 @@ def test_pressures_carry_the_film_force(gudgeon, film, limit):
     forces = run.item("clearances/film_force", "bearing")
     eps = run.item("clearances/eccentricity_ratio", "bearing").ravel()
     with h5py.File(run.directory / "run.h5") as file:
-        films = file["films"]
+        films = file["film_fields"]
         assert set(films) == {"film.bearing", "film.bearing.least", "film.bearing.20ms"}
         for name, row, moment in (("film.bearing", -1, "end of the run"), ("film.bearing.20ms", 20, "time")):
             group = films[name]
@@ -71,7 +71,7 @@ def test_grooves_stay_in_the_bearing(gudgeon):
     out = scratch() / "out"
     run = Run(out, call(gudgeon, "run", deck, "--out", out, "--set", "film=grid", "--set", "duration=5ms", "--tolerance", "1e-8"))
     with h5py.File(run.directory / "run.h5") as file:
-        pressure = file["films/film.bearing/pressure"][:]
+        pressure = file["film_fields/film.bearing/pressure"][:]
     assert_close(pressure[52:69, 20], 2e5, relative=1e-9, what="in the groove")
     assert_close(pressure[:, [0, 40]], 0, absolute=1e-9, what="at the ends")
     assert 0 < pressure[180, 20] < 1.999e5
@@ -96,7 +96,7 @@ def test_static_film(gudgeon):
     """A static analysis has one moment: the film at rest carries the load."""
     run = field_run(gudgeon, "--analysis", "static", words="film(bearing)", film="short_exact", duration="1s")
     with h5py.File(run.directory / "run.h5") as file:
-        assert_close(force_of(file["films/film.bearing"]), (0, 30 + 0.13 * 9.81), absolute=0.3, what="load")
+        assert_close(force_of(file["film_fields/film.bearing"]), (0, 30 + 0.13 * 9.81), absolute=0.3, what="load")
     assert run.summary["figures"] == ["figures/film.bearing.png"]
 
 
@@ -108,6 +108,6 @@ def test_film_at_its_end(gudgeon):
     run = Run(out, call(gudgeon, "run", written(scratch(), text), "--out", out, "--set", "film=short_gumbel", "--set", "viscosity=40cP", expect=5))
     assert "film.bearing.90ms" in " ".join(run.summary["warnings"])
     with h5py.File(run.directory / "run.h5") as file:
-        attributes = file["films/film.bearing"].attrs
+        attributes = file["film_fields/film.bearing"].attrs
         assert_close(attributes["eccentricity_ratio"], 0.3, absolute=1e-6)
         assert attributes["time"] < 0.09
