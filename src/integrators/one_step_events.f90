@@ -48,8 +48,7 @@ contains
 
    !> Newton's iteration on the length of the step towards an event, its tangent bent as the cubic of Hermite through the start of
    !> the step is: from a place that the interpolant foretold the first correction is the last one, and often so small that the
-   !> derivative leads there. Where another function has
-   !> clearly been above its threshold for longer, it goes on towards that one.
+   !> derivative leads there. Where another function has clearly been above its threshold for longer, it goes on towards that one.
    subroutine close_in(self, system, event, low, high, h, is_found, status)
       class(one_step_t), intent(inout) :: self      !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
