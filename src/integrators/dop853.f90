@@ -85,6 +85,7 @@ module dop853
 
    integer, parameter :: n_new_stage = 11  !! evaluations of a trial step; the first stage is known
    integer, parameter :: n_term = 7        !! terms of the interpolant of order 7
+   real(wp), parameter :: wild = 1.0e60_wp !! derivative of a trial step far too long for a stiff force [any]
 
    !> The method with its workspace.
    type, extends(one_step_t) :: dop853_t
@@ -159,6 +160,7 @@ contains
 
          call combine(n, first, i - 1, self%step%y0, h, self%k, a, self%y)
          call system%evaluate(self%step%t0 + c(i)*h, self%y, self%k(:, i), status)
+         if (status == 0 .and. maxval(abs(self%k(:, i))) > wild) status = 1
       end subroutine stage
 
    end subroutine dop853_make_stages

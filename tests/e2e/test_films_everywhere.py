@@ -6,6 +6,7 @@ import math
 import h5py
 import numpy as np
 import pytest
+from conftest import ROOT
 from film_decks import BEARING, film_run
 from support import Run, assert_close, call, changed, scratch, written
 
@@ -102,3 +103,11 @@ def test_chosen_tolerance(gudgeon):
     right = run_of(gudgeon, text, "--set", "film=finite", "--set", "duration=0.1s", "--tolerance", "1e-13")
     found, exact = (r.item("clearances/eccentricity_ratio", "bearing").ravel() for r in (run, right))
     assert_close(found, exact, absolute=1e-5 * np.abs(exact).max())
+
+
+def test_a_wild_trial_step_is_tried_again(gudgeon_debug):
+    """Stages of a step far too long for a stiff film grow beyond all bounds: with run-time checks, too, the step is made shorter."""
+    directory = scratch()
+    call(gudgeon_debug, "run", ROOT / "inputs" / "slider_crank_lubricated.deck", "--method", "dop853", "--tolerance", "1e-6",
+         "--out", directory / "out", "--write", "numbers", "--quiet")
+    assert Run(directory / "out").summary["status"] == "complete"
