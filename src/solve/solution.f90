@@ -18,6 +18,10 @@ module solution
    real(wp), parameter :: damping(2) = [1.0e-9_wp, 1.0e-5_wp]  !! (2) of rows nearly, or always, dependent; round-off over it
                                                                !! shows in reactions that are not unique [1]
    integer, parameter :: n_refinement(2) = [3, 30]   !! refinements of these solutions, at most
+   integer, parameter :: n_level = 3                 !! dampings tried where rows always depend on others
+   real(wp), parameter :: finer = 1.0e-2_wp          !! each of them over the one before [1]
+   real(wp), parameter :: left = 1.0e-9_wp           !! residual of the rows, of the greatest term, that is small enough [1]
+   real(wp), parameter :: better = 0.1_wp            !! part of the residual that a finer damping must leave, to be taken [1]
    real(wp), parameter :: contradiction = 1.0e-2_wp  !! residual of rows always dependent that is an error [1]
 
    !> The last solution, and how it is found.
@@ -68,6 +72,7 @@ contains
       self%n_damped = self%n_damped + 1
       k = merge(2, 1, self%is_redundant)
       call self%solver%solve_damped(inverse_mass, rows, g, self%b, damping(k), n_refinement(k), self%a, self%lambda, self%bad_row)
+      if (self%is_redundant .and. self%solver%left_over > left) call find_finer(self, inverse_mass, rows, g)
       if (self%bad_row == 0 .and. must_agree .and. (self%is_redundant .or. self%solver%is_iterative)) then
          if (.not. self%solver%left_over <= contradiction) then
             self%bad_row = maxloc(abs(self%solver%residual(:rows%n_solve)), dim=1)
@@ -75,5 +80,38 @@ contains
       end if
       if (self%bad_row > 0) status = 1
    end subroutine solution_find
+
+   !> Less damping, where refinement does not get over it: rows that do not depend on others may still hold little, as about the
+   !> axis of a thin rod. What is left of rows that do not quite agree, off the constraints, is no reason for it.
+   subroutine find_finer(self, inverse_mass, rows, g)
+      class(solution_t), intent(inout) :: self                 !! the solution, damped
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses, 0 if known [1/kg or 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows, evaluated
+      real(wp), intent(in), contiguous :: g(:, 0:)             !! (n_v, 0:bodies) loads [N or N.m]
+
+      real(wp) :: before
+      integer :: level
+
+      do level = 2, n_level
+         before = self%solver%left_over
+         call solve_at(level)
+         if (self%bad_row > 0 .or. .not. self%solver%left_over <= better*before) then
+            call solve_at(level - 1)
+            return
+         end if
+         if (self%solver%left_over <= left) return
+      end do
+
+   contains
+
+      !> The solution with one of the dampings.
+      subroutine solve_at(level)
+         integer, intent(in) :: level   !! which, 1: the first
+
+         call self%solver%solve_damped(inverse_mass, rows, g, self%b, damping(2)*finer**(level - 1), n_refinement(2), self%a, &
+                                       self%lambda, self%bad_row)
+      end subroutine solve_at
+
+   end subroutine find_finer
 
 end module solution
