@@ -75,7 +75,11 @@ contains
       case (cell_flag)
          value%flag = modulo(variant, 2) == 1
       case (cell_list)
-         value%table = reshape(column_of_samples(column%name, random), [n_sample, 1])
+         if (column%size > 1) then
+            value%table = reshape(random%vector(column%size, -1.0_wp, 1.0_wp), [column%size, 1])
+         else
+            value%table = reshape(column_of_samples(column%name, random), [n_sample, 1])
+         end if
       case (cell_file)
          value%given = .false.
       end select

@@ -122,6 +122,7 @@ contains
             call describe_failure(system, method, part%status, error)
             return
          end if
+         if (system%loading%counts_turns) call system%follow_turns(method%t, method%step%y1)
          call look_at_step(part, tally)
          if (part%is_lost) then
             call describe_failure(system, method, constraints_lost, error)

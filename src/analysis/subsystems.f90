@@ -5,6 +5,7 @@ module subsystems
    use instants, only: instants_t, new_instants
    use integrator, only: integrator_t
    use integrator_registry, only: find_integrator
+   use force_registry, only: n_force_kinds
    use item, only: place_of
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -73,6 +74,8 @@ contains
       type(scene_t), intent(in) :: scene      !! the scene
       character(:), allocatable :: reason     !! in words
 
+      integer :: k
+
       reason = ""
       associate (dynamic => scene%settings%dynamic, guards => scene%settings%guards)
          if (dynamic%word("groups") == "together") then
@@ -81,6 +84,8 @@ contains
             reason = "a condition that ends the run looks at all of them"
          else if (dynamic%number("maximum_steps") > 0.0_wp .or. dynamic%number("maximum_evaluations") > 0.0_wp) then
             reason = "their steps or evaluations are counted together"
+         else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)])) then
+            reason = "turns are counted from step to step"
          end if
       end associate
    end function reason_to_stay

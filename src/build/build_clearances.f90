@@ -15,7 +15,9 @@ module build_clearances
    use kinds, only: wp
    use law_absent, only: law_absent_t
    use law_faded, only: law_faded_t, new_law_faded
+   use law_part, only: law_part_t, new_law_part
    use mechanism, only: mechanism_t
+   use motion, only: motion_t
    use normal_law, only: normal_law_t
    use scene, only: scene_t
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
@@ -64,7 +66,7 @@ contains
                chosen = pack([(i, i=1, size(items))], is_twin)
                n_ideal = n_ideal + 1
                call take_items(items, chosen, some)
-               call add_ideal_set(scene, k, some, angle, twins(n_ideal), system%linkage%rows%n)
+               call add_ideal_set(scene, k, some, angle, system%linkage%motion, twins(n_ideal), system%linkage%rows%n)
             end if
          end associate
       end do
@@ -89,7 +91,7 @@ contains
          select case (info%columns(c)%name)
          case ("law", "face_law", "friction", "film")
             share_laws = share_laws .and. item%values(c)%index == other%values(c)%index
-         case ("level")
+         case ("level", "stiffness")
             share_laws = share_laws .and. item%values(c)%text == other%values(c)%text
          case ("e_t0")
             share_laws = share_laws .and. .not. abs(item%values(c)%number - other%values(c)%number) > 0.0_wp
@@ -126,11 +128,12 @@ contains
    end function has_ideal
 
    !> Rows of a geometry as the joint that it is without clearance.
-   subroutine add_ideal_set(scene, kind, items, angle, slot, n_row)
+   subroutine add_ideal_set(scene, kind, items, angle, motion, slot, n_row)
       type(scene_t), intent(in) :: scene         !! the scene
       integer, intent(in) :: kind                !! number of the geometry
       type(item_t), intent(in) :: items(:)       !! the rows
       real(wp), intent(in) :: angle(0:)          !! (0:bodies) angles at the start [rad]
+      type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
       type(joint_slot_t), intent(inout) :: slot  !! the set is made here
       integer, intent(inout) :: n_row            !! constraint rows so far
 
@@ -141,6 +144,7 @@ contains
       associate (set => slot%set)
          call tie_set(scene, scene%clearances(kind)%info, items, set)
          call set%prepare(items, angle)
+         call set%set_start(motion)
          set%first_row = n_row
          n_row = n_row + set%n*set%n_row_item
       end associate
@@ -197,11 +201,12 @@ contains
          system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
       end if
       call slot%set%prepare(items)
+      call slot%set%set_start(system%linkage%motion)
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set
 
    !> The normal law of a row: none where a film alone holds the surfaces apart, or the row names none; one that comes in by degrees
-   !> where a film goes out by degrees.
+   !> where a film goes out by degrees; half of one at each of two bases that carry together.
    subroutine choose_law(scene, info, item, law)
       type(scene_t), intent(in) :: scene                     !! the scene
       type(kind_info_t), intent(in) :: info                  !! the geometry
@@ -209,6 +214,7 @@ contains
       class(normal_law_t), allocatable, intent(out) :: law   !! its law
 
       type(law_faded_t), allocatable :: faded
+      type(law_part_t), allocatable :: part
       integer :: number
 
       number = cell_index(info, item, "law")
@@ -225,6 +231,12 @@ contains
             call move_alloc(faded, law)
             return
          end if
+      end if
+      if (cell_text(info, item, "stiffness") == "half") then
+         allocate (part)
+         call new_law_part(scene%laws(number)%law, 0.5_wp, part)
+         call move_alloc(part, law)
+         return
       end if
       allocate (law, source=scene%laws(number)%law)
    end subroutine choose_law

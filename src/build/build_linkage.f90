@@ -1,7 +1,7 @@
 !> The bodies of a scene with its ideal joints and drivers, and the solver of their equations.
 !>
 !> Bodies whose motion is a known function of time are left out of the unknowns, with the rows that fix them.
-!> Planar: the coordinates of all scenes are those of the plane.
+!> Planar: or spatial, here the coordinates are chosen.
 module build_linkage
    use augmented_schur, only: schur_is_cheap
    use build_known, only: choice_t, list_carried, start_angles
@@ -11,13 +11,15 @@ module build_linkage
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use rows, only: list_sides, new_rows
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use linkage, only: linkage_t
-   use motion, only: new_motion
+   use motion, only: motion_t, new_motion
    use planar_coordinates, only: new_planar_coordinates
+   use spatial_coordinates, only: new_spatial_coordinates
    use scene, only: scene_t
    use scene_size, only: size_of_bodies
-   use ties, only: tie_set
+   use ties, only: find_joint, tie_of, tie_set, tie_t
    use solver_registry, only: n_solver_kinds, new_solver
    implicit none (type, external)
    private
@@ -35,14 +37,22 @@ contains
 
       n = scene%bodies%n
       linkage%bodies = scene%bodies
-      allocate (linkage%coordinates, source=new_planar_coordinates())
+      if (scene%is_spatial) then
+         allocate (linkage%coordinates, source=new_spatial_coordinates())
+      else
+         allocate (linkage%coordinates, source=new_planar_coordinates())
+      end if
       associate (coordinates => linkage%coordinates)
          allocate (linkage%mass(coordinates%n_v, n), linkage%inverse_mass(coordinates%n_v, 0:n), source=0.0_wp)
          call coordinates%find_masses(scene%bodies, linkage%mass)
       end associate
       linkage%scales%length = size_of_bodies(scene)
       linkage%scales%tolerance = scene%settings%dynamic%number("tolerance")
-      call new_motion(n, linkage%motion)
+      if (scene%is_spatial) then
+         call new_motion(n, linkage%motion, scene%bodies%spatial%own)
+      else
+         call new_motion(n, linkage%motion)
+      end if
       call linkage%deck_state(q, v)
       call linkage%place_bodies(q, 0.0_wp*v)
    end subroutine begin_linkage
@@ -89,6 +99,7 @@ contains
          call tie_set(scene, scene%joints(k)%info, items, set)
          call set%prepare(items, start_angles(scene))
          call set%set_start(linkage%motion)
+         call take_joints(scene, scene%joints(k)%info, items, linkage%motion, set)
          if (is_solved .and. find_column(scene%joints(k)%info, "friction") > 0) then
             call new_joint_friction(items, scene%frictions, set%friction_length(), &
                                     linkage%coordinates%n_v, set%friction)
@@ -104,6 +115,32 @@ contains
          call move_alloc(set, linkage%joints(n)%set)
       end do
    end subroutine add_joints
+
+   !> Give the items of a set the joints that their rows name, if they name one each.
+   subroutine take_joints(scene, info, items, motion, set)
+      type(scene_t), intent(in) :: scene          !! the scene
+      type(kind_info_t), intent(in) :: info       !! kind of the rows
+      type(item_t), intent(in) :: items(:)        !! (n) the rows
+      type(motion_t), intent(in) :: motion        !! bodies where the deck puts them
+      class(joint_set_t), intent(inout) :: set    !! the set, prepared
+
+      class(joint_set_t), allocatable :: joint
+      type(tie_t) :: tie
+      integer :: k, kind, row
+
+      do k = 1, size(items)
+         tie = tie_of(scene, info, items(k))
+         if (tie%joint(1) == 0 .or. tie%joint(2) > 0) cycle
+         call find_joint(scene, tie%joint(1), kind, row)
+         call new_joint_set(kind, joint)
+         associate (table => scene%joints(kind))
+            call tie_set(scene, table%info, table%items(row:row), joint)
+            call joint%prepare(table%items(row:row), start_angles(scene))
+         end associate
+         call joint%set_start(motion)
+         call set%take_joint(k, joint, motion)
+      end do
+   end subroutine take_joints
 
    !> Room for all constraint rows, and their bodies.
    subroutine declare_rows(linkage)

@@ -17,7 +17,7 @@ module build_system
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
    use loading, only: loading_t
-   use motion, only: new_loads
+   use motion, only: motion_t, new_loads
    use rubbing, only: new_rubbing
    use mechanism, only: mechanism_t
    use scene, only: analysis_dynamic, scene_t
@@ -65,11 +65,12 @@ contains
          call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%friction%rubbing)
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
+         if (linkage%coordinates%turns_in_body) system%n_turning = linkage%rows%n_unknown
          call choose_hold(scene, system)
          call choose_solver(scene, system%way%name(), linkage)
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
-      call add_loads(scene, system%linkage%coordinates%n_v, system%loading)
+      call add_loads(scene, system%linkage%coordinates%n_v, system%linkage%motion, system%loading)
       allocate (system%loose%losses(n_loss, system%loose%n_contact), source=0.0_wp)
       system%n_quadrature = merge(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0) &
                                   - merge(0, 1, system%loose%has_films), 0, &
@@ -133,9 +134,10 @@ contains
    end subroutine count_grips
 
    !> Gravity, and force elements: one set per kind that has rows.
-   subroutine add_loads(scene, n_v, loading)
+   subroutine add_loads(scene, n_v, motion, loading)
       type(scene_t), intent(in) :: scene              !! the scene
       integer, intent(in) :: n_v                      !! rates of a body
+      type(motion_t), intent(in) :: motion            !! bodies where the deck puts them
       type(loading_t), intent(inout) :: loading       !! gravity and forces are set
 
       integer :: k, n
@@ -154,6 +156,8 @@ contains
          n = n + 1
          call new_force_set(k, loading%forces(n)%set)
          call loading%forces(n)%set%prepare(scene%forces(k)%items, scene%points)
+         call loading%forces(n)%set%set_start(motion)
+         loading%counts_turns = loading%counts_turns .or. scene%forces(k)%info%counts_turns
       end do
    end subroutine add_loads
 

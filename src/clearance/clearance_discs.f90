@@ -10,7 +10,7 @@ module clearance_discs
    use bodies, only: material_t
    use clearance_set, only: no_ideal_kind, no_mistake
    use item, only: item_t
-   use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
+   use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels
    use round_contacts, only: round_contacts_t
@@ -36,6 +36,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "clearance.discs"
+      info%space = in_plane
       info%help = "two discs or balls that touch from outside; without an ideal twin, so that --ideal keeps their contact"
       info%source = "Flores et al. (2008), sections 3.1 and 4.2"
       call add_reference(info, "i", "points", "centre of the first disc")
@@ -48,7 +49,7 @@ contains
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second disc from that of the first")
       call add_channel(info, "force", "N", "world", 2, "force on the second disc")
-      call add_contact_channels(info, "second disc")
+      call add_contact_channels(info, "second disc", "t = R90 n")
    end function discs_info
 
    !> Radii of each item.

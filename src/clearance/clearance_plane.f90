@@ -13,7 +13,7 @@ module clearance_plane
    use flat_contacts, only: flat_contacts_t
    use item, only: item_t
    use joint_translational, only: add_axis_columns
-   use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
+   use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels
    use surfaces, only: set_materials, shape_plane, surfaces_t
@@ -38,6 +38,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "clearance.plane"
+      info%space = in_plane
       info%help = "a ball or disc on a plane; it has no ideal twin, so that --ideal keeps its contact"
       info%source = "Flores et al. (2008), sections 3.1 and 3.6"
       call add_reference(info, "plane", "points", "a point of the plane")
@@ -49,7 +50,7 @@ contains
       call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_channel(info, "force", "N", "world", 2, "force on the ball")
-      call add_contact_channels(info, "ball")
+      call add_contact_channels(info, "ball", "t = R90 n")
    end function plane_info
 
    !> Normal and radius of each item.

@@ -1,16 +1,18 @@
 !> The geometries of joints with clearance: two lines each (`use`, `case`).
 module clearance_registry
+   use clearance_bushing, only: clearance_bushing_t
    use clearance_discs, only: clearance_discs_t
    use clearance_plane, only: clearance_plane_t
    use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: clearance_set_t
+   use clearance_spherical, only: clearance_spherical_t
    use clearance_stop, only: clearance_stop_t
    use clearance_translational, only: clearance_translational_t
    implicit none (type, external)
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 5  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 7  !! number of geometries
 
 contains
 
@@ -25,6 +27,8 @@ contains
       case (3); allocate (clearance_translational_t :: set)
       case (4); allocate (clearance_discs_t :: set)
       case (5); allocate (clearance_stop_t :: set)
+      case (6); allocate (clearance_spherical_t :: set)
+      case (7); allocate (clearance_bushing_t :: set)
       end select
    end subroutine new_clearance_set
 

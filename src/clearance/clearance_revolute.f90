@@ -13,7 +13,7 @@
 module clearance_revolute
    use bodies, only: material_t
    use item, only: item_t, place_of
-   use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, kind_info_t
+   use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels
    use revolute_level, only: add_film_channels, add_film_columns, find_level_mistake
@@ -41,6 +41,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "clearance.revolute"
+      info%space = in_plane
       info%help = "a pin loose in a hole: dry contact or lubricant film of a journal in a bearing"
       info%source = "Flores et al. (2008), section 4.2"
       call add_reference(info, "bearing", "points", "centre of the hole")
@@ -62,7 +63,7 @@ contains
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing")
       call add_channel(info, "force", "N", "world", 2, "force on the journal")
       call add_film_channels(info)
-      call add_contact_channels(info, "journal")
+      call add_contact_channels(info, "journal", "t = R90 n")
    end function revolute_info
 
    !> Without clearance a revolute joint.

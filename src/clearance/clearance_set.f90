@@ -73,6 +73,7 @@ module clearance_set
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
+      procedure :: set_start => clearance_set_start
       procedure :: span_of => clearance_span_of
       procedure :: fit_law => clearance_fit_law
       procedure :: note_swing => clearance_note_swing
@@ -225,6 +226,12 @@ contains
          self%items%s_j(:, k) = points%s(:, journal(k))
       end do
    end subroutine clearance_new
+
+   !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the geometry says otherwise.
+   subroutine clearance_set_start(self, motion)
+      class(clearance_set_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion           !! bodies where the deck puts them
+   end subroutine clearance_set_start
 
    !> One contact per item, without a name of its own; a geometry with several overrides this.
    function clearance_contact_labels() result(labels)

@@ -16,7 +16,8 @@ module clearance_stop
    use clearance_set, only: no_ideal_kind
    use flat_contacts, only: flat_contacts_t
    use item, only: item_t, place_of
-   use kind_info, only: add_any_number, add_channel, add_number, add_reference, dim_angle, dim_length, kind_info_t, leaves_turn, &
+   use kind_info, only: add_any_number, add_channel, add_number, add_reference, dim_angle, dim_length, &
+      in_plane, kind_info_t, leaves_turn, &
       same_dimension
    use kinds, only: pi, wp
    use point_contacts, only: add_contact_channels
@@ -49,6 +50,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "clearance.stop"
+      info%space = in_plane
       info%help = "stops of a pin's angle or of a guide's way; without an ideal twin, so that --ideal keeps their contact"
       info%source = "Flores et al. (2008), section 3.1"
       call add_reference(info, "joint", "joint.revolute joint.translational", "the joint that is stopped")
@@ -57,7 +59,7 @@ contains
       call add_number(info, "lever", dim_length, "of an angle: distance of the stop from the pin", default="0 m", lower=0.0_wp)
       call add_reference(info, "law", "contact.", "normal law with a stiffness, a row of a contact table")
       call add_channel(info, "force", "N", "world", 2, "force on the body of j")
-      call add_contact_channels(info, "body of j")
+      call add_contact_channels(info, "body of j", "t = R90 n")
    end function stop_info
 
    !> A contact for each limit.

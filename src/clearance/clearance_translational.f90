@@ -23,7 +23,7 @@ module clearance_translational
    use floors, only: gentle
    use item, only: item_t, place_of
    use joint_translational, only: add_axis_columns
-   use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, kind_info_t
+   use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use normal_law, only: n_law_parameter, parameter_gentle
    use point_contacts, only: add_contact_channels
@@ -54,6 +54,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "clearance.translational"
+      info%space = in_plane
       info%help = "a slider loose in a straight guide: dry contact of its corners or faces with two surfaces"
       info%source = "Flores et al. (2008), section 4.3"
       call add_reference(info, "guide", "points", "point on the guide's line")
@@ -90,7 +91,7 @@ contains
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the slider from the guide's line")
       call add_channel(info, "force", "N", "world", 2, "force on the slider")
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the slider about its centre")
-      call add_contact_channels(info, "slider")
+      call add_contact_channels(info, "slider", "t = R90 n")
    end function translational_info
 
    !> Without clearance a translational joint.

@@ -35,11 +35,14 @@ contains
          span = set%span_of(k)
          associate (i => set%items%body(1, item), j => set%items%body(2, item))
             noise(k) = operations*eps*(abs(motion%r(1, i)) + abs(motion%r(2, i)) + abs(motion%r(1, j)) + abs(motion%r(2, j)) &
+                                       + abs(motion%r(3, i)) + abs(motion%r(3, j)) &
                                        + (1.0_wp + abs(motion%angle(i)))*span(1) + (1.0_wp + abs(motion%angle(j)))*span(2) &
                                        + shared)
             speed = abs(motion%v(1, i)) + abs(motion%v(2, i)) + abs(motion%v(1, j)) + abs(motion%v(2, j)) &
-                    + abs(motion%omega(3, j))*span(2) + abs(motion%omega(3, i)) &
-                    *(abs(motion%r(1, j) - motion%r(1, i)) + abs(motion%r(2, j) - motion%r(2, i)) + span(1))
+                    + abs(motion%v(3, i)) + abs(motion%v(3, j)) &
+                    + sum(abs(motion%omega(:, j)))*span(2) + sum(abs(motion%omega(:, i))) &
+                    *(abs(motion%r(1, j) - motion%r(1, i)) + abs(motion%r(2, j) - motion%r(2, i)) &
+                      + abs(motion%r(3, j) - motion%r(3, i)) + span(1))
             rate_noise(k) = operations*eps*speed
             if (set%traits%is_round) rate_noise(k) = rate_noise(k) + speed*noise(k)/set%items%clearance(item)
          end associate

@@ -4,7 +4,7 @@
 !>
 !> f_j = -F_N n + F_T t,   on body i: -f_j,   both at C
 !>
-!> with t the direction of sliding in the tangent plane (R90 n in the plane); F_N is not negative, F_T is against
+!> with t the direction of sliding in the tangent plane (R90 n, one of two, in the plane); F_N is not negative, F_T is against
 !> v_T = t . (v_j - v_i).
 module point_contact
    use kinds, only: wp
@@ -14,9 +14,10 @@ module point_contact
 
    integer, parameter :: most_of_item = 8     !! contacts of an item, at most
 
-   !> Kinematics of one contact. A geometry of the plane neither sets nor reads what is along z.
+   !> Kinematics of one contact. A geometry of the plane neither sets nor reads what is along z, nor the tangent.
    type :: point_contact_t
       real(wp) :: normal(3) = 0.0_wp  !! (3) n, world frame [1]
+      real(wp) :: tangent(3) = 0.0_wp !! (3) in space: t, the direction of sliding, zero of none; world frame [1]
       real(wp) :: delta = 0.0_wp      !! penetration, negative: apart [m]
       real(wp) :: rate = 0.0_wp       !! its rate [m/s]
       real(wp) :: v_t = 0.0_wp        !! sliding velocity of j along t, for the friction law; where it is asked for [m/s]

@@ -20,6 +20,7 @@ module point_contacts
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
+   use planar_contacts, only: planar_force
    use point_contact, only: contact_work_t, most_of_item, new_work, point_contact_t
    implicit none (type, external)
    private
@@ -41,6 +42,7 @@ module point_contacts
       procedure :: gaps => point_gaps
       procedure :: watch => point_watch
       procedure :: lie => point_lie
+      procedure, nopass :: force_on_j => planar_force
       procedure :: report => point_report
       procedure :: elastic_energy => point_elastic_energy
    end type point_contacts_t
@@ -143,14 +145,15 @@ module point_contacts
 contains
 
    !> The channels that every contact has.
-   subroutine add_contact_channels(info, who)
+   subroutine add_contact_channels(info, who, along)
       type(kind_info_t), intent(inout) :: info  !! the geometry
       character(*), intent(in) :: who           !! what has the friction force, as "slider"
+      character(*), intent(in) :: along         !! what it is measured along
 
       call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
       call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching")
       call add_channel(info, "normal_force", "N", "none", 1, "normal contact force")
-      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along t = R90 n")
+      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along)
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
    end subroutine add_contact_channels
 

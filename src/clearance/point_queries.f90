@@ -4,7 +4,7 @@ submodule(point_contacts) point_queries
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use normal_law, only: n_law_parameter, normal_law_t
-   use planar_contacts, only: lie_in_plane, planar_force
+   use planar_contacts, only: lie_in_plane
    implicit none (type, external)
 
 contains
@@ -82,7 +82,7 @@ contains
             m = self%before%contacts + first + c
             select case (channel)
             case ("force")
-               f = planar_force(contacts(c), f_n(c), f_t(c))
+               f = self%force_on_j(contacts(c), f_n(c), f_t(c))
                values(:, self%before%items + item) = values(:, self%before%items + item) + f(:size(values, 1))
             case ("penetration")
                values(1, m) = max(contacts(c)%delta, 0.0_wp)

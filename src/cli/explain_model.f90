@@ -23,12 +23,16 @@ contains
       type(mechanism_t), intent(in) :: system   !! its system
       type(mechanism_t), intent(in) :: twin     !! with all joints ideal
 
+      character(:), allocatable :: words
       integer :: k
 
       call say("")
       call say("model")
       associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
-         call say(counted(n, "planar body", "planar bodies")//", "//to_text(size(linkage%mass))//" coordinates", 2)
+         words = trim(merge("spatial", "planar ", scene%is_spatial))
+         words = counted(n, words//" body", words//" bodies")//", "//to_text(linkage%coordinates%n_q*n)//" coordinates"
+         if (scene%is_spatial) words = words//" (Euler parameters among them), "//to_text(size(linkage%mass))//" rates"
+         call say(words, 2)
          do k = 1, linkage%reduced%known%n
             call say("'"//names(linkage%reduced%known%item(k)%body)%s//"' moves as a known function of time", 2)
          end do
@@ -54,11 +58,16 @@ contains
          call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
                   to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
-      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": coordinates less rows "// &
+      words = trim(merge("rates      ", "coordinates", scene%is_spatial))//" less rows "
+      call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": "//words// &
                to_text(size(system%linkage%mass) - system%linkage%rows%n)//"; with all joints ideal "// &
                to_text(size(twin%linkage%mass) - twin%linkage%rows%n), 2)
       if (norm2(system%loading%gravity) > 0.0_wp) then
-         call say("gravity "//to_text(system%loading%gravity(1))//" "//to_text(system%loading%gravity(2))//" m/s^2", 2)
+         words = ""
+         do k = 1, system%linkage%coordinates%n_axis
+            words = words//" "//to_text(system%loading%gravity(k))
+         end do
+         call say("gravity"//words//" m/s^2", 2)
       end if
    end subroutine explain_size
 

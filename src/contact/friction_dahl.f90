@@ -11,7 +11,7 @@
 module friction_dahl
    use friction_law, only: friction_law_t, memory_bristle
    use item, only: item_t
-   use kind_info, only: add_number, dim_none, dim_t, kind_info_t
+   use kind_info, only: add_number, dim_none, dim_t, in_plane, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -38,6 +38,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.dahl"
+      info%space = in_plane
       info%help = "Dahl: an elastic deflection with a state of its own that yields at the coefficient of friction"
       info%source = "Dahl (1968)"
       call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)

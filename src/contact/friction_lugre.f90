@@ -13,7 +13,7 @@
 module friction_lugre
    use friction_law, only: friction_law_t, memory_bristle
    use item, only: item_t
-   use kind_info, only: add_number, dim_none, dim_speed, dim_t, kind_info_t
+   use kind_info, only: add_number, dim_none, dim_speed, dim_t, in_plane, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -44,6 +44,7 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.lugre"
+      info%space = in_plane
       info%help = "LuGre: elastic bristles with a state of their own, Stribeck's dip and viscous friction"
       info%source = "Canudas de Wit, Olsson, Astrom and Lischinsky (1995), eqs. (3)-(7)"
       call add_number(info, "coefficient", dim_none, "coefficient of friction of fast sliding; 0: frictionless", lower=0.0_wp)

@@ -4,6 +4,7 @@
 !> diagonal. Everything between the joints and the analysis works with this contract and knows neither number.
 module coordinates
    use bodies, only: bodies_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
    implicit none (type, external)
@@ -17,6 +18,7 @@ module coordinates
       integer :: n_q = 0                     !! coordinates of a body
       integer :: n_v = 0                     !! rates of a body
       integer :: n_axis = 0                  !! components of a vector in reports
+      logical :: turns_in_body = .false.     !! whether angular rates are along the body's axes, not the world's
       logical, allocatable :: is_turn(:)     !! (n_v) whether a rate is angular
    contains
       procedure(read_start_interface), deferred :: read_start
@@ -25,6 +27,7 @@ module coordinates
       procedure(read_motion_interface), deferred :: read_motion
       procedure(accelerate_interface), deferred :: accelerate
       procedure(rates_interface), deferred :: rates
+      procedure(add_rates_interface), deferred :: add_rates
       procedure(gather_interface), deferred :: gather
       procedure(add_change_interface), deferred :: add_change
       procedure(difference_interface), deferred :: difference
@@ -34,6 +37,7 @@ module coordinates
       procedure(split_interface), deferred, nopass :: split_load
       procedure(report_interface), deferred, nopass :: report
       procedure(along_interface), deferred, nopass :: along
+      procedure(info_interface), deferred, nopass :: bodies_info
       procedure(weigh_interface), deferred :: weigh_positions
       procedure :: scales => coordinates_scales
       procedure :: change_scales => coordinates_change_scales
@@ -109,12 +113,26 @@ module coordinates
          integer, intent(out) :: status                      !! 0: all finite
       end subroutine rates_interface
 
+      !> Add the derivatives of coordinates that some rates would make.
+      pure subroutine add_rates_interface(self, n, body, motion, z, q_dot)
+         import :: coordinates_t, motion_t, wp
+         implicit none (type, external)
+         class(coordinates_t), intent(in) :: self            !! the coordinates
+         integer, intent(in) :: n                            !! how many bodies
+         integer, intent(in) :: body(n)                      !! (n) which
+         type(motion_t), intent(in) :: motion                !! positions
+         real(wp), intent(in), contiguous :: z(:, 0:)        !! (n_v, 0:bodies) rates [any]
+         real(wp), intent(inout) :: q_dot(self%n_q, n)       !! (n_q, n) derivatives of the coordinates, added to [any]
+      end subroutine add_rates_interface
+
       !> Loads on the rates of all bodies, what the motion itself gives included. No allocation.
-      pure subroutine gather_interface(self, n_body, loads, g)
-         import :: coordinates_t, loads_t, wp
+      pure subroutine gather_interface(self, n_body, mass, motion, loads, g)
+         import :: coordinates_t, loads_t, motion_t, wp
          implicit none (type, external)
          class(coordinates_t), intent(in) :: self            !! the coordinates
          integer, intent(in) :: n_body                       !! number of bodies
+         real(wp), intent(in), contiguous :: mass(:, :)      !! (n_v, bodies) their masses [kg or kg.m^2]
+         type(motion_t), intent(in) :: motion                !! positions and velocities
          type(loads_t), intent(in) :: loads                  !! forces and moments
          real(wp), intent(out), contiguous :: g(:, 0:)       !! (n_v, 0:bodies) loads [N or N.m]
       end subroutine gather_interface
@@ -201,13 +219,22 @@ module coordinates
       end subroutine report_interface
 
       !> The row of a direction at a point of a body: its product with the rates is the velocity of the point that way.
-      pure subroutine along_interface(direction, arm, row)
-         import :: wp
+      pure subroutine along_interface(direction, arm, motion, body, row)
+         import :: motion_t, wp
          implicit none (type, external)
          real(wp), intent(in) :: direction(3)       !! (3) the direction, world frame [1]
-         real(wp), intent(in) :: arm(3)             !! (3) from the centre of mass to the point [m]
+         real(wp), intent(in) :: arm(3)             !! (3) from the centre of mass to the point, world frame [m]
+         type(motion_t), intent(in) :: motion       !! the motion
+         integer, intent(in) :: body                !! the body
          real(wp), intent(out) :: row(:)            !! (n_v) the row [1 or m]
       end subroutine along_interface
+
+      !> The deck table of bodies, and their channels.
+      function info_interface() result(info)
+         import :: kind_info_t
+         implicit none (type, external)
+         type(kind_info_t) :: info   !! columns and channels
+      end function info_interface
    end interface
 
 contains

@@ -5,7 +5,7 @@
 !> Source: Flores et al. (2008), section 2.3.
 module planar_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use bodies, only: bodies_t
+   use bodies, only: bodies_info, bodies_t
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -24,6 +24,7 @@ module planar_coordinates
       procedure :: read_motion => planar_read_motion
       procedure :: accelerate => planar_accelerate
       procedure :: rates => planar_rates
+      procedure :: add_rates => planar_add_rates
       procedure :: gather => planar_gather
       procedure :: add_change => planar_add_change
       procedure :: difference => planar_difference
@@ -34,6 +35,7 @@ module planar_coordinates
       procedure, nopass :: split_load => planar_split_load
       procedure, nopass :: report => mechanism_report
       procedure, nopass :: along => planar_along
+      procedure, nopass :: bodies_info
    end type planar_coordinates_t
 
 contains
@@ -200,10 +202,24 @@ contains
       status = merge(0, 1, ieee_is_finite(sum))
    end subroutine state_rates
 
+   !> Rates are the derivatives of the coordinates.
+   pure subroutine planar_add_rates(self, n, body, motion, z, q_dot)
+      class(planar_coordinates_t), intent(in) :: self    !! the coordinates
+      integer, intent(in) :: n                           !! how many bodies
+      integer, intent(in) :: body(n)                     !! (n) which
+      type(motion_t), intent(in) :: motion               !! positions
+      real(wp), intent(in), contiguous :: z(:, 0:)       !! (3, 0:bodies) rates [m/s, m/s, rad/s]
+      real(wp), intent(inout) :: q_dot(self%n_q, n)      !! (3, n) derivatives of the coordinates, added to [m/s, m/s, rad/s]
+
+      q_dot = q_dot + z(:, body)
+   end subroutine planar_add_rates
+
    !> Forces in the plane and moments about z.
-   pure subroutine planar_gather(self, n_body, loads, g)
+   pure subroutine planar_gather(self, n_body, mass, motion, loads, g)
       class(planar_coordinates_t), intent(in) :: self    !! the coordinates
       integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in), contiguous :: mass(:, :)     !! (3, bodies) mass, mass, moment of inertia [kg, kg, kg.m^2]
+      type(motion_t), intent(in) :: motion               !! positions and velocities
       type(loads_t), intent(in) :: loads                 !! forces and moments
       real(wp), intent(out), contiguous :: g(:, 0:)      !! (3, 0:bodies) loads on x, y, angle [N, N, N.m]
 
@@ -333,9 +349,11 @@ contains
    end subroutine mechanism_report
 
    !> The direction, and its moment.
-   pure subroutine planar_along(direction, arm, row)
+   pure subroutine planar_along(direction, arm, motion, body, row)
       real(wp), intent(in) :: direction(3)   !! (3) the direction, in the plane [1]
       real(wp), intent(in) :: arm(3)         !! (3) from the centre of mass to the point [m]
+      type(motion_t), intent(in) :: motion   !! the motion
+      integer, intent(in) :: body            !! the body
       real(wp), intent(out) :: row(:)        !! (3) the row [1, 1, m]
 
       row(1:2) = direction(1:2)

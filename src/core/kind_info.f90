@@ -11,7 +11,7 @@ module kind_info
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
    public :: cell_condition, cell_file, cell_list, cell_words
    public :: add_condition
-   public :: add_any_number, add_file, add_list
+   public :: add_any_number, add_direction, add_file, add_list
    public :: add_channel, add_column, add_duration, add_expression, add_flag, add_number, add_reference
    public :: add_vector, add_word, add_words, same_dimension
    public :: dim_acceleration, dim_angle, dim_angular_acceleration, dim_angular_damping, dim_angular_speed
@@ -19,6 +19,7 @@ module kind_info
    public :: dim_force, dim_frequency, dim_inertia, dim_length, dim_mass, dim_moment, dim_none, dim_power
    public :: dim_pressure, dim_speed, dim_stiffness, dim_temperature, dim_time, dim_viscosity
    public :: longest_column, no_bound
+   public :: in_any_space, in_plane, in_space, is_of_space
    public :: leaves_more, leaves_nothing, leaves_turn, leaves_way
 
    !> Physical dimension as exponents of kg, m, s, rad and K.
@@ -72,6 +73,10 @@ module kind_info
    integer, parameter :: cell_file = 10       !! a text file of two columns of numbers
    integer, parameter :: cell_condition = 11  !! conditions on channels (settings only)
 
+   integer, parameter :: in_any_space = 0  !! a kind of planar and of spatial scenes
+   integer, parameter :: in_plane = 1      !! a kind of planar scenes only
+   integer, parameter :: in_space = 2      !! a kind of spatial scenes only
+
    integer, parameter :: leaves_more = 0     !! a joint leaves more, or what nobody asks for
    integer, parameter :: leaves_nothing = 1  !! bodies i and j move as one
    integer, parameter :: leaves_turn = 2     !! j turns about the point of i
@@ -98,7 +103,7 @@ module kind_info
       logical :: is_any = .false.             !! of a number: any dimension will do, and is kept with the value
       character(longest_list) :: variable = "t"   !! of an expression: what it depends on, blank-separated; t is the time
       type(dim_t) :: argument(3) = dim_time   !! of an expression: (3) dimensions of its variables
-      integer :: size = 1                     !! numbers of a vector (2: in the plane; 3: either 2 or 3)
+      integer :: size = 1                     !! numbers of a vector (2: in the plane; 3: either 2 or 3), of a list; 1: any number
       character(:), allocatable :: refers_to  !! of a reference: blank-separated prefixes of kinds
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
       character(:), allocatable :: default    !! as in a deck; blank: may be left open; unallocated: required
@@ -113,7 +118,7 @@ module kind_info
       character(:), allocatable :: name   !! the part after the item's name and a dot
       character(:), allocatable :: unit   !! SI, as written in files
       character(:), allocatable :: frame  !! world, body, joint or none
-      integer :: components = 1           !! 1, or the number of coordinates of a vector in space
+      integer :: components = 1           !! 1; a vector: 2, which in a spatial scene means 3; 4: Euler parameters
       character(:), allocatable :: help   !! long name
    end type channel_t
 
@@ -122,10 +127,12 @@ module kind_info
       character(:), allocatable :: name             !! section name, as `joint.revolute`
       character(:), allocatable :: help             !! one line
       character(:), allocatable :: source           !! citation with equation numbers
+      integer :: space = in_any_space               !! scenes that know it, one of the above; two kinds of one name differ in it
       logical :: is_table = .true.                  !! a table of items; else settings `key = value`
-      integer :: n_row = 0                          !! constraint rows that an item adds in the plane
+      integer :: n_row = 0                          !! constraint rows that an item adds
       integer :: leaves = leaves_more               !! of a joint: what of the freedom of j against i, one of the above
       logical :: drives_turn = .false.              !! its row prescribes the turn of the joint that it names
+      logical :: counts_turns = .false.             !! its items count turns from step to step
       logical :: is_start_only = .false.            !! the rows hold while the start is made consistent, not after
       type(column_t), allocatable :: columns(:)     !! of the table, without `name`
       type(channel_t), allocatable :: channels(:)   !! of each item
@@ -185,6 +192,28 @@ contains
       if (present(default)) column%default = default
       call add_column(info, column)
    end subroutine add_list
+
+   !> Append a column that holds a direction: three numbers in quotes, of any length but zero.
+   subroutine add_direction(info, name, help, default)
+      type(kind_info_t), intent(inout) :: info       !! the kind
+      character(*), intent(in) :: name               !! as written in the deck
+      character(*), intent(in) :: help               !! one line
+      character(*), intent(in), optional :: default  !! blank: may be left open; absent: required
+
+      type(column_t) :: column
+
+      column = column_t(name=name, cell=cell_list, size=3, help=help)
+      if (present(default)) column%default = default
+      call add_column(info, column)
+   end subroutine add_direction
+
+   !> Whether scenes of a space know a kind.
+   elemental logical function is_of_space(info, is_spatial)
+      type(kind_info_t), intent(in) :: info   !! the kind
+      logical, intent(in) :: is_spatial       !! spatial scenes, not planar ones
+
+      is_of_space = info%space == in_any_space .or. info%space == merge(in_space, in_plane, is_spatial)
+   end function is_of_space
 
    !> Append a column that names a text file of two columns of numbers, which is read with the deck.
    subroutine add_file(info, name, help, default)

@@ -11,11 +11,12 @@ module cells
    use expression, only: constant_expression, expression_t
    use item, only: value_t
    use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
-                      & cell_reference, cell_vector, cell_word, cell_words, column_t, dim_none
+                      & cell_reference, cell_vector, cell_word, cell_words, column_t, dim_none, same_dimension
    use kinds, only: wp
    use number_cell, only: read_number
    use number_lists, only: read_list
    use quantities, only: is_numeric, quantity_t, read_bare, read_brace, read_unit, report_dimension, report_not_a_number
+   use text, only: to_text
    use tokens, only: span, token_brace, token_t, token_word
    use units, only: unit_t
    implicit none (type, external)
@@ -63,6 +64,7 @@ contains
          call read_duration(deck, column, place, list, value, mistakes)
       case (cell_list)
          call read_list(deck, place, list(1), value, mistakes, header)
+         call check_list(column, place, value, mistakes)
       case (cell_file)
          ! the table reads the file when all its rows are known
          call read_word(deck, place, list(1), value%text, mistakes)
@@ -91,6 +93,24 @@ contains
          value%flag = value%text == "on"
       end select
    end subroutine read_value
+
+   !> A list whose length or dimension its column fixes: of a direction, three numbers, not all of them zero.
+   subroutine check_list(column, place, value, mistakes)
+      type(column_t), intent(in) :: column            !! what the value must be
+      character(*), intent(in) :: place               !! as `in column axis of joint.revolute`
+      type(value_t), intent(in) :: value              !! the value
+      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+
+      if (column%size == 1 .or. .not. allocated(value%places)) return
+      if (size(value%table) /= column%size) then
+         call mistakes%add(value%location, "wrong number of values "//place, to_text(column%size)//" numbers in quotes "// &
+                           "are wanted", "as ""0 0 1""")
+      else if (.not. same_dimension(value%dimensions(1), column%dimension)) then
+         call mistakes%add(value%location, "wrong dimension "//place, "numbers without a unit are wanted")
+      else if (.not. any(abs(value%table) > 0.0_wp)) then
+         call mistakes%add(value%location, "no direction "//place, "all numbers are zero")
+      end if
+   end subroutine check_list
 
    !> A cell that holds one number.
    subroutine read_number_cell(deck, column, place, list, value, mistakes, header)

@@ -3,7 +3,7 @@
 !> What is in it is asked for section by section; every call goes on after mistakes, so that several are reported in one go:
 !>
 !>     call read_deck(path, overrides, deck, mistakes)             here
-!>     call check_sections(deck, kinds, mistakes)                  settings
+!>     call check_sections(deck, kinds, is_spatial, mistakes)      settings
 !>     call read_settings(deck, info, item, is_present, mistakes)  settings
 !>     call read_items(deck, info, items, mistakes)                tables
 !>     call mistakes%add(location, summary, note, help)            diagnostics

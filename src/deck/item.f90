@@ -79,6 +79,7 @@ module item
       procedure :: reference => item_reference
       procedure :: flag => item_flag
       procedure :: is_given => item_is_given
+      procedure :: direction => item_direction
    end type item_t
 
 contains
@@ -125,6 +126,19 @@ contains
 
       number = self%values(place_of(self, name))%number
    end function item_number
+
+   !> The direction in a column, as it stands; zero where the column is left open.
+   pure function item_direction(self, name) result(x)
+      class(item_t), intent(in) :: self   !! the row
+      character(*), intent(in) :: name    !! the column
+      real(wp) :: x(3)                    !! (3) its components [1]
+
+      x = 0.0_wp
+      associate (value => self%values(place_of(self, name)))
+         if (.not. allocated(value%table)) return
+         if (size(value%table) == 3) x = value%table(:, 1)
+      end associate
+   end function item_direction
 
    !> The word in a column.
    pure function item_word(self, name) result(word)

@@ -5,7 +5,7 @@ module settings
    use defaults, only: read_default, remember_default
    use diagnostics, only: diagnostics_t
    use item, only: item_t
-   use kind_info, only: kind_info_t
+   use kind_info, only: is_of_space, kind_info_t
    use table_header, only: column_index, column_list
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t, to_text
@@ -161,22 +161,33 @@ contains
    end function has_section
 
    !> Report unknown sections, and settings that stand twice.
-   subroutine check_sections(deck, kinds, mistakes)
+   subroutine check_sections(deck, kinds, is_spatial, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck
       type(kind_info_t), intent(in) :: kinds(:)       !! (n) all kinds of sections, without `parameters`
+      logical, intent(in) :: is_spatial               !! whether the scene is in space
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       character(:), allocatable :: name
       integer :: first, i, k
+      logical :: is_known, is_other
 
       do i = 1, deck%n_section
          name = deck%sections(i)%name
          if (name == "parameters") cycle
+         is_known = .false.
+         is_other = .false.
          do k = 1, size(kinds)
-            if (kinds(k)%name == name) exit
+            if (kinds(k)%name /= name) cycle
+            is_known = is_of_space(kinds(k), is_spatial)
+            if (is_known) exit
+            is_other = .true.
          end do
-         if (k > size(kinds)) then
-            call report_unknown(deck, i, kinds, mistakes)
+         if (is_other .and. .not. is_known) then
+            call mistakes%add(deck%sections(i)%location, "section "//name//" is not known in "//words_of(is_spatial), &
+                              "a kind of "//words_of(.not. is_spatial), "the scene says space = " &
+                              //trim(merge("spatial", "planar ", is_spatial)))
+         else if (.not. is_known) then
+            call report_unknown(deck, i, pack(kinds, is_of_space(kinds, is_spatial)), mistakes)
          else if (.not. kinds(k)%is_table) then
             do first = 1, i
                if (deck%sections(first)%name == name .and. (deck%sections(first)%location%file == 1 .eqv. &
@@ -188,6 +199,15 @@ contains
          end if
       end do
    end subroutine check_sections
+
+   !> A space in words.
+   pure function words_of(is_spatial) result(words)
+      logical, intent(in) :: is_spatial      !! space, not the plane
+      character(:), allocatable :: words     !! what it is called
+
+      words = "the plane"
+      if (is_spatial) words = "space"
+   end function words_of
 
    !> Report an unknown section, with the nearest names.
    subroutine report_unknown(deck, i, kinds, mistakes)

@@ -8,7 +8,7 @@ module force_point
    use expression, only: expression_t
    use force_set, only: force_set_t
    use item, only: item_t, place_of
-   use kind_info, only: add_channel, add_expression, add_reference, dim_force, kind_info_t
+   use kind_info, only: add_channel, add_expression, add_reference, dim_force, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position, point_velocity
    implicit none (type, external)
@@ -36,6 +36,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "force.point"
+      info%space = in_plane
       info%help = "a force at a body-fixed point, components along the world axes as functions of time"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "point", "points", "where the force acts")

@@ -5,11 +5,14 @@ module force_registry
    use force_spring, only: force_spring_t
    use force_torque, only: force_torque_t
    use force_torsion_spring, only: force_torsion_spring_t
+   use spatial_force, only: spatial_force_t
+   use spatial_torque, only: spatial_torque_t
+   use spatial_torsion_spring, only: spatial_torsion_spring_t
    implicit none (type, external)
    private
    public :: n_force_kinds, new_force_set
 
-   integer, parameter :: n_force_kinds = 4  !! number of kinds
+   integer, parameter :: n_force_kinds = 7  !! number of kinds
 
 contains
 
@@ -23,6 +26,9 @@ contains
       case (2); allocate (force_torque_t :: set)
       case (3); allocate (force_spring_t :: set)
       case (4); allocate (force_torsion_spring_t :: set)
+      case (5); allocate (spatial_force_t :: set)
+      case (6); allocate (spatial_torque_t :: set)
+      case (7); allocate (spatial_torsion_spring_t :: set)
       end select
    end subroutine new_force_set
 

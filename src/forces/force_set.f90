@@ -23,6 +23,8 @@ module force_set
       procedure(evaluate_interface), deferred :: evaluate
       procedure(report_interface), deferred :: report
       procedure(bodies_interface), deferred :: bodies_of
+      procedure :: set_start => force_set_start
+      procedure :: follow => force_follow
       procedure :: elastic_energy => force_elastic_energy
       procedure :: lost_power => force_lost_power
       procedure, nopass :: memory_version => force_memory_version
@@ -86,6 +88,18 @@ module force_set
    end interface
 
 contains
+
+   !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the kind says otherwise.
+   subroutine force_set_start(self, motion)
+      class(force_set_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
+   end subroutine force_set_start
+
+   !> A step has ended: what counts turns goes on from here.
+   subroutine force_follow(self, motion)
+      class(force_set_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion       !! positions
+   end subroutine force_follow
 
    !> Energy that the elements store: none, unless the kind says otherwise. No allocation.
    pure real(wp) function force_elastic_energy(self, motion) result(energy)

@@ -9,7 +9,7 @@ module force_torque
    use expression, only: expression_t
    use force_set, only: force_set_t
    use item, only: item_t, place_of
-   use kind_info, only: add_channel, add_expression, add_reference, dim_moment, kind_info_t
+   use kind_info, only: add_channel, add_expression, add_reference, dim_moment, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
    implicit none (type, external)
@@ -35,6 +35,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "force.torque"
+      info%space = in_plane
       info%help = "a torque on a body as a function of time, counter-clockwise positive"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "body", "bodies", "the body")

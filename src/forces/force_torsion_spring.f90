@@ -16,7 +16,7 @@ module force_torsion_spring
    use force_set, only: force_set_t
    use item, only: item_t
    use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_angle, dim_angular_damping, &
-      dim_angular_stiffness, dim_moment, kind_info_t
+      dim_angular_stiffness, dim_moment, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
    use spring_law, only: spring_law_t
@@ -45,6 +45,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and channels
 
       info%name = "force.torsion_spring"
+      info%space = in_plane
       info%help = "torsional spring, damper and actuator between two bodies"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "i", "bodies", "first body")

@@ -288,7 +288,7 @@ contains
       integer :: j
 
       if (.not. self%step%has_inner) then
-         call interpolate(self%step, system%n_position, s, y)
+         call interpolate(self%step, system%n_position, system%n_turning, s, y)
          return
       end if
       y = self%term(:, n_term)

@@ -165,7 +165,7 @@ contains
       status = 0
       if (self%step%has_inner .or. self%step%h <= 0.0_wp) return
       do k = 1, size(inner_places)
-         call interpolate(self%step, system%n_position, inner_places(k), self%scratch)
+         call interpolate(self%step, system%n_position, system%n_turning, inner_places(k), self%scratch)
          call system%evaluate(self%step%t0 + inner_places(k)*self%step%h, self%scratch, self%step%inner(:, k), status)
          self%count%n_evaluations = self%count%n_evaluations + 1
          self%count%n_output_evaluations = self%count%n_output_evaluations + 1
@@ -195,7 +195,7 @@ contains
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
       real(wp), intent(out) :: y(:)              !! (n) state [any]
 
-      call interpolate(self%step, system%n_position, s, y)
+      call interpolate(self%step, system%n_position, system%n_turning, s, y)
    end subroutine integrator_within
 
    !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.

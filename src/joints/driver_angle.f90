@@ -14,7 +14,7 @@ module driver_angle
    use item, only: item_t, place_of
    use joint_set, only: joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_expression, add_reference, dim_angle, kind_info_t
+   use kind_info, only: add_expression, add_reference, dim_angle, in_plane, kind_info_t
    use kinds, only: two_pi, wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -40,6 +40,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "driver.angle"
+      info%space = in_plane
       info%help = "turns a revolute joint to an angle that is a function of time"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1

@@ -12,16 +12,17 @@ module driver_distance
    use item, only: item_t, place_of
    use joint_distance, only: write_distance_row
    use joint_set, only: joint_set_t
-   use rows, only: rows_t
+   use rows, only: n_v_planar, rows_t
    use kind_info, only: add_channel, add_expression, add_reference, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use span, only: span_of
+   use spatial_rows, only: length_of_span, put_row
    implicit none (type, external)
    private
    public :: add_length_channels, driver_distance_t
 
-   !> All distance drivers of a planar scene.
+   !> All distance drivers.
    type, extends(joint_set_t) :: driver_distance_t
       type(expression_t), allocatable :: f(:)  !! (n) distance [m]
    contains
@@ -75,8 +76,13 @@ contains
 
       do k = 1, self%n
          call self%f(k)%evaluate(t, f, f_dot, f_dot_dot)
-         call write_distance_row(self%first_row + k, motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), &
-                                 f, f_dot, f_dot_dot, rows)
+         if (rows%n_v == n_v_planar) then
+            call write_distance_row(self%first_row + k, motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), &
+                                    f, f_dot, f_dot_dot, rows)
+         else
+            call put_row(rows, self%first_row + k, motion, self%body(:, k), &
+                         length_of_span(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k)), f, f_dot, f_dot_dot)
+         end if
       end do
    end subroutine driven_evaluate
 

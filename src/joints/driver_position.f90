@@ -16,7 +16,7 @@ module driver_position
    use item, only: item_t, place_of
    use rows, only: rows_t
    use joint_translational, only: add_axis_columns, joint_translational_t
-   use kind_info, only: add_expression, add_reference, dim_length, kind_info_t
+   use kind_info, only: add_expression, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position, point_velocity
    implicit none (type, external)
@@ -40,6 +40,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "driver.position"
+      info%space = in_plane
       info%help = "holds a point at a position along an axis that is a function of time"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1

@@ -11,7 +11,7 @@ module driver_speed
    use item, only: item_t
    use joint_set, only: joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_channel, add_number, add_reference, dim_angular_speed, kind_info_t
+   use kind_info, only: add_channel, add_number, add_reference, dim_angular_speed, in_plane, kind_info_t
    use kinds, only: two_pi, wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -38,6 +38,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "driver.speed"
+      info%space = in_plane
       info%help = "turns a revolute joint at a constant speed"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1

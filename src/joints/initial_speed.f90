@@ -9,7 +9,7 @@
 !> contradicts drivers or other initial speeds ends the run before it begins.
 module initial_speed
    use driver_speed, only: driver_speed_t
-   use kind_info, only: add_number, add_reference, dim_angular_speed, kind_info_t
+   use kind_info, only: add_number, add_reference, dim_angular_speed, in_plane, kind_info_t
    implicit none (type, external)
    private
    public :: initial_speed_t
@@ -27,6 +27,7 @@ contains
       type(kind_info_t) :: info  !! name, columns and rows; it has no channels
 
       info%name = "initial.speed"
+      info%space = in_plane
       info%help = "speed of a revolute joint at the start; after that the joint is free"
       info%source = "Flores et al. (2008), section 2.8"
       info%n_row = 1

@@ -54,7 +54,11 @@ contains
                end if
             case (of_moment)
                call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-               values(1, column) = merge(-moment(3), moment(3), self%is_driver)
+               if (size(values, 1) == 3) then
+                  values(:, column) = moment
+               else
+                  values(1, column) = merge(-moment(3), moment(3), self%is_driver)
+               end if
             case (of_violation)
                values(1, column) = norm2(rows%phi(first:last))
             case (of_violation_rate)

@@ -16,7 +16,7 @@ module joint_distance
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t, report_shared
    use rows, only: rows_t
-   use kind_info, only: add_channel, add_number, add_reference, dim_length, kind_info_t
+   use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use span, only: span_of
@@ -44,6 +44,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.distance"
+      info%space = in_plane
       info%help = "massless link: the distance of two points is constant"
       info%source = "Flores et al. (2008), section 2.2"
       info%n_row = 1

@@ -14,7 +14,7 @@
 module joint_gear
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
-   use kind_info, only: add_number, add_reference, dim_length, kind_info_t
+   use kind_info, only: add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: pi, wp
    use motion, only: motion_t, point_position
    use rows, only: rows_t
@@ -42,6 +42,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.gear"
+      info%space = in_plane
       info%help = "two gears that roll on one another; their centres are held by other joints, on a carrier that may move"
       info%source = "Nikravesh (1988), section 4.2.4"
       info%n_row = 1

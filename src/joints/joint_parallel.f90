@@ -11,7 +11,7 @@ module joint_parallel
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_reference, kind_info_t
+   use kind_info, only: add_reference, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -34,6 +34,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.parallel"
+      info%space = in_plane
       info%help = "parallel axes: two bodies do not turn against each other, but move freely"
       info%source = "Nikravesh (1988), section 4.2"
       info%n_row = 1

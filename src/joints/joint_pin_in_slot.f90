@@ -12,7 +12,7 @@ module joint_pin_in_slot
    use joint_set, only: add_joint_channels
    use joint_translational, only: add_axis_columns, joint_translational_t
    use item, only: item_t
-   use kind_info, only: add_reference, kind_info_t
+   use kind_info, only: add_reference, in_plane, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -32,6 +32,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.pin_in_slot"
+      info%space = in_plane
       info%help = "ideal slot: a point of j stays on a line of i, and turns freely"
       info%source = "Flores et al. (2008), eq. (2.8)"
       info%n_row = 1

@@ -15,7 +15,7 @@ module joint_rack
    use item, only: item_t
    use joint_set, only: add_joint_channels
    use joint_translational, only: add_axis_columns, joint_translational_t
-   use kind_info, only: add_number, add_reference, dim_length, kind_info_t
+   use kind_info, only: add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position, point_velocity
    use rows, only: rows_t
@@ -47,6 +47,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.rack"
+      info%space = in_plane
       info%help = "rack and pinion: a gear rolls on a line of a body; other joints hold it there"
       info%source = "Nikravesh (1988), section 4.2.4"
       info%n_row = 1

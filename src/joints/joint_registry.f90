@@ -14,11 +14,25 @@ module joint_registry
    use joint_rigid, only: joint_rigid_t
    use joint_set, only: joint_set_t
    use joint_translational, only: joint_translational_t
+   use spatial_cylindrical, only: spatial_cylindrical_t
+   use spatial_distance, only: spatial_distance_t
+   use spatial_driver_angle, only: spatial_driver_angle_t
+   use spatial_driver_position, only: spatial_driver_position_t
+   use spatial_driver_speed, only: spatial_driver_speed_t
+   use spatial_initial_speed, only: spatial_initial_speed_t
+   use spatial_planar, only: spatial_planar_t
+   use spatial_revolute, only: spatial_revolute_t
+   use spatial_revolute_spherical, only: spatial_revolute_spherical_t
+   use spatial_rigid, only: spatial_rigid_t
+   use spatial_screw, only: spatial_screw_t
+   use spatial_spherical, only: spatial_spherical_t
+   use spatial_translational, only: spatial_translational_t
+   use spatial_universal, only: spatial_universal_t
    implicit none (type, external)
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 13  !! number of kinds
+   integer, parameter :: n_joint_kinds = 27  !! number of kinds
 
 contains
 
@@ -42,6 +56,20 @@ contains
       case (11); allocate (joint_parallel_t :: set)
       case (12); allocate (joint_gear_t :: set)
       case (13); allocate (joint_rack_t :: set)
+      case (14); allocate (spatial_spherical_t :: set)
+      case (15); allocate (spatial_revolute_t :: set)
+      case (16); allocate (spatial_driver_speed_t :: set)
+      case (17); allocate (spatial_driver_angle_t :: set)
+      case (18); allocate (spatial_universal_t :: set)
+      case (19); allocate (spatial_cylindrical_t :: set)
+      case (20); allocate (spatial_translational_t :: set)
+      case (21); allocate (spatial_screw_t :: set)
+      case (22); allocate (spatial_planar_t :: set)
+      case (23); allocate (spatial_distance_t :: set)
+      case (24); allocate (spatial_revolute_spherical_t :: set)
+      case (25); allocate (spatial_rigid_t :: set)
+      case (26); allocate (spatial_driver_position_t :: set)
+      case (27); allocate (spatial_initial_speed_t :: set)
       end select
    end subroutine new_joint_set
 

@@ -12,7 +12,7 @@ module joint_revolute
    use joint_friction, only: add_friction_columns
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_reference, kind_info_t, leaves_turn
+   use kind_info, only: add_reference, in_plane, kind_info_t, leaves_turn
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -37,6 +37,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.revolute"
+      info%space = in_plane
       info%help = "ideal pin: two points coincide"
       info%source = "Flores et al. (2008), eq. (2.5)"
       info%n_row = 2

@@ -11,7 +11,7 @@ module joint_rigid
    use item, only: item_t
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_reference, kind_info_t, leaves_nothing
+   use kind_info, only: add_reference, in_plane, kind_info_t, leaves_nothing
    use kinds, only: wp
    use motion, only: motion_t
    implicit none (type, external)
@@ -34,6 +34,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.rigid"
+      info%space = in_plane
       info%help = "weld: two points coincide and the bodies do not turn against each other"
       info%source = "Flores et al. (2008), eqs. (2.5), (2.6)"
       info%n_row = 3

@@ -5,7 +5,8 @@
 !> gamma = -(Phi_q v)_q v - 2 Phi_qt v - Phi_tt, and Phi_t. Flores et al. (2008), eqs. (2.10), (2.11).
 !>
 !> Signs: the reaction on a body is -Phi_q^T lambda (forces and moment about the centre of mass).
-!> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j.
+!> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j; one in space twelve: the velocity of i and its angular
+!> velocity in the frame of its body, then those of j (`spatial_rows`).
 module joint_set
    use coordinates, only: coordinates_t
    use item, only: item_t
@@ -27,7 +28,7 @@ module joint_set
       logical :: is_solved = .true.              !! whether its rows are solved for, not only evaluated for reactions
       integer, allocatable :: column(:)          !! (n) places of the items among all joints, or all drivers, in reports
       logical :: is_driver = .false.             !! whether the items prescribe a motion
-      logical :: is_angle(3) = .false.           !! (3) which rows of an item are angles, set by `prepare`
+      logical :: is_angle(6) = .false.           !! (6) which rows of an item are angles, set by `prepare`
       logical :: sides_apart = .false.           !! whether Phi_q of a body depends on that body alone, set by `prepare`
       type(text_t), allocatable :: names(:)      !! (n) names
       integer, allocatable :: body(:, :)         !! (2, n) bodies i and j, 0: ground
@@ -40,6 +41,8 @@ module joint_set
       procedure(evaluate_interface), deferred :: evaluate
       procedure :: new => joint_new
       procedure :: set_start => joint_set_start
+      procedure :: take_joint => joint_take_joint
+      procedure :: is_turned_over => joint_is_turned_over
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: way_of => joint_way_of
@@ -157,6 +160,24 @@ contains
       class(joint_set_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
    end subroutine joint_set_start
+
+   !> Take what an item needs of the joint that its row names: nothing, unless the kind says otherwise.
+   subroutine joint_take_joint(self, k, joint, motion)
+      class(joint_set_t), intent(inout) :: self  !! the set, prepared
+      integer, intent(in) :: k                   !! item
+      class(joint_set_t), intent(in) :: joint    !! a set of one item, the joint, prepared and with its start
+      type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
+   end subroutine joint_take_joint
+
+   !> Whether an item is closed in a way that nobody means, which its rows cannot tell from the right one: not, unless the kind
+   !> says otherwise.
+   pure logical function joint_is_turned_over(self, k, motion) result(is_over)
+      class(joint_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      type(motion_t), intent(in) :: motion    !! positions
+
+      is_over = k < 0 .and. size(motion%angle) < self%n
+   end function joint_is_turned_over
 
    !> Tell the bodies of the set's rows, and which are angles.
    subroutine joint_declare_rows(self, rows)

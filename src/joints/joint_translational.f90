@@ -17,7 +17,7 @@ module joint_translational
    use joint_friction, only: add_friction_columns
    use joint_set, only: add_joint_channels, joint_set_t
    use rows, only: rows_t
-   use kind_info, only: add_number, add_reference, add_word, dim_angle, kind_info_t, leaves_way
+   use kind_info, only: add_number, add_reference, add_word, dim_angle, in_plane, kind_info_t, leaves_way
    use kinds, only: wp
    use motion, only: motion_t, point_position
    implicit none (type, external)
@@ -53,6 +53,7 @@ contains
       type(kind_info_t) :: info  !! name, columns, rows and channels
 
       info%name = "joint.translational"
+      info%space = in_plane
       info%help = "ideal guide: a point of j stays on a line of i, and the bodies do not turn against each other"
       info%source = "Flores et al. (2008), eqs. (2.6), (2.8)"
       info%n_row = 2

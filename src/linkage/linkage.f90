@@ -88,6 +88,7 @@ contains
       real(wp), intent(in) :: t                                 !! time, in the smooth stretch [s]
       real(wp), intent(in) :: y(self%n_position + self%n_rate)  !! (positions + rates) the first of a state [any]
 
+      self%motion%t = t
       if (self%reduced%known%n > 0) call move_known(self%reduced%known, self%joints, t, self%motion)
       associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
          if (n > 0) call self%coordinates%move(n, self%rows%unknown, y, y(nq + 1:), self%motion)
@@ -176,9 +177,15 @@ contains
          call self%ideal(k)%set%evaluate(inside, self%motion, self%rows)
       end do
       associate (rows => self%rows, motion => self%motion, solution => self%solution)
-         call right_hand_side(rows, self%bodies%n, motion%v, motion%omega, solution%alpha, solution%beta, solution%phi_dot, &
-                              solution%b)
-         if (size(rows%known, 2) > 0) call take_known(rows, self%bodies%n, motion%a, motion%alpha, solution%b)
+         if (self%coordinates%turns_in_body) then
+            call right_hand_side(rows, self%bodies%n, motion%v, motion%spatial%spin, solution%alpha, solution%beta, &
+                                 solution%phi_dot, solution%b)
+            if (size(rows%known, 2) > 0) call take_known(rows, self%bodies%n, motion%a, motion%spatial%rise, solution%b)
+         else
+            call right_hand_side(rows, self%bodies%n, motion%v, motion%omega, solution%alpha, solution%beta, solution%phi_dot, &
+                                 solution%b)
+            if (size(rows%known, 2) > 0) call take_known(rows, self%bodies%n, motion%a, motion%alpha, solution%b)
+         end if
       end associate
    end subroutine linkage_evaluate_rows
 

@@ -1,29 +1,39 @@
 !> The rigid bodies of a scene, their body-fixed points and their materials.
 !>
 !> Body 0 is the ground: no mass, no motion, its frame is the world frame. A planar body has its
-!> centre of mass in the plane z = 0 and turns about z.
+!> centre of mass in the plane z = 0 and turns about z. Tables of bodies and points in space: `spatial_bodies`.
 module bodies
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, dim_angle, dim_angular_speed, dim_density, dim_inertia, &
-      dim_length, dim_mass, dim_none, dim_pressure, dim_speed, kind_info_t
+      dim_length, dim_mass, dim_none, dim_pressure, dim_speed, in_plane, kind_info_t
    use kinds, only: wp
    use text, only: text_t
    implicit none (type, external)
    private
    public :: bodies_info, bodies_t, material_info, material_t, points_info, points_t
-   public :: new_bodies, new_materials, new_points, take_bodies
+   public :: new_bodies, new_materials, new_points, spatial_part_t, take_bodies
+
+   !> What only bodies of a spatial scene have. There the frame of a body is that of its principal axes inside the program; decks
+   !> and files show its own.
+   type :: spatial_part_t
+      real(wp), allocatable :: moments(:, :)     !! (3, n) principal moments of inertia [kg.m^2]
+      real(wp), allocatable :: own(:, :, :)      !! (3, 3, 0:n) frame of principal axes to the body's own frame [1]
+      real(wp), allocatable :: p(:, :)           !! (4, n) Euler parameters of the principal axes at the start [1]
+      real(wp), allocatable :: w(:, :)           !! (3, n) angular velocity at the start, world frame [rad/s]
+   end type spatial_part_t
 
    !> Rigid bodies in deck order.
    type :: bodies_t
       integer :: n = 0                            !! number of bodies, without the ground
       type(text_t), allocatable :: names(:)       !! (n) names
       real(wp), allocatable :: mass(:)            !! (n) mass [kg]
-      real(wp), allocatable :: inertia(:)         !! (n) moment of inertia about the centre of mass, about z [kg.m^2]
+      real(wp), allocatable :: inertia(:)         !! (n) moment of inertia about z, centre of mass; in space the greatest [kg.m^2]
       real(wp), allocatable :: r(:, :)            !! (3, n) centre of mass at the start, world frame [m]
-      real(wp), allocatable :: angle(:)           !! (n) angle about z at the start [rad]
+      real(wp), allocatable :: angle(:)           !! (n) angle about z at the start; in space zero [rad]
       real(wp), allocatable :: v(:, :)            !! (3, n) velocity of the centre of mass at the start, world frame [m/s]
-      real(wp), allocatable :: omega(:)           !! (n) angular velocity about z at the start [rad/s]
-      logical, allocatable :: is_rate_given(:, :) !! (3, n) whether the deck gives vx, vy, omega, or they are defaults
+      real(wp), allocatable :: omega(:)           !! (n) angular velocity about z at the start; in space zero [rad/s]
+      logical, allocatable :: is_rate_given(:, :) !! (n_v, n) whether the deck gives each rate, or it is a default
+      type(spatial_part_t) :: spatial             !! of a spatial scene, else empty
    end type bodies_t
 
    !> Body-fixed points.
@@ -50,6 +60,7 @@ contains
       type(kind_info_t) :: info  !! columns and channels
 
       info%name = "bodies"
+      info%space = in_plane
       info%help = "rigid bodies; the ground is there without a row"
       info%source = "Flores et al. (2008), section 2.1"
       call add_number(info, "mass", dim_mass, "mass", lower=0.0_wp, open_lower=.true.)
@@ -77,6 +88,7 @@ contains
       type(kind_info_t) :: info  !! columns
 
       info%name = "points"
+      info%space = in_plane
       info%help = "points fixed in a body, from its centre of mass along its axes (ground: the world's)"
       info%source = "Flores et al. (2008), eq. (2.1)"
       call add_reference(info, "body", "bodies", "the body, or ground")
@@ -140,6 +152,13 @@ contains
       some%v = all%v(:, chosen)
       some%omega = all%omega(chosen)
       some%is_rate_given = all%is_rate_given(:, chosen)
+      if (.not. allocated(all%spatial%p)) return
+      some%spatial%moments = all%spatial%moments(:, chosen)
+      allocate (some%spatial%own(3, 3, 0:some%n))
+      some%spatial%own(:, :, 0) = all%spatial%own(:, :, 0)
+      some%spatial%own(:, :, 1:) = all%spatial%own(:, :, chosen)
+      some%spatial%p = all%spatial%p(:, chosen)
+      some%spatial%w = all%spatial%w(:, chosen)
    end subroutine take_bodies
 
    !> Points from their rows, whose bodies have been resolved.

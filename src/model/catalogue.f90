@@ -79,7 +79,7 @@ contains
       end do
    end function catalogue_find_group
 
-   !> Add a quantity to a room, unless it is there.
+   !> Add a quantity to a room, unless it is there. A vector has as many components as a point has coordinates.
    subroutine catalogue_add_group(self, room, channel)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
       integer, intent(in) :: room                !! its room
@@ -97,6 +97,7 @@ contains
       end do
       grown(n + 1)%room = room
       grown(n + 1)%channel = channel
+      if (channel%components == 2) grown(n + 1)%channel%components = self%n_coordinates
       call move_alloc(grown, self%groups)
    end subroutine catalogue_add_group
 

@@ -9,8 +9,17 @@ module motion
    public :: cross, loads_t, motion_t, new_loads, new_motion, point_position, point_velocity
    public :: apply_force
 
+   !> What only the bodies of a spatial scene have. Their frames are those of their principal axes.
+   type :: spatial_motion_t
+      real(wp), allocatable :: p(:, :)        !! (4, 0:n) Euler parameters, of any length [1]
+      real(wp), allocatable :: spin(:, :)     !! (3, 0:n) angular velocity, body frame [rad/s]
+      real(wp), allocatable :: rise(:, :)     !! (3, 0:n) angular acceleration, body frame, if set [rad/s^2]
+      real(wp), allocatable :: own(:, :, :)   !! (3, 3, 0:n) body frame to the frame that the deck gives the body [1]
+   end type spatial_motion_t
+
    !> Kinematic state of all bodies.
    type :: motion_t
+      real(wp) :: t = 0.0_wp                  !! time [s]
       real(wp), allocatable :: r(:, :)        !! (3, 0:n) centre of mass, world frame [m]
       real(wp), allocatable :: rot(:, :, :)   !! (3, 3, 0:n) body frame to world frame [1]
       real(wp), allocatable :: v(:, :)        !! (3, 0:n) velocity of the centre of mass, world frame [m/s]
@@ -18,6 +27,7 @@ module motion
       real(wp), allocatable :: angle(:)       !! (0:n) planar angle about z, turns counted [rad]
       real(wp), allocatable :: a(:, :)        !! (3, 0:n) acceleration of the centre of mass, if set [m/s^2]
       real(wp), allocatable :: alpha(:, :)    !! (3, 0:n) angular acceleration, world frame, if set [rad/s^2]
+      type(spatial_motion_t) :: spatial       !! of a spatial scene, else empty
    end type motion_t
 
    !> Applied loads on all bodies.
@@ -29,9 +39,10 @@ module motion
 contains
 
    !> Room for n bodies, all at rest in the origin.
-   subroutine new_motion(n, motion)
-      integer, intent(in) :: n               !! number of bodies
-      type(motion_t), intent(out) :: motion  !! their motion
+   subroutine new_motion(n, motion, own)
+      integer, intent(in) :: n                         !! number of bodies
+      type(motion_t), intent(out) :: motion            !! their motion
+      real(wp), intent(in), optional :: own(:, :, 0:)  !! (3, 3, 0:n) of a spatial scene: body frames to those of the deck [1]
 
       integer :: k
 
@@ -41,6 +52,12 @@ contains
       do k = 1, 3
          motion%rot(k, k, :) = 1.0_wp
       end do
+      if (.not. present(own)) return
+      associate (spatial => motion%spatial)
+         allocate (spatial%p(4, 0:n), spatial%spin(3, 0:n), spatial%rise(3, 0:n), source=0.0_wp)
+         allocate (spatial%own(3, 3, 0:n), source=own)
+         spatial%p(1, :) = 1.0_wp
+      end associate
    end subroutine new_motion
 
    !> Room for the loads on n bodies.

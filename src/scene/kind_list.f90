@@ -1,6 +1,7 @@
 !> Every kind and section that a deck may hold, in the order of the manual.
 module kind_list
    use bodies, only: bodies_info, material_info, points_info
+   use spatial_bodies, only: spatial_bodies_info, spatial_points_info
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
@@ -109,12 +110,14 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(14 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(16 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds + n_film_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
       kinds(3) = points_info()
-      n = 3
+      kinds(4) = spatial_bodies_info()
+      kinds(5) = spatial_points_info()
+      n = 5
       do k = 1, n_joint_kinds
          kinds(n + k) = joint_info(k)
       end do

@@ -11,7 +11,7 @@ module read_scene
    use item, only: place_of
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
-   use kind_info, only: kind_info_t
+   use kind_info, only: is_of_space, kind_info_t
    use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
    use option_check, only: check_options
    use precision_info, only: check_precision, precision_section
@@ -20,10 +20,11 @@ module read_scene
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
-      scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points
+      scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_t
    use scene_checks, only: check_meaning, check_names, report_doubled
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use settings, only: check_sections, has_section, read_settings
+   use spatial_bodies, only: mistake_of_body, new_spatial_bodies, new_spatial_points, spatial_bodies_info, spatial_points_info
    use study_info, only: ensemble_info, statistics_info
    use tables, only: read_items
    implicit none (type, external)
@@ -42,10 +43,11 @@ contains
       type(directory_t) :: directory
       integer :: k
 
-      call all_kinds(kinds)
-      call check_sections(deck, kinds, diagnostics)
-      call functions_from_deck(deck, scene, diagnostics)
       call read_section(deck, scene_info(), scene%settings%header, diagnostics)
+      scene%is_spatial = scene%settings%header%word("space") == "spatial"
+      call all_kinds(kinds)
+      call check_sections(deck, kinds, scene%is_spatial, diagnostics)
+      call functions_from_deck(deck, scene, diagnostics)
       call read_analyses(deck, scene%settings, diagnostics)
       scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
       call read_section(deck, guards_info(), scene%settings%guards, diagnostics)
@@ -65,12 +67,18 @@ contains
       call resolve_tables(directory, scene, diagnostics)
       call check_names(scene, diagnostics)
       call check_lubricants(scene, diagnostics)
+      call check_space(scene, diagnostics)
       if (diagnostics%count() > 0) return
 
       scene%title = scene%settings%header%word("title")
-      scene%gravity(1:2) = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x(1:2)
-      call new_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
-      call new_points(scene%tables%base(table_points)%items, scene%points)
+      scene%gravity = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x
+      if (scene%is_spatial) then
+         call new_spatial_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
+         call new_spatial_points(scene%tables%base(table_points)%items, scene%bodies%spatial%own, scene%points)
+      else
+         call new_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
+         call new_points(scene%tables%base(table_points)%items, scene%points)
+      end if
       call new_materials(scene%tables%base(table_materials)%items, scene%materials)
       associate (items => scene%tables%base(table_lubricants)%items)
          scene%lubrication%oils = [(oil_of_row(items(k)), k=1, size(items))]
@@ -151,8 +159,13 @@ contains
 
       integer :: k
 
-      scene%tables%base(table_bodies)%info = bodies_info()
-      scene%tables%base(table_points)%info = points_info()
+      if (scene%is_spatial) then
+         scene%tables%base(table_bodies)%info = spatial_bodies_info()
+         scene%tables%base(table_points)%info = spatial_points_info()
+      else
+         scene%tables%base(table_bodies)%info = bodies_info()
+         scene%tables%base(table_points)%info = points_info()
+      end if
       scene%tables%base(table_materials)%info = material_info()
       scene%tables%base(table_lubricants)%info = lubricant_info()
       do k = 1, n_base
@@ -160,17 +173,54 @@ contains
       end do
       do k = 1, n_joint_kinds
          scene%joints(k)%info = joint_info(k)
-         call read_items(deck, scene%joints(k)%info, scene%joints(k)%items, diagnostics)
+         call read_if_known(scene%joints(k))
       end do
       do k = 1, n_force_kinds
          scene%forces(k)%info = force_info(k)
-         call read_items(deck, scene%forces(k)%info, scene%forces(k)%items, diagnostics)
+         call read_if_known(scene%forces(k))
       end do
       do k = 1, n_clearance_kinds
          scene%clearances(k)%info = clearance_info(k)
-         call read_items(deck, scene%clearances(k)%info, scene%clearances(k)%items, diagnostics)
+         call read_if_known(scene%clearances(k))
       end do
+
+   contains
+
+      !> Read the rows of a kind; it has none where the scene is not of its space.
+      subroutine read_if_known(table)
+         type(table_t), intent(inout) :: table   !! the kind is set; rows are
+
+         if (is_of_space(table%info, scene%is_spatial)) then
+            call read_items(deck, table%info, table%items, diagnostics)
+         else
+            allocate (table%items(0))
+         end if
+      end subroutine read_if_known
+
    end subroutine read_tables
+
+   !> What a row of bodies, or the direction of gravity, must be in the plane or in space.
+   subroutine check_space(scene, diagnostics)
+      type(scene_t), intent(in) :: scene                  !! tables, references resolved
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: k
+
+      associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
+         if (gravity%given .and. gravity%vector%n /= merge(3, 2, scene%is_spatial)) then
+            call diagnostics%add(gravity%location, "gravity has "//merge("three", "two  ", gravity%vector%n == 3)//" components", &
+                                 "of a vector of another space", &
+                                 merge("give three in a spatial scene", "give two in a planar scene   ", scene%is_spatial))
+         end if
+      end associate
+      if (.not. scene%is_spatial .or. diagnostics%count() > 0) return
+      associate (items => scene%tables%base(table_bodies)%items)
+         do k = 1, size(items)
+            if (mistake_of_body(items(k)) == "") cycle
+            call diagnostics%add(items(k)%location, mistake_of_body(items(k)), "in this row")
+         end do
+      end associate
+   end subroutine check_space
 
    !> Normal laws and friction laws: one object per row, names unique over all kinds of laws.
    subroutine read_laws(deck, scene, directory, diagnostics)
@@ -203,7 +253,11 @@ contains
       do k = 1, n_friction_kinds
          scene%tables%frictions(k)%info = friction_info(k)
          before = diagnostics%count()
-         call read_items(deck, scene%tables%frictions(k)%info, scene%tables%frictions(k)%items, diagnostics)
+         if (is_of_space(scene%tables%frictions(k)%info, scene%is_spatial)) then
+            call read_items(deck, scene%tables%frictions(k)%info, scene%tables%frictions(k)%items, diagnostics)
+         else
+            allocate (scene%tables%frictions(k)%items(0))
+         end if
          associate (items => scene%tables%frictions(k)%items)
             n = size(scene%frictions)
             call grow_frictions(scene%frictions, n + size(items))

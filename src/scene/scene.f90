@@ -83,6 +83,7 @@ module scene
    !> What a deck means.
    type :: scene_t
       character(:), allocatable :: title                     !! one line
+      logical :: is_spatial = .false.                        !! whether bodies move in space, not in the plane x, y
       real(wp) :: gravity(3) = 0.0_wp                        !! (3) acceleration of free fall, world frame [m/s^2]
       type(bodies_t) :: bodies                               !! rigid bodies
       type(points_t) :: points                               !! body-fixed points

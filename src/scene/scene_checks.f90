@@ -17,6 +17,7 @@ module scene_checks
    use normal_law, only: n_law_parameter
    use references, only: add_names
    use scene, only: scene_t, table_bodies, table_points
+   use scene_size, only: start_position
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
    use ties, only: find_joint, tie_of, tie_t
@@ -292,22 +293,5 @@ contains
       message = "joint '"//item%name//"' asks for a balance of heat, but its lubricant has the same viscosity at any temperature"
       help = "give the lubricant a grade and the temperature at which it comes in"
    end subroutine check_film
-
-   !> Where the deck puts a point at the start.
-   pure function start_position(scene, point) result(p)
-      type(scene_t), intent(in) :: scene  !! the scene
-      integer, intent(in) :: point        !! the point
-      real(wp) :: p(3)                    !! (3) its position, world frame [m]
-
-      real(wp) :: c, s
-
-      p = scene%points%s(:, point)
-      associate (body => scene%points%body(point))
-         if (body == 0) return
-         c = cos(scene%bodies%angle(body))
-         s = sin(scene%bodies%angle(body))
-         p = scene%bodies%r(:, body) + [c*p(1) - s*p(2), s*p(1) + c*p(2), p(3)]
-      end associate
-   end function start_position
 
 end module scene_checks

@@ -1,10 +1,11 @@
 !> How large the mechanism of a scene is: the length that error norms and constraint violations are measured by.
 module scene_size
    use kinds, only: wp
+   use rotations, only: rotation_of_parameters
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: extent_of_scene, is_large, size_of_bodies
+   public :: extent_of_scene, is_large, size_of_bodies, start_position
 
    integer, parameter :: most_dense = 50  !! bodies up to which implicit methods keep full matrices
 
@@ -29,29 +30,43 @@ contains
    pure real(wp) function extent_of_scene(scene) result(length)
       type(scene_t), intent(in) :: scene    !! the scene
 
-      real(wp) :: greatest(2), least(2), place(2)
+      real(wp) :: greatest(3), least(3), place(3)
       integer :: k
 
       greatest = -huge(1.0_wp)
       least = huge(1.0_wp)
       do k = 1, scene%bodies%n
-         greatest = max(greatest, scene%bodies%r(1:2, k))
-         least = min(least, scene%bodies%r(1:2, k))
+         greatest = max(greatest, scene%bodies%r(:, k))
+         least = min(least, scene%bodies%r(:, k))
       end do
       do k = 1, scene%points%n
-         associate (s => scene%points%s(1:2, k), body => scene%points%body(k))
-            place = s
-            if (body > 0) then
-               associate (angle => scene%bodies%angle(body))
-                  place = scene%bodies%r(1:2, body) + [cos(angle)*s(1) - sin(angle)*s(2), sin(angle)*s(1) + cos(angle)*s(2)]
-               end associate
-            end if
-         end associate
+         place = start_position(scene, k)
          greatest = max(greatest, place)
          least = min(least, place)
       end do
       length = norm2(greatest - least)
    end function extent_of_scene
+
+   !> Where the deck puts a point at the start.
+   pure function start_position(scene, point) result(p)
+      type(scene_t), intent(in) :: scene  !! the scene
+      integer, intent(in) :: point        !! the point
+      real(wp) :: p(3)                    !! (3) its position, world frame [m]
+
+      real(wp) :: c, s
+
+      p = scene%points%s(:, point)
+      associate (body => scene%points%body(point))
+         if (body == 0) return
+         if (scene%is_spatial) then
+            p = scene%bodies%r(:, body) + matmul(rotation_of_parameters(scene%bodies%spatial%p(:, body)), p)
+         else
+            c = cos(scene%bodies%angle(body))
+            s = sin(scene%bodies%angle(body))
+            p = scene%bodies%r(:, body) + [c*p(1) - s*p(2), s*p(1) + c*p(2), p(3)]
+         end if
+      end associate
+   end function start_position
 
    !> Whether implicit methods keep their matrices sparse: a full one has (6 n)^2 entries for n bodies, each found by a difference.
    pure logical function is_large(scene)

@@ -28,8 +28,10 @@ contains
       info%source = ""
       info%is_table = .false.
       call add_word(info, "title", "one line for figures and files", default="")
-      call add_word(info, "space", "planar: all motion in the plane x, y", default="planar", choices="planar")
-      call add_vector(info, "gravity", dim_acceleration, 2, "acceleration of free fall, world frame", default="0 0 m/s^2")
+      call add_word(info, "space", "planar: all motion in the plane x, y; spatial: in x, y and z", default="planar", &
+                    choices="planar spatial")
+      call add_vector(info, "gravity", dim_acceleration, 3, "acceleration of free fall, world frame: two numbers in the plane, "// &
+                      "three in space", default="0 0 m/s^2")
    end function scene_info
 
    !> The section [analysis.dynamic].

@@ -8,7 +8,7 @@ module ties
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
    use joint_set, only: joint_set_t
-   use kind_info, only: cell_reference, kind_info_t
+   use kind_info, only: cell_reference, is_of_space, kind_info_t
    use kinds, only: wp
    use scene, only: scene_t
    implicit none (type, external)
@@ -131,7 +131,7 @@ contains
       character(*), intent(in) :: name     !! as in a deck
 
       do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%name == name) return
+         if (scene%joints(k)%info%name == name .and. is_of_space(scene%joints(k)%info, scene%is_spatial)) return
       end do
    end function kind_number
 

@@ -9,6 +9,7 @@
 !> Source: Flores et al. (2008), section 2.2, eqs. (2.10), (2.13). Limits: a position near the start
 !> that the deck gives.
 module consistent_start
+   use branches, only: check_branches
    use errors, only: error_t, exit_assembly, set_error
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
@@ -76,6 +77,8 @@ contains
          call position_error(linkage, error)
          return
       end if
+      call check_branches(linkage, error)
+      if (allocated(error)) return
       call check_finite(linkage, linkage%rows%phi_t, error)
       if (allocated(error)) return
       ease = merge(1.0_wp, give_way, reshape(linkage%bodies%is_rate_given, [n]))
@@ -159,6 +162,7 @@ contains
       integer :: k
 
       call linkage%place_bodies(q, v)
+      linkage%motion%t = t
       do k = 1, size(linkage%joints)
          call linkage%joints(k)%set%evaluate(linkage%piece%inside(t), linkage%motion, linkage%rows)
       end do

@@ -1,7 +1,7 @@
 !> A planar scene in the stabilised form of index 2, see `dae_system`.
 !>
 !> Masses are divided out: the residual of the velocities is v' - M^{-1} (g - Phi_q^T lambda). Rows stay in metres and radians.
-!> Limits: coordinates whose derivatives are the rates.
+!> For q' = N v the first equation is q' = N (v - M^{-1} Phi_q^T mu).
 submodule(mechanism) mechanism_dae
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use rows, only: place_in_row, rows_t
@@ -32,17 +32,20 @@ contains
          if (status /= 0) return
       end if
       associate (linkage => self%linkage, rows => self%linkage%rows, a => self%linkage%solution%a)
+         ! derivatives first, which the residual is ydot less of
          call spread_rows(rows, m, linkage%inverse_mass, lambda, a)
-         call remains(rows%n_unknown, rows%unknown, linkage%bodies%n, size(a, 1), y, ydot, linkage%inverse_mass, &
-                      self%loading%g, a, r_y)
+         a = linkage%inverse_mass*self%loading%g - a
+         call linkage%coordinates%rates(rows%n_unknown, rows%unknown, linkage%motion, a, r_y, r_y(n + 1:), status)
+         if (status /= 0) return
          call spread_rows(rows, m, linkage%inverse_mass, mu, a)
-         call add_positions(rows%n_unknown, rows%unknown, linkage%bodies%n, size(a, 1), a, r_y)
+         a = -a
+         call linkage%coordinates%add_rates(rows%n_unknown, rows%unknown, linkage%motion, a, r_y)
          if (self%friction%grips%n_bristle > 0) call self%bristle_rates(r_y)
          if (self%ledger%is_kept) then
             linkage%solution%lambda(:m) = lambda
             call self%ledger_rates(r_y(n_state + 1:))
          end if
-         r_y(2*n + 1:) = ydot(2*n + 1:) - r_y(2*n + 1:)
+         r_y = ydot - r_y
          r_lambda = linkage%solution%phi_dot(:m)
          r_mu = rows%phi(:m)
       end associate
@@ -68,43 +71,5 @@ contains
       end do
       z = z*inverse_mass
    end subroutine spread_rows
-
-   !> Residual of coordinates and rates without mu: q' - v, v' - M^{-1} g + M^{-1} Phi_q^T lambda.
-   pure subroutine remains(n, unknown, n_body, n_v, y, ydot, inverse_mass, g, z, r)
-      integer, intent(in) :: n                           !! number of unknown bodies
-      integer, intent(in) :: unknown(n)                  !! (n) their numbers
-      integer, intent(in) :: n_body                      !! number of bodies
-      integer, intent(in) :: n_v                         !! rates of a body, and coordinates
-      real(wp), intent(in) :: y(n_v, 2*n)                !! (n_v, 2 n) coordinates, then rates [any]
-      real(wp), intent(in) :: ydot(n_v, 2*n)             !! (n_v, 2 n) derivatives [any]
-      real(wp), intent(in) :: inverse_mass(n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
-      real(wp), intent(in) :: g(n_v, 0:n_body)           !! (n_v, 0:bodies) loads on the rates [N or N.m]
-      real(wp), intent(in) :: z(n_v, 0:n_body)           !! (n_v, 0:bodies) M^{-1} Phi_q^T lambda [m/s^2 or rad/s^2]
-      real(wp), intent(inout) :: r(n_v, 2*n)             !! (n_v, 2 n) residual [any]
-
-      integer :: body, k
-
-      do k = 1, n
-         body = unknown(k)
-         r(:, k) = ydot(:, k) - y(:, n + k)
-         r(:, n + k) = ydot(:, n + k) - inverse_mass(:, body)*g(:, body) + z(:, body)
-      end do
-   end subroutine remains
-
-   !> Add M^{-1} Phi_q^T mu to the residual of the coordinates.
-   pure subroutine add_positions(n, unknown, n_body, n_v, z, r)
-      integer, intent(in) :: n                           !! number of unknown bodies
-      integer, intent(in) :: unknown(n)                  !! (n) their numbers
-      integer, intent(in) :: n_body                      !! number of bodies
-      integer, intent(in) :: n_v                         !! rates of a body, and coordinates
-      real(wp), intent(in) :: z(n_v, 0:n_body)           !! (n_v, 0:bodies) M^{-1} Phi_q^T mu [m/s or rad/s]
-      real(wp), intent(inout) :: r(n_v, n)               !! (n_v, n) residual of the coordinates [m/s or rad/s]
-
-      integer :: k
-
-      do k = 1, n
-         r(:, k) = r(:, k) + z(:, unknown(k))
-      end do
-   end subroutine add_positions
 
 end submodule mechanism_dae

@@ -77,7 +77,7 @@ contains
             call self%loose%sets(k)%set%evaluate(motion, loading%loads, self%loose%losses)
          end do
          if (self%loose%has_films) call evaluate_films(self%loose, motion, loading%loads)
-         call self%linkage%coordinates%gather(n_body, loading%loads, loading%g)
+         call self%linkage%coordinates%gather(n_body, self%linkage%mass, motion, loading%loads, loading%g)
       end associate
    end procedure mechanism_evaluate_loads
 

@@ -164,12 +164,16 @@ contains
       integer, intent(in) :: side                  !! 1: body i, 2: body j
       real(wp), intent(out) :: row(most_rates)     !! (most_rates) the row, its first n_v entries [1 or m]
 
-      associate (tangent => self%loose%sets(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates)
+      integer :: body
+
+      body = self%loose%sets(slot)%set%items%body(side, self%loose%sets(slot)%set%item_of(k))
+      associate (tangent => self%loose%sets(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates, &
+                 motion => self%linkage%motion)
          if (side == 1) then
-            call coordinates%along(tangent%t, tangent%arm_i, row(:coordinates%n_v))
+            call coordinates%along(tangent%t, tangent%arm_i, motion, body, row(:coordinates%n_v))
             row(:coordinates%n_v) = -row(:coordinates%n_v)
          else
-            call coordinates%along(tangent%t, tangent%arm_j, row(:coordinates%n_v))
+            call coordinates%along(tangent%t, tangent%arm_j, motion, body, row(:coordinates%n_v))
          end if
       end associate
    end subroutine sliding_row

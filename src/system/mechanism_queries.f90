@@ -133,6 +133,16 @@ contains
       end do
    end subroutine transition_events
 
+   !> A step has ended at a state.
+   module procedure mechanism_follow_turns
+      integer :: k
+
+      call self%linkage%set_motion(t, y)
+      do k = 1, size(self%loading%forces)
+         call self%loading%forces(k)%set%follow(self%linkage%motion)
+      end do
+   end procedure mechanism_follow_turns
+
    !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
    module procedure mechanism_event_noise
       real(wp) :: rate_noise(self%loose%n_contact), shared
@@ -141,7 +151,8 @@ contains
       noise = 0.0_wp
       shared = 0.0_wp
       if (self%linkage%rows%n_solve > 0 .or. self%linkage%reduced%guided%n > 0) then
-         shared = maxval(abs(self%linkage%motion%r(:2, :))) + maxval(abs(self%linkage%motion%angle))*self%linkage%scales%length
+         if (self%linkage%coordinates%turns_in_body) shared = self%linkage%scales%length  ! of Euler parameters
+         shared = shared + maxval(abs(self%linkage%motion%r)) + maxval(abs(self%linkage%motion%angle))*self%linkage%scales%length
       end if
       do k = 1, size(self%loose%sets)
          associate (set => self%loose%sets(k)%set)

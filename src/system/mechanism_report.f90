@@ -2,7 +2,6 @@
 module mechanism_report
    use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
       room_joints
-   use bodies, only: bodies_info
    use clearance_set, only: clearance_set_t
    use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t
@@ -53,11 +52,11 @@ contains
       integer :: c, i, k
 
       catalogue%n_coordinates = system%linkage%coordinates%n_axis
-      info = bodies_info()
+      info = system%linkage%coordinates%bodies_info()
       do k = 1, system%linkage%bodies%n
          call catalogue%add_item(room_bodies, system%linkage%bodies%names(k)%s, info=info)
       end do
-      call catalogue%add_kind(room_bodies, bodies_info())
+      call catalogue%add_kind(room_bodies, info)
       do k = 1, size(system%linkage%joints)
          associate (set => system%linkage%joints(k)%set)
             call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), joint_info(set, set%friction%n > 0))

@@ -2,7 +2,7 @@
 module test_joint_friction
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use joint_bench, only: bench_t, evaluate_after, make_bench, n_item
+   use joint_bench, only: bench_t, evaluate_after, is_planar, make_bench, n_item
    use joint_friction, only: most_rows
    use joint_registry, only: n_joint_kinds
    use kinds, only: wp
@@ -34,6 +34,7 @@ contains
 
       n_kind = 0
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             if (bench%set%friction%n == 0) cycle
@@ -63,6 +64,7 @@ contains
       integer :: k, kind, seed, side
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             if (bench%set%friction%n == 0) cycle
@@ -92,6 +94,7 @@ contains
       integer :: c, k, kind, row
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          if (bench%set%friction%n == 0) cycle
          do k = 1, n_item

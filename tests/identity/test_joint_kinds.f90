@@ -11,7 +11,7 @@ module test_joint_kinds
    use fixed_random, only: random_t, seed_of
    use generic_item, only: fill_item
    use item, only: item_t
-   use joint_bench, only: before, bench_t, evaluate_after, far, make_bench, n_body, n_item, now, span_between, &
+   use joint_bench, only: before, bench_t, evaluate_after, far, is_planar, make_bench, n_body, n_item, now, span_between, &
       times_jacobian
    use joint_distance, only: joint_distance_t
    use joint_registry, only: n_joint_kinds, new_joint_set
@@ -61,6 +61,7 @@ contains
       integer :: body, c, k, kind, row, seed
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             allocate (phi(4, bench%rows%n))
@@ -95,6 +96,7 @@ contains
       integer :: k, kind, row, seed
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             allocate (phi(4, bench%rows%n))
@@ -119,6 +121,7 @@ contains
       integer :: k, kind, row, seed
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             allocate (rate(4, bench%rows%n))
@@ -143,6 +146,7 @@ contains
       integer :: item, kind, row
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          associate (rows => bench%rows)
             rows%phi = mark
@@ -175,6 +179,7 @@ contains
       integer :: kind, seed
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             call evaluate_after(bench, 0.0_wp)
@@ -193,6 +198,7 @@ contains
       integer :: first, k, kind, last, row, seed
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             first = before + 1
@@ -237,6 +243,7 @@ contains
       integer :: kind, seed
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, small)
             call make_bench(kind, seed, large, 2.0_wp)
@@ -260,6 +267,7 @@ contains
       integer :: item, k, kind
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          do item = 1, n_item
             do k = 1, size(six_places)
@@ -286,6 +294,7 @@ contains
 
       n_kind = 0
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          call evaluate_after(bench, 0.0_wp)
          call bench%set%set_start(bench%motion)
@@ -315,6 +324,7 @@ contains
 
       row = before + 2
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          ! item 2: ground and body 1
          bench%q(1:2, 1) = 0.0_wp
@@ -339,6 +349,7 @@ contains
       integer :: k, kind
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 2, bench)
          call evaluate_after(bench, 0.0_wp)
          select type (set => bench%set)
@@ -366,6 +377,7 @@ contains
       integer :: kind, place
 
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          place = 0
          row = 0.0_wp
@@ -390,6 +402,7 @@ contains
 
       coordinates = new_planar_coordinates()
       do kind = 1, n_joint_kinds
+         if (.not. is_planar(kind)) cycle
          call make_bench(kind, 1, bench)
          call evaluate_after(bench, 0.0_wp)
          info = bench%set%info()

@@ -427,10 +427,11 @@ contains
 
       type(energy_t) :: energy(2)
       type(keeper_t) :: keeper(2)
-      type(loaded_t) :: loaded(2)
+      type(loaded_t), allocatable :: loaded(:)
       type(summary_t) :: summary(2)
       integer :: k
 
+      allocate (loaded(2))
       do k = 1, 2
          call load_text("deck = 1"//nl//with_word(arm//"[analysis.dynamic]"//nl//"end = 1 s"//nl//"tolerance = 1e-11", words(k)) &
                         //nl, loaded(k), error)

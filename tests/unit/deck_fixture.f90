@@ -75,7 +75,7 @@ contains
 
       call make_kinds(kinds)
       call read_deck(path, overrides, reading%deck, diagnostics)
-      call check_sections(reading%deck, kinds, diagnostics)
+      call check_sections(reading%deck, kinds, .false., diagnostics)
       call read_settings(reading%deck, kinds(1), reading%scene, is_present, diagnostics)
       call read_items(reading%deck, kinds(2), reading%bodies, diagnostics)
       call read_items(reading%deck, kinds(3), reading%drivers, diagnostics)

@@ -265,10 +265,11 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(keeper_t) :: keeper(2)
-      type(loaded_t) :: loaded(2)
+      type(loaded_t), allocatable :: loaded(:)
       type(summary_t) :: summary(2)
       integer :: k
 
+      allocate (loaded(2))
       do k = 1, 2
          call load_text(four_bar//"end = 2 s"//nl//"stabilise = none"//nl//"method = rk4"//nl//"step = 1 ms"//nl, loaded(k), error)
          if (allocated(error)) return
@@ -287,10 +288,11 @@ contains
 
       character(*), parameter :: ways(2) = [character(50) :: "augmented_lagrangian omega=25s^-1 mu=0.8", &
                                             "baumgarte alpha=20s^-1 beta=25s^-1"]
-      type(loaded_t) :: loaded(2)
+      type(loaded_t), allocatable :: loaded(:)
       type(summary_t) :: summary(2)
       integer :: k
 
+      allocate (loaded(2))
       do k = 1, 2
          call run_four_bar("method = rk4"//nl//"step = 1 ms"//nl//"stabilise = "//trim(ways(k)), loaded(k), summary(k), error)
          if (allocated(error)) return
@@ -405,10 +407,11 @@ contains
       subroutine check_restart(setting)
          character(*), intent(in) :: setting  !! after `stabilise =`
 
-         type(loaded_t) :: runs(2)
+         type(loaded_t), allocatable :: runs(:)
          real(wp), allocatable :: row(:)
          integer :: k, place, status
 
+         allocate (runs(2))
          if (allocated(error)) return
          do k = 1, 2
             call load_text(four_bar//"end = 1 s"//nl//"stabilise = "//setting//nl, runs(k), error)

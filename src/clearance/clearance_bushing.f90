@@ -1,0 +1,156 @@
+!> A revolute joint with clearance in space: a pin of body j loose in a bushing of body i, with a contact at each of its two bases.
+!>
+!> Equations: `socket_contacts`; forces: `point_contacts`. The bases are half of `journal_length` either side of the pin's point,
+!> along its axis; the bushing's ends half of `length` either side of its point. With `ends = clipped` a base beyond an end of the
+!> bushing counts where the pin passes the end; with `endless` the bushing has none, as in the book. Left out, axes are those of
+!> `spatial_joint`. Each base has half of the stiffness, so that both together carry what the planar pin does (`half`); `full` is
+!> the book's: shorter and harder impacts.
+!>
+!> Signs: the reported force is that on the pin, its moment is about the pin's point; the eccentricity is the pin's point from the
+!> bushing's, world frame. Source: Flores et al. (2008), section 6.3, corrected: see `socket_contacts`.
+!> Limits: those of `socket_contacts`; the pin is held along its axis by nothing.
+module clearance_bushing
+   use clearance_spherical, only: add_socket_columns, check_socket, describe_socket
+   use bodies, only: material_t
+   use item, only: item_t
+   use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
+   use kinds, only: wp
+   use motion, only: motion_t
+   use point_contacts, only: add_contact_channels
+   use socket_contacts, only: socket_contacts_t
+   use surfaces, only: surfaces_t
+   use text, only: text_t
+   implicit none (type, external)
+   private
+   public :: clearance_bushing_t
+
+   !> Pins in bushings.
+   type, extends(socket_contacts_t) :: clearance_bushing_t
+   contains
+      procedure, nopass :: info => bushing_info
+      procedure, nopass :: contact_labels => bushing_labels
+      procedure, nopass :: ideal_kind => bushing_ideal_kind
+      procedure :: prepare => bushing_prepare
+      procedure :: set_start => bushing_set_start
+      procedure, nopass :: mistake => check_socket
+      procedure, nopass :: describe => bushing_describe
+      procedure :: span_of => bushing_span_of
+   end type clearance_bushing_t
+
+contains
+
+   !> What the geometry says of itself.
+   function bushing_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "clearance.revolute"
+      info%space = in_space
+      info%help = "a pin loose in a bushing, with a contact at each of its two bases"
+      info%source = "Flores et al. (2008), section 6.3"
+      call add_reference(info, "bearing", "points", "middle of the bushing, on its axis")
+      call add_reference(info, "journal", "points", "middle of the pin, on its axis")
+      call add_direction(info, "axis_i", "axis of the bushing, in the frame of its body", default='"0 0 1"')
+      call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; left out: as the deck puts the bodies", &
+                         default="")
+      call add_socket_columns(info, "bushing", "pin")
+      call add_number(info, "length", dim_length, "length of the bushing along its axis", lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "journal_length", dim_length, "distance of the pin's bases; left out: the length of the bushing", &
+                      default="", lower=0.0_wp, open_lower=.true.)
+      call add_word(info, "ends", "whether the bushing ends, or the pin touches it beyond its ends too", default="clipped", &
+                    choices="clipped endless")
+      call add_word(info, "stiffness", "of each base: half that of the pin, or all of it as in the book", default="half", &
+                    choices="half full")
+      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from that of the bushing")
+      call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases")
+      call add_channel(info, "moment", "N.m", "world", 2, "moment on the pin about its middle")
+      call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of pin and bushing")
+      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin from that of the bushing, along its axis")
+      call add_channel(info, "engagement", "m", "joint", 1, "length of the pin that is in the bushing, along its axis")
+      call add_contact_channels(info, "pin", "its sliding velocity")
+   end function bushing_info
+
+   !> A contact at each base.
+   function bushing_labels() result(labels)
+      type(text_t), allocatable :: labels(:)  !! (2) names
+
+      allocate (labels(2))
+      labels(1)%s = "a"
+      labels(2)%s = "b"
+   end function bushing_labels
+
+   !> Without clearance a revolute joint.
+   function bushing_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! name of the kind of joint
+
+      kind = "joint.revolute"
+   end function bushing_ideal_kind
+
+   !> Radii, lengths and axes of each item, these as in the deck.
+   subroutine bushing_prepare(self, items)
+      class(clearance_bushing_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)               !! (n) rows of the table
+
+      integer :: k
+
+      self%traits%is_round = .true.
+      call self%make_room()
+      allocate (self%socket(self%n))
+      do k = 1, self%n
+         associate (item => items(k), socket => self%socket(k))
+            self%items%clearance(k) = item%number("clearance")
+            socket%radius_i = item%number("bearing_radius")
+            socket%clearance = self%items%clearance(k)
+            socket%radius_j = socket%radius_i - self%items%clearance(k)
+            socket%has_axis = .true.
+            socket%has_ends = item%word("ends") == "clipped"
+            socket%half_i = 0.5_wp*item%number("length")
+            socket%half_j = socket%half_i
+            if (item%is_given("journal_length")) socket%half_j = 0.5_wp*item%number("journal_length")
+            socket%axis_i = item%direction("axis_i")
+            socket%axis_j = item%direction("axis_j")
+         end associate
+      end do
+   end subroutine bushing_prepare
+
+   !> Axes in the frames of the bodies.
+   subroutine bushing_set_start(self, motion)
+      class(clearance_bushing_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion               !! bodies where the deck puts them
+
+      integer :: k
+
+      do k = 1, self%n
+         associate (socket => self%socket(k), i => self%items%body(1, k), j => self%items%body(2, k), own => motion%spatial%own)
+            socket%axis_i = matmul(socket%axis_i/norm2(socket%axis_i), own(:, :, i))
+            if (any(abs(socket%axis_j) > 0.0_wp)) then
+               socket%axis_j = matmul(socket%axis_j/norm2(socket%axis_j), own(:, :, j))
+            else
+               socket%axis_j = matmul(matmul(motion%rot(:, :, i), socket%axis_i), motion%rot(:, :, j))
+            end if
+         end associate
+      end do
+   end subroutine bushing_set_start
+
+   !> A pin in a hole, half as long at each base.
+   pure subroutine bushing_describe(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      call describe_socket(item, materials, pair)
+      pair%length = item%number("length")
+   end subroutine bushing_describe
+
+   !> How far what takes part in a contact is from the centres of mass of both bodies.
+   pure function bushing_span_of(self, contact) result(span)
+      class(clearance_bushing_t), intent(in) :: self  !! the set
+      integer, intent(in) :: contact                  !! contact of the set
+      real(wp) :: span(2)                             !! (2) in bodies i and j [m]
+
+      associate (item => self%item_of(contact))
+         span = [sum(abs(self%items%s_i(:, item))) + self%socket(item)%half_i, &
+                 sum(abs(self%items%s_j(:, item))) + self%socket(item)%half_j + self%items%clearance(item)]
+      end associate
+   end function bushing_span_of
+
+end module clearance_bushing

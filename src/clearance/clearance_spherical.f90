@@ -1,0 +1,133 @@
+!> A spherical joint with clearance: a ball of body j loose in a socket of body i, in space.
+!>
+!> Equations: `socket_contacts`; forces: `point_contacts`. The law is fitted to an internal contact of radii R and R - c.
+!>
+!> Signs: the reported force is that on the ball, its moment is about the ball's centre; the eccentricity is the ball's centre from
+!> the socket's, world frame. Source: Flores et al. (2008), section 6.2, corrected: see `socket_contacts`.
+!> Limits: the socket is a whole sphere: nothing keeps the ball from leaving through an opening.
+module clearance_spherical
+   use bodies, only: material_t
+   use item, only: item_t, place_of
+   use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
+   use kinds, only: wp
+   use point_contacts, only: add_contact_channels
+   use socket_contacts, only: socket_contacts_t
+   use surfaces, only: set_materials, shape_internal, surfaces_t
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: add_socket_columns, check_socket, clearance_spherical_t, describe_socket
+
+   !> Balls in sockets.
+   type, extends(socket_contacts_t) :: clearance_spherical_t
+   contains
+      procedure, nopass :: info => spherical_info
+      procedure, nopass :: ideal_kind => spherical_ideal_kind
+      procedure :: prepare => spherical_prepare
+      procedure, nopass :: mistake => check_socket
+      procedure, nopass :: describe => describe_socket
+   end type clearance_spherical_t
+
+contains
+
+   !> What the geometry says of itself.
+   function spherical_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "clearance.spherical"
+      info%space = in_space
+      info%help = "a ball loose in a socket"
+      info%source = "Flores et al. (2008), section 6.2"
+      call add_reference(info, "bearing", "points", "centre of the socket")
+      call add_reference(info, "journal", "points", "centre of the ball")
+      call add_socket_columns(info, "socket", "ball")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the ball from that of the socket")
+      call add_channel(info, "force", "N", "world", 2, "force on the ball")
+      call add_channel(info, "moment", "N.m", "world", 2, "moment on the ball about its centre")
+      call add_contact_channels(info, "ball", "its sliding velocity")
+   end function spherical_info
+
+   !> Columns of radii, material, level and laws.
+   subroutine add_socket_columns(info, hole, pin)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+      character(*), intent(in) :: hole          !! what is outside
+      character(*), intent(in) :: pin           !! what is inside
+
+      call add_number(info, "bearing_radius", dim_length, "radius of the "//hole, lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "clearance", dim_length, "radial clearance, radius of the "//hole//" less that of the "//pin, &
+                      lower=0.0_wp, open_lower=.true.)
+      call add_reference(info, "material", "material", "material of "//hole//" and "//pin, default="none")
+      call add_reference(info, "journal_material", "material", "material of the "//pin//", if another", default="none")
+      call add_word(info, "level", "fidelity: an ideal joint, or dry contact", default="clearance", choices="ideal clearance")
+      call add_reference(info, "law", "contact.", "normal law of dry contact, a row of a contact table", default="none")
+      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
+   end subroutine add_socket_columns
+
+   !> Without clearance a spherical joint.
+   function spherical_ideal_kind() result(kind)
+      character(:), allocatable :: kind  !! name of the kind of joint
+
+      kind = "joint.spherical"
+   end function spherical_ideal_kind
+
+   !> Radii of each item.
+   subroutine spherical_prepare(self, items)
+      class(clearance_spherical_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)                 !! (n) rows of the table
+
+      integer :: k
+
+      self%traits%is_round = .true.
+      call self%make_room()
+      allocate (self%socket(self%n))
+      do k = 1, self%n
+         self%items%clearance(k) = items(k)%number("clearance")
+         self%socket(k)%radius_i = items(k)%number("bearing_radius")
+         self%socket(k)%clearance = self%items%clearance(k)
+         self%socket(k)%radius_j = self%socket(k)%radius_i - self%items%clearance(k)
+      end do
+   end subroutine spherical_prepare
+
+   !> A ball in a socket, or a pin in a bushing.
+   pure subroutine describe_socket(item, materials, pair)
+      type(item_t), intent(in) :: item              !! the row
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      type(surfaces_t), intent(out) :: pair         !! its surfaces
+
+      integer :: journal_material, material
+
+      pair%shape = shape_internal
+      pair%radius_i = item%number("bearing_radius")
+      pair%clearance = item%number("clearance")
+      pair%radius_j = pair%radius_i - pair%clearance
+      material = item%reference("material")
+      journal_material = item%reference("journal_material")
+      if (journal_material == 0) journal_material = material
+      if (material == 0) return
+      call set_materials(pair, materials(material), materials(journal_material))
+   end subroutine describe_socket
+
+   !> The inner part must have a radius, and a loose joint a law.
+   subroutine check_socket(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! column at fault, 0: all is well
+      character(:), allocatable, intent(out) :: message      !! what is wrong
+      character(:), allocatable, intent(out) :: help         !! what would be right
+
+      column = 0
+      message = ""
+      help = ""
+      associate (radius => item%number("bearing_radius"), clearance => item%number("clearance"))
+         if (.not. clearance < radius) then
+            column = place_of(item, "clearance")
+            message = "clearance must be less than bearing_radius"
+            help = "the inner radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
+         else if (item%word("level") == "clearance" .and. item%reference("law") == 0) then
+            column = place_of(item, "law")
+            message = "a joint with dry contact needs a normal law"
+            help = "name a row of a contact table, or say level = ideal"
+         end if
+      end associate
+   end subroutine check_socket
+
+end module clearance_spherical

@@ -1,0 +1,341 @@
+!> A ball of body j loose in a socket of body i, or a pin with round bases loose in a bushing of it, in space.
+!>
+!> With rho = r_j^P - r_i^P the place of a ball, or of a base of the pin, as body i sees it, and u the bushing's axis:
+!>
+!> ball   e = rho                  base   e = rho - (rho . u) u,   zeta = rho . u
+!> n = e/|e|,   delta = |e| - c,   rate = n . w,   w = rho' - omega_i x rho  (the velocity that body i sees)
+!> delta'' = n . a + (|w_e|^2 - rate^2)/|e|,   a = rho'' - alpha_i x rho - omega_i x (omega_i x rho) - 2 omega_i x w
+!>
+!> with w_e the part of w that changes e. A pin that reaches beyond an end of the bushing touches it there: its station on the
+!> pin's axis u_j is then the one with zeta at the end, which moves along the pin with -(w . u)/(u_j . u). So that the force does
+!> the work that it stores, its direction is n - (n . u_j)/(u . u_j) u there, across the pin.
+!>
+!> C = r_j^P + (R_j - delta/2) n is the point of both bodies where the forces act: f_j = -F_N n + F_T t. t is the direction of
+!> sliding, v_T = v - (v . n) n with v the velocity of the material points of j against those of i at C.
+!> With e = 0 the normal is taken along w.
+!>
+!> Source: Flores et al. (2008), sections 6.2 and 6.3, corrected: velocities are those of material points, (6.22), (6.23), (6.62),
+!> (6.63); the normal is one of the world, (6.66); moments are turned to the bodies' axes, (6.29), (6.69); both forces act
+!> at one point.
+!> Limits: what the rim of a tilted base adds to the penetration, R_j (1 - cos of the tilt), is left out, and so is any contact
+!> of the pin's end faces; a pin that has left the bushing altogether touches nothing, see `engagement`.
+module socket_contacts
+   use clearance_set, only: loss_contact, loss_friction
+   use contact_grip, only: tangent_t
+   use contact_laws, only: press_in_course
+   use contact_memory, only: contact_memory_t
+   use kinds, only: wp
+   use motion, only: cross, loads_t, motion_t
+   use normal_law, only: n_law_parameter, normal_law_t
+   use point_contact, only: point_contact_t
+   use point_contacts, only: point_contacts_t
+   implicit none (type, external)
+   private
+   public :: socket_contacts_t, socket_t
+
+   !> The surfaces of one joint.
+   type :: socket_t
+      real(wp) :: radius_i = 0.0_wp               !! radius of socket or bushing [m]
+      real(wp) :: radius_j = 0.0_wp               !! radius of ball or pin [m]
+      real(wp) :: clearance = 0.0_wp              !! radius_i less radius_j [m]
+      logical :: has_axis = .false.               !! a bushing, not a socket
+      logical :: has_ends = .false.               !! whose ends count
+      real(wp) :: half_i = 0.0_wp                 !! half the length of the bushing [m]
+      real(wp) :: half_j = 0.0_wp                 !! half the distance of the pin's bases [m]
+      real(wp) :: axis_i(3) = 0.0_wp              !! (3) unit axis of the bushing, frame of body i [1]
+      real(wp) :: axis_j(3) = 0.0_wp              !! (3) unit axis of the pin, frame of body j [1]
+   end type socket_t
+
+   !> Where a ball or base is, and how it moves, as body i sees it; world frame.
+   type :: station_t
+      real(wp) :: arm_j(3) = 0.0_wp    !! (3) the station from the centre of mass of j [m]
+      real(wp) :: rho(3) = 0.0_wp      !! (3) the station from the point of i [m]
+      real(wp) :: w(3) = 0.0_wp        !! (3) velocity of the material point there, as body i sees it [m/s]
+      real(wp) :: u(3) = 0.0_wp        !! (3) axis of the bushing, zero: a ball [1]
+      real(wp) :: pin(3) = 0.0_wp      !! (3) axis of the pin, zero where the station is fixed in it [1]
+      real(wp) :: e(3) = 0.0_wp        !! (3) eccentricity [m]
+      logical :: is_there = .true.     !! false: the pin has left the bushing
+   end type station_t
+
+   !> Balls in sockets or pins in bushings. `prepare` of a geometry sets their surfaces.
+   type, abstract, extends(point_contacts_t) :: socket_contacts_t
+      type(socket_t), allocatable :: socket(:)         !! (n) the surfaces
+   contains
+      procedure :: evaluate => socket_evaluate
+      procedure :: measure => socket_measure
+      procedure :: penetration_acceleration => socket_penetration_acceleration
+      procedure :: turning => socket_turning
+      procedure :: lie => socket_lie
+      procedure, nopass :: force_on_j => socket_force_on_j
+      procedure :: report_item => socket_report_item
+   end type socket_contacts_t
+
+contains
+
+   !> Add the contact forces of the touching contacts.
+   subroutine socket_evaluate(self, motion, loads, losses)
+      class(socket_contacts_t), intent(inout) :: self       !! the set
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      type(loads_t), intent(inout) :: loads                 !! loads on the bodies
+      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
+
+      include "point_way.inc"
+   end subroutine socket_evaluate
+
+   include "press.inc"
+   include "spatial_loads.inc"
+
+   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
+   subroutine measure_touching(self, motion)
+      class(socket_contacts_t), intent(inout) :: self  !! the set; kinematics are set
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+
+      integer :: k
+
+      do k = 1, self%n_contact
+         if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) cycle
+         call measure_one(self, k, allocated(self%laws%friction), motion, self%work%contacts(k))
+      end do
+   end subroutine measure_touching
+
+   !> Normal, penetration, its rate and arms of a contact; its sliding velocity where it is asked for.
+   pure subroutine socket_measure(self, k, with_sliding, motion, contact)
+      class(socket_contacts_t), intent(in) :: self     !! the set
+      integer, intent(in) :: k                         !! contact
+      logical, intent(in) :: with_sliding              !! its sliding velocity too
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      type(point_contact_t), intent(inout) :: contact  !! its kinematics
+
+      call measure_one(self, k, with_sliding, motion, contact)
+   end subroutine socket_measure
+
+   !> The same, not for overriding.
+   pure subroutine measure_one(self, k, with_sliding, motion, contact)
+      class(socket_contacts_t), intent(in) :: self     !! the set
+      integer, intent(in) :: k                         !! contact
+      logical, intent(in) :: with_sliding              !! its sliding velocity too
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      type(point_contact_t), intent(inout) :: contact  !! its kinematics
+
+      type(station_t) :: at
+      real(wp) :: distance, normal(3), reach(3), slip(3), speed
+      integer :: i, item, j
+
+      item = (k - 1)/self%n_contact_item + 1
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      associate (socket => self%socket(item))
+         at = station_of(socket, k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), i, j, motion)
+         distance = norm2(at%e)
+         normal = direction_of(at, distance)
+         contact%delta = distance - socket%clearance
+         if (.not. at%is_there) contact%delta = -socket%clearance
+         contact%normal = normal
+         if (any(abs(at%pin) > 0.0_wp)) then
+            contact%normal = normal - dot_product(normal, at%pin)/dot_product(at%u, at%pin)*at%u
+         end if
+         contact%rate = dot_product(contact%normal, at%w)
+         reach = (socket%radius_j - 0.5_wp*contact%delta)*contact%normal
+         contact%arm_j = at%arm_j + reach
+         contact%arm_i = motion%r(:, j) + contact%arm_j - motion%r(:, i)
+      end associate
+      if (.not. with_sliding) return
+      slip = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
+      slip = slip - dot_product(slip, contact%normal)/dot_product(contact%normal, contact%normal)*contact%normal
+      speed = norm2(slip)
+      contact%v_t = speed
+      contact%v_t_work = speed
+      contact%tangent = 0.0_wp
+      if (speed > 0.0_wp) contact%tangent = slip/speed
+   end subroutine measure_one
+
+   !> Where a ball or base is.
+   pure function station_of(socket, base, s_i, s_j, i, j, motion) result(at)
+      type(socket_t), intent(in) :: socket   !! the surfaces
+      integer, intent(in) :: base            !! of a bushing: 1 or 2, of the two ends of the pin
+      real(wp), intent(in) :: s_i(3)         !! (3) centre of socket or bushing, frame of body i [m]
+      real(wp), intent(in) :: s_j(3)         !! (3) centre of ball or pin, frame of body j [m]
+      integer, intent(in) :: i               !! body i
+      integer, intent(in) :: j               !! body j
+      type(motion_t), intent(in) :: motion   !! positions and velocities
+      type(station_t) :: at                  !! the station
+
+      real(wp) :: arm_i(3), cosine, place, side, zeta
+
+      arm_i = turned(motion, i, s_i)
+      at%arm_j = turned(motion, j, s_j)
+      if (socket%has_axis) then
+         side = real(2*base - 3, wp)
+         place = side*socket%half_j
+         at%u = turned(motion, i, socket%axis_i)
+         at%pin = turned(motion, j, socket%axis_j)
+         if (socket%has_ends) then
+            ! stations of the pin's axis in the bushing: zeta(place) = zeta + place u . u_j, between the ends
+            cosine = dot_product(at%u, at%pin)
+            zeta = dot_product(motion%r(:, j) + at%arm_j - motion%r(:, i) - arm_i, at%u)
+            at%is_there = abs(zeta) < socket%half_i + socket%half_j*abs(cosine)
+            if (abs(zeta + place*cosine) > socket%half_i .and. at%is_there) then
+               place = (sign(socket%half_i, zeta + place*cosine) - zeta)/cosine
+               at%arm_j = at%arm_j + place*at%pin
+            else
+               at%arm_j = at%arm_j + place*at%pin
+               at%pin = 0.0_wp
+            end if
+         else
+            at%arm_j = at%arm_j + place*at%pin
+            at%pin = 0.0_wp
+         end if
+      end if
+      at%rho = motion%r(:, j) + at%arm_j - motion%r(:, i) - arm_i
+      at%w = motion%v(:, j) + cross(motion%omega(:, j), at%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), arm_i + at%rho)
+      at%e = at%rho - dot_product(at%rho, at%u)*at%u
+   end function station_of
+
+   !> Direction of the eccentricity; of none, that of the velocity, or any across the axis.
+   pure function direction_of(at, distance) result(normal)
+      type(station_t), intent(in) :: at      !! the station
+      real(wp), intent(in) :: distance       !! its eccentricity [m]
+      real(wp) :: normal(3)                  !! (3) world frame [1]
+
+      if (distance > tiny(1.0_wp)) then
+         normal = at%e/distance
+         return
+      end if
+      normal = at%w - dot_product(at%w, at%u)*at%u
+      if (norm2(normal) > tiny(1.0_wp)) then
+         normal = normal/norm2(normal)
+      else if (any(abs(at%u) > 0.0_wp)) then
+         normal = 0.0_wp
+         normal(minloc(abs(at%u), dim=1)) = 1.0_wp
+         normal = normal - dot_product(normal, at%u)*at%u
+         normal = normal/norm2(normal)
+      else
+         normal = [1.0_wp, 0.0_wp, 0.0_wp]
+      end if
+   end function direction_of
+
+   !> A vector of a body in the world.
+   pure function turned(motion, body, s) result(a)
+      type(motion_t), intent(in) :: motion   !! positions
+      integer, intent(in) :: body            !! the body
+      real(wp), intent(in) :: s(3)           !! (3) body's frame [any]
+      real(wp) :: a(3)                       !! (3) world frame [any]
+
+      a = motion%rot(:, 1, body)*s(1) + motion%rot(:, 2, body)*s(2) + motion%rot(:, 3, body)*s(3)
+   end function turned
+
+   !> Second derivative of a penetration by time.
+   pure real(wp) function socket_penetration_acceleration(self, k, motion, contact) result(acceleration)
+      class(socket_contacts_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                       !! contact
+      type(motion_t), intent(in) :: motion           !! positions, velocities and accelerations
+      type(point_contact_t), intent(in) :: contact   !! its kinematics
+
+      type(station_t) :: at
+      real(wp) :: a(3), along, arm_i(3), distance, glide, pin_rate(3), to_i(3), w(3), w_e(3)
+      integer :: i, item, j
+
+      item = self%item_of(k)
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      at = station_of(self%socket(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), &
+                      i, j, motion)
+      associate (w_i => motion%omega(:, i), w_j => motion%omega(:, j))
+         to_i = motion%r(:, j) + at%arm_j - motion%r(:, i)
+         arm_i = to_i - at%rho
+         a = motion%a(:, j) + cross(motion%alpha(:, j), at%arm_j) + cross(w_j, cross(w_j, at%arm_j)) - motion%a(:, i) &
+             - cross(motion%alpha(:, i), to_i) - cross(w_i, cross(w_i, to_i)) - 2.0_wp*cross(w_i, at%w)
+         w = at%w
+         if (any(abs(at%pin) > 0.0_wp)) then
+            ! the station glides along the pin so that it stays at the end: w + glide u_j, and twice the change of u_j
+            along = dot_product(at%u, at%pin)
+            glide = -dot_product(at%u, at%w)/along
+            pin_rate = cross(w_j - w_i, at%pin)
+            w = at%w + glide*at%pin
+            a = a + 2.0_wp*glide*pin_rate
+            a = a - dot_product(at%u, a)/along*at%pin
+         end if
+      end associate
+      distance = max(norm2(at%e), tiny(1.0_wp))
+      w_e = w - dot_product(w, at%u)*at%u
+      acceleration = dot_product(at%e/distance, a) + (dot_product(w_e, w_e) - contact%rate**2)/distance
+   end function socket_penetration_acceleration
+
+   !> No law of space remembers how a contact lies.
+   pure subroutine socket_turning(self, k, motion, contact, turn, speed_i, speed_j)
+      class(socket_contacts_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                       !! contact
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+      type(point_contact_t), intent(in) :: contact   !! its kinematics
+      real(wp), intent(out) :: turn                  !! not set
+      real(wp), intent(out) :: speed_i               !! not set
+      real(wp), intent(out) :: speed_j               !! not set
+
+      turn = 0.0_wp
+      speed_i = 0.0_wp
+      speed_j = 0.0_wp
+      error stop "internal mistake: friction with a memory in space"
+   end subroutine socket_turning
+
+   !> No law of space remembers how a contact lies.
+   subroutine socket_lie(self, k, motion, tangent)
+      class(socket_contacts_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                       !! contact
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+      type(tangent_t), intent(inout) :: tangent      !! left alone
+
+      error stop "internal mistake: friction with a memory in space"
+   end subroutine socket_lie
+
+   !> Force of a contact on body j.
+   pure function socket_force_on_j(contact, f_n, f_t) result(f)
+      type(point_contact_t), intent(in) :: contact  !! its kinematics
+      real(wp), intent(in) :: f_n                   !! normal force [N]
+      real(wp), intent(in) :: f_t                   !! friction force on j along t [N]
+      real(wp) :: f(3)                              !! (3) world frame [N]
+
+      f = -f_n*contact%normal + f_t*contact%tangent
+   end function socket_force_on_j
+
+   !> Eccentricity of centres, tilt, and how much of the pin is in the bushing.
+   subroutine socket_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+      class(socket_contacts_t), intent(in) :: self        !! the set
+      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: item                         !! the item
+      type(motion_t), intent(in) :: motion                !! positions and velocities
+      type(point_contact_t), intent(in) :: contacts(:)    !! (contacts of an item) their kinematics
+      real(wp), intent(in) :: f_n(:)                      !! (contacts of an item) normal forces [N]
+      real(wp), intent(in) :: f_t(:)                      !! (contacts of an item) friction forces on j along t [N]
+      real(wp), intent(inout) :: value(:)                 !! (components) the value [any]
+
+      real(wp) :: cosine, d(3), pin(3), u(3), zeta
+      integer :: c
+
+      associate (socket => self%socket(item), i => self%items%body(1, item), j => self%items%body(2, item))
+         d = motion%r(:, j) + turned(motion, j, self%items%s_j(:, item)) - motion%r(:, i) &
+             - turned(motion, i, self%items%s_i(:, item))
+         u = turned(motion, i, socket%axis_i)
+         pin = turned(motion, j, socket%axis_j)
+         cosine = dot_product(u, pin)
+         zeta = dot_product(d, u)
+         select case (channel)
+         case ("eccentricity")
+            value = d
+         case ("moment")
+            value = 0.0_wp
+            do c = 1, size(contacts)
+               value = value + cross(contacts(c)%arm_j - turned(motion, j, self%items%s_j(:, item)), &
+                                     self%force_on_j(contacts(c), f_n(c), f_t(c)))
+            end do
+         case ("tilt")
+            value = atan2(norm2(cross(u, pin)), abs(cosine))
+         case ("axial_displacement")
+            value = zeta
+         case ("engagement")
+            cosine = socket%half_j*abs(cosine)
+            value = max(min(cosine, socket%half_i - zeta) - max(-cosine, -socket%half_i - zeta), 0.0_wp)
+         end select
+      end associate
+   end subroutine socket_report_item
+
+end module socket_contacts

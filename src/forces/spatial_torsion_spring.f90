@@ -1,0 +1,267 @@
+!> Torsional spring, damper and actuator in space, about an axis of body i and one of body j that a joint holds parallel.
+!>
+!> The angle theta of j against i (`spatial_rows`) has the rate N_i . omega_i + N_j . omega_j. With the moment f of `spring_law`
+!> the moments on the bodies are -f N_i and -f N_j, so that the power balance holds when the axes are not quite parallel.
+!> Turns are counted: theta is taken next to the one that the last step ended with (`follow`), less than half a turn away.
+!>
+!> Signs: the moment on body i about the axis is positive if it takes theta back towards smaller values.
+!> Source: Nikravesh (1988), section 4.3; Flores et al. (2008), section 2.3. Limits: a step is shorter than half a turn.
+module spatial_torsion_spring
+   use bodies, only: points_t
+   use force_set, only: force_set_t
+   use item, only: item_t
+   use kind_info, only: add_channel, add_direction, add_expression, add_number, add_reference, dim_angle, dim_angular_damping, &
+      dim_angular_stiffness, dim_moment, in_space, kind_info_t
+   use kinds, only: wp
+   use memory, only: get, put
+   use motion, only: loads_t, motion_t
+   use rotations, only: axes_across
+   use spatial_rows, only: angle_between, scalar_t, wrapped
+   use spring_law, only: spring_law_t
+   implicit none (type, external)
+   private
+   public :: spatial_torsion_spring_t
+
+   !> All torsional springs of a spatial scene.
+   type, extends(force_set_t) :: spatial_torsion_spring_t
+      integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
+      type(spring_law_t), allocatable :: law(:)     !! (n) moment over angle and its rate, and actuator
+      real(wp), allocatable :: axis(:, :, :)        !! (3, 2, n) axes of i and j as in the deck; zero: left out [1]
+      real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) frames of the axes, frames of the bodies [1]
+      real(wp), allocatable :: near(:)              !! (n) angle at the end of the last step [rad]
+   contains
+      procedure, nopass :: info => torsion_info
+      procedure :: prepare => torsion_prepare
+      procedure :: set_start => torsion_set_start
+      procedure :: follow => torsion_follow
+      procedure :: evaluate => torsion_evaluate
+      procedure :: elastic_energy => torsion_elastic_energy
+      procedure :: lost_power => torsion_lost_power
+      procedure :: report => torsion_report
+      procedure :: bodies_of => torsion_bodies
+      procedure :: memory_size => torsion_memory_size
+      procedure :: save => torsion_save
+      procedure :: load => torsion_load
+   end type spatial_torsion_spring_t
+
+contains
+
+   !> What the kind says of itself.
+   function torsion_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "force.torsion_spring"
+      info%space = in_space
+      info%help = "torsional spring, damper and actuator between two bodies, about an axis that a joint holds parallel in both"
+      info%source = "Nikravesh (1988), section 4.3"
+      info%counts_turns = .true.
+      call add_reference(info, "i", "bodies", "first body")
+      call add_reference(info, "j", "bodies", "second body")
+      call add_direction(info, "axis_i", "axis, in the frame of body i", default='"0 0 1"')
+      call add_direction(info, "axis_j", "axis, in the frame of body j; left out: as the deck puts the bodies", default="")
+      call add_number(info, "stiffness", dim_angular_stiffness, "stiffness", default="0 N.m/rad", lower=0.0_wp)
+      call add_number(info, "damping", dim_angular_damping, "coefficient of the damper", default="0 N.m.s/rad", lower=0.0_wp)
+      call add_number(info, "free_angle", dim_angle, "angle of j relative to i at which the stiffness gives no moment", &
+                      default="0 rad")
+      call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
+      call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
+      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
+                          default="0 N.m", variable="x", argument=[dim_angle])
+      call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis")
+      call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted")
+      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "rate of the angle")
+      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together")
+   end function torsion_info
+
+   !> Make the set.
+   subroutine torsion_prepare(self, items, points)
+      class(spatial_torsion_spring_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)                    !! (n) rows of the table
+      type(points_t), intent(in) :: points                    !! all points
+
+      integer :: k
+
+      self%n = size(items)
+      allocate (self%names(self%n), self%body(2, self%n), self%law(self%n))
+      allocate (self%axis(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
+      do k = 1, self%n
+         associate (item => items(k))
+            self%names(k)%s = items(k)%name
+            self%body(:, k) = [item%reference("i"), item%reference("j")]
+            self%axis(:, 1, k) = item%direction("axis_i")
+            self%axis(:, 2, k) = item%direction("axis_j")
+            call self%law(k)%prepare(item, "free_angle")
+         end associate
+      end do
+   end subroutine torsion_prepare
+
+   !> Frames of the axes, and the angles that the deck puts the bodies at.
+   subroutine torsion_set_start(self, motion)
+      class(spatial_torsion_spring_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion                    !! bodies where the deck puts them
+
+      real(wp) :: axis(3), own(3, 3, 2)
+      integer :: k, side
+
+      do k = 1, self%n
+         do side = 1, 2
+            associate (body => self%body(side, k))
+               own(:, :, side) = matmul(motion%rot(:, :, body), transpose(motion%spatial%own(:, :, body)))
+               axis = self%axis(:, side, k)
+               if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(matmul(own(:, :, 1), self%axis(:, 1, k)), own(:, :, 2))
+               self%frame(:, :, side, k) = matmul(transpose(motion%spatial%own(:, :, body)), axes_across(axis))
+            end associate
+         end do
+      end do
+      call self%follow(motion)
+   end subroutine torsion_set_start
+
+   !> A step has ended: count on from here.
+   subroutine torsion_follow(self, motion)
+      class(spatial_torsion_spring_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion                    !! positions
+
+      type(scalar_t) :: angle
+      integer :: k
+
+      do k = 1, self%n
+         angle = angle_of(self, k, motion)
+         self%near(k) = angle%value
+      end do
+   end subroutine torsion_follow
+
+   !> Angle of an item, turns counted.
+   pure function angle_of(self, k, motion) result(angle)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                             !! item
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+      type(scalar_t) :: angle                              !! the angle [rad]
+
+      angle = angle_between(motion, self%body(:, k), self%frame(:, :, 1, k), self%frame(:, :, 2, k))
+      angle%value = self%near(k) + wrapped(angle%value - self%near(k))
+   end function angle_of
+
+   !> Add the loads of all items; the power is that of the actuators.
+   subroutine torsion_evaluate(self, t, motion, loads, power)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      real(wp), intent(in) :: t                            !! time [s]
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+      type(loads_t), intent(inout) :: loads                !! loads on the bodies
+      real(wp), intent(inout) :: power                     !! power given to the mechanism [W]
+
+      type(scalar_t) :: angle
+      real(wp) :: actuator, moment
+      integer :: k
+
+      do k = 1, self%n
+         angle = angle_of(self, k, motion)
+         call self%law(k)%force(t, angle%value, angle%rate, moment, actuator)
+         associate (i => self%body(1, k), j => self%body(2, k))
+            loads%moment(:, i) = loads%moment(:, i) - moment*angle%turn_i
+            loads%moment(:, j) = loads%moment(:, j) - moment*angle%turn_j
+         end associate
+         power = power - actuator*angle%rate
+      end do
+   end subroutine torsion_evaluate
+
+   !> Energy stored by stiffness and law.
+   pure real(wp) function torsion_elastic_energy(self, motion) result(energy)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion                 !! positions
+
+      type(scalar_t) :: angle
+      integer :: k
+
+      energy = 0.0_wp
+      do k = 1, self%n
+         angle = angle_of(self, k, motion)
+         call self%law(k)%add_energy(angle%value, energy)
+      end do
+   end function torsion_elastic_energy
+
+   !> Power lost in the dampers.
+   pure real(wp) function torsion_lost_power(self, motion) result(power)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+
+      type(scalar_t) :: angle
+      integer :: k
+
+      power = 0.0_wp
+      do k = 1, self%n
+         angle = angle_of(self, k, motion)
+         power = power + self%law(k)%damping*angle%rate**2
+      end do
+   end function torsion_lost_power
+
+   !> Values of a channel for all items.
+   subroutine torsion_report(self, channel, t, motion, values)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      character(*), intent(in) :: channel                  !! name of the channel
+      real(wp), intent(in) :: t                            !! time [s]
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+      real(wp), intent(inout) :: values(:, :)              !! (components, n) values [N.m, rad, rad/s or W]
+
+      type(scalar_t) :: angle
+      real(wp) :: actuator, moment
+      integer :: k
+
+      do k = 1, self%n
+         angle = angle_of(self, k, motion)
+         call self%law(k)%force(t, angle%value, angle%rate, moment, actuator)
+         select case (channel)
+         case ("moment")
+            values(1, k) = moment
+         case ("angle")
+            values(1, k) = angle%value
+         case ("angular_rate")
+            values(1, k) = angle%rate
+         case ("power")
+            values(1, k) = -moment*angle%rate
+         end select
+      end do
+   end subroutine torsion_report
+
+   !> The bodies that an item acts on.
+   pure function torsion_bodies(self, i) result(bodies)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: i                             !! number of the item
+      integer :: bodies(2)                                 !! both, 0: ground
+
+      bodies = self%body(:, i)
+   end function torsion_bodies
+
+   !> Numbers that the set must keep in a checkpoint: the angles.
+   integer function torsion_memory_size(self) result(n)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+
+      n = self%n
+   end function torsion_memory_size
+
+   !> Write what the set remembers.
+   subroutine torsion_save(self, row, place)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      real(wp), intent(inout) :: row(:)                    !! (any) checkpoint [any]
+      integer, intent(inout) :: place                      !! last place used
+
+      integer :: k
+
+      do k = 1, self%n
+         call put(row, place, self%near(k))
+      end do
+   end subroutine torsion_save
+
+   !> Read what the set remembers.
+   subroutine torsion_load(self, row, place)
+      class(spatial_torsion_spring_t), intent(inout) :: self  !! the set
+      real(wp), intent(in) :: row(:)                          !! (any) checkpoint [any]
+      integer, intent(inout) :: place                         !! last place used
+
+      integer :: k
+
+      do k = 1, self%n
+         call get(row, place, self%near(k))
+      end do
+   end subroutine torsion_load
+
+end module spatial_torsion_spring

@@ -1,0 +1,50 @@
+!> Cylindrical joint: an axis through a point of i and one through a point of j are one line.
+!>
+!> Phi = [ x_i . z_j,  y_i . z_j,  x_i . d,  y_i . d ]                      (4 rows)
+!>
+!> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2.4. Limits: none.
+module spatial_cylindrical
+   use item, only: item_t
+   use kind_info, only: add_channel, kind_info_t
+   use kinds, only: wp
+   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, beside, spatial_joint_t
+   implicit none (type, external)
+   private
+   public :: spatial_cylindrical_t
+
+   !> All joints of the kind.
+   type, extends(spatial_joint_t) :: spatial_cylindrical_t
+   contains
+      procedure, nopass :: info => cylindrical_info
+      procedure :: prepare => cylindrical_prepare
+   end type spatial_cylindrical_t
+
+contains
+
+   !> What the kind says of itself.
+   function cylindrical_info() result(info)
+      type(kind_info_t) :: info  !! name, columns, rows and channels
+
+      info%name = "joint.cylindrical"
+      info%help = "a shaft that turns and slides in a hole"
+      info%source = "Nikravesh (1988), section 7.2.4"
+      info%n_row = 4
+      call add_joint_columns(info)
+      call add_axis_columns(info, "axis of the shaft")
+      call add_spatial_channels(info)
+      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi")
+      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis")
+      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j from i along the axis of i")
+      call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement")
+   end function cylindrical_info
+
+   !> Elements of the joint.
+   subroutine cylindrical_prepare(self, items, angle)
+      class(spatial_cylindrical_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)   !! (n) rows of the table
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+
+      call self%take_axes(items, [across(1, 3), across(2, 3), beside(1), beside(2)])
+   end subroutine cylindrical_prepare
+
+end module spatial_cylindrical

@@ -1,0 +1,112 @@
+!> Driver of an angle in space: body j turns against body i of a revolute or cylindrical joint, as a function of time.
+!>
+!> Phi = theta - f(t): see `turn_frames`.                                    (1 row)
+!>
+!> Signs: counter-clockwise of j, seen from the tip of the axis. Source: as driver.angle of the plane.
+!> Limits: as `turn_frames`, and those of driver.angle.
+module spatial_driver_angle
+   use coordinates, only: coordinates_t
+   use driver_angle, only: driver_angle_t
+   use driver_speed, only: add_driver_channels
+   use joint_set, only: joint_set_t, report_shared
+   use kind_info, only: add_expression, add_reference, dim_angle, in_space, kind_info_t
+   use kinds, only: wp
+   use motion, only: motion_t
+   use rows, only: rows_t
+   use turn_frames, only: turn_frames_t
+   use spatial_rows, only: scalar_t
+   implicit none (type, external)
+   private
+   public :: spatial_driver_angle_t
+
+   !> All of them.
+   type, extends(driver_angle_t) :: spatial_driver_angle_t
+      type(turn_frames_t), private :: frames   !! of the joints that are driven
+   contains
+      procedure, nopass :: info => spatial_info
+      procedure :: take_joint => spatial_take_joint
+      procedure :: evaluate => spatial_evaluate
+      procedure :: coordinate => spatial_coordinate
+      procedure :: report => spatial_report
+   end type spatial_driver_angle_t
+
+contains
+
+   !> What the kind says of itself.
+   function spatial_info() result(info)
+      type(kind_info_t) :: info  !! name, columns, rows and channels
+
+      info%name = "driver.angle"
+      info%space = in_space
+      info%help = "turns a joint about its axis to an angle that is a function of time"
+      info%source = "Nikravesh (1988), section 7.4.3"
+      info%n_row = 1
+      info%drives_turn = .true.
+      call add_reference(info, "joint", "joint.revolute joint.cylindrical", "the joint that is driven")
+      call add_expression(info, "angle", dim_angle, &
+                          "angle of j relative to i, counter-clockwise about the axis; zero: x axes of the joint")
+      call add_driver_channels(info)
+   end function spatial_info
+
+   !> Frames of the joint that an item drives.
+   subroutine spatial_take_joint(self, k, joint, motion)
+      class(spatial_driver_angle_t), intent(inout) :: self  !! the set, prepared
+      integer, intent(in) :: k                   !! item
+      class(joint_set_t), intent(in) :: joint    !! a set of one item, the joint, prepared and with its start
+      type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
+
+      call self%frames%take(self%n, k, joint)
+   end subroutine spatial_take_joint
+
+   !> Fill the rows of all items.
+   subroutine spatial_evaluate(self, t, motion, rows)
+      class(spatial_driver_angle_t), intent(in) :: self  !! the set
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(rows_t), intent(inout) :: rows        !! rows, those of the set are filled
+
+      real(wp) :: f, f_dot, f_dot_dot
+      integer :: k
+
+      do k = 1, self%n
+         call self%prescription(k, t, f, f_dot, f_dot_dot)
+         call self%frames%write_row(k, self%first_row + k, motion, self%body(:, k), f, f_dot, f_dot_dot, rows)
+      end do
+   end subroutine spatial_evaluate
+
+   !> Angle of an item and its rate; turns are those of the function.
+   subroutine spatial_coordinate(self, k, motion, value, rate)
+      class(spatial_driver_angle_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: value             !! angle [rad]
+      real(wp), intent(out) :: rate              !! its rate [rad/s]
+
+      type(scalar_t) :: angle
+      real(wp) :: f, f_dot, f_dot_dot
+
+      call self%prescription(k, motion%t, f, f_dot, f_dot_dot)
+      angle = self%frames%angle(k, motion, self%body(:, k), f)
+      value = angle%value
+      rate = angle%rate
+   end subroutine spatial_coordinate
+
+   !> Values of a channel for all items.
+   subroutine spatial_report(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      class(spatial_driver_angle_t), intent(in) :: self        !! the set
+      character(*), intent(in) :: channel              !! the channel
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+      type(rows_t), intent(in) :: rows                 !! rows at the motion
+      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N.m]
+      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [rad/s]
+      real(wp), intent(inout) :: values(:, :)          !! (components, all drivers) those of the set are filled [any]
+
+      if (channel == "moment") then
+         values(1, self%column) = -lambda(self%first_row + 1:self%first_row + self%n)
+      else
+         call report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      end if
+   end subroutine spatial_report
+
+end module spatial_driver_angle

@@ -1,0 +1,254 @@
+!> What the joints of space share: axes in both bodies, and rows made of a list of elementary constraints.
+!>
+!> A joint has a frame x, y, z in each of its bodies. z is `axis_i` in the body of i and `axis_j` in the body of j; left out, the
+!> axis of j is that of i where the deck puts the bodies. x is along the part across z of the body axis that follows (xi, eta, zeta,
+!> xi) the one nearest to z: with z along zeta x is along xi. A joint that holds the orientation (`holds_turn`) has the frame of i
+!> in j too, as the deck puts the bodies. A kind lists its elements (`elements`):
+!>
+!>     at_point        P_i - P_j                       three rows
+!>     across a, b     a_i . b_j = 0                   the axes, by number, stay at right angles
+!>     beside a        a_i . d = 0                     no displacement along an axis of i
+!>
+!> Rows of `across` are angles. Signs: the force on body i of a point is -lambda.
+!> Source: Flores et al. (2008), eqs. (6.13) to (6.15), with the two independent rows of the parallel axes.
+!> Limits: parallel axes may be opposed: `is_turned_over` says so, and the start refuses it.
+module spatial_joint
+   use coordinates, only: coordinates_t
+   use item, only: find_place, item_t
+   use joint_set, only: joint_set_t, report_shared
+   use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
+   use kinds, only: wp
+   use motion, only: motion_t
+   use rotations, only: axes_across, rotation_of_axes
+   use rows, only: rows_t
+   use spatial_rows, only: angle_between, axis_of, dot_of_axes, dot_with_span, put_row, put_vector_rows, scalar_t
+   implicit none (type, external)
+   private
+   public :: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, beside, element_t, set_joint_frames
+   public :: spatial_joint_t
+
+   integer, parameter :: is_point = 1    !! an element: two points coincide
+   integer, parameter :: is_across = 2   !! two axes at right angles
+   integer, parameter :: is_beside = 3   !! no displacement along an axis
+
+   !> An elementary constraint.
+   type :: element_t
+      integer :: what = is_point   !! one of the above
+      integer :: of_i = 0          !! axis of i, 1 to 3
+      integer :: of_j = 0          !! axis of j, 1 to 3
+   end type element_t
+
+   type(element_t), parameter :: at_point = element_t(is_point, 0, 0)  !! the points coincide
+
+   !> All items of one kind of joint of space.
+   type, extends(joint_set_t), abstract :: spatial_joint_t
+      type(element_t), allocatable :: elements(:)  !! of each item
+      logical :: holds_turn = .false.              !! the frames are parallel as the deck puts the bodies
+      real(wp), allocatable :: axis_i(:, :)        !! (3, n) as in the deck, body's own axes [1]
+      real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: left out [1]
+      real(wp), allocatable :: frame_i(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body i [1]
+      real(wp), allocatable :: frame_j(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body j [1]
+   contains
+      procedure :: take_axes => spatial_take_axes
+      procedure :: set_start => set_joint_frames
+      procedure :: evaluate => spatial_evaluate
+      procedure :: fill_rows => spatial_fill_rows
+      procedure :: is_turned_over => spatial_is_turned_over
+      procedure :: report => spatial_report
+   end type spatial_joint_t
+
+contains
+
+   !> Axes of the two bodies at right angles.
+   pure function across(of_i, of_j) result(element)
+      integer, intent(in) :: of_i   !! axis of i, 1 to 3
+      integer, intent(in) :: of_j   !! axis of j, 1 to 3
+      type(element_t) :: element    !! the element
+
+      element = element_t(is_across, of_i, of_j)
+   end function across
+
+   !> No displacement along an axis of i.
+   pure function beside(of_i) result(element)
+      integer, intent(in) :: of_i   !! axis of i, 1 to 3
+      type(element_t) :: element    !! the element
+
+      element = element_t(is_beside, of_i, 0)
+   end function beside
+
+   !> Columns of the two points, and of the axes where a joint has some.
+   subroutine add_joint_columns(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+
+      info%space = in_space
+      call add_reference(info, "i", "points", "point of the first body")
+      call add_reference(info, "j", "points", "point of the second body")
+   end subroutine add_joint_columns
+
+   !> Columns of the axes.
+   subroutine add_axis_columns(info, words)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+      character(*), intent(in) :: words         !! what the axis is
+
+      call add_direction(info, "axis_i", words//", in the frame of the body of i", default='"0 0 1"')
+      call add_direction(info, "axis_j", words//", in the frame of the body of j; left out: as the deck puts the bodies", &
+                         default="")
+   end subroutine add_axis_columns
+
+   !> The channels that every joint of space has.
+   subroutine add_spatial_channels(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i")
+      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point")
+      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m")
+      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation")
+   end subroutine add_spatial_channels
+
+   !> Elements of the kind, and the axes of its rows; `prepare` calls it.
+   subroutine spatial_take_axes(self, items, elements)
+      class(spatial_joint_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)           !! (n) rows of the table
+      type(element_t), intent(in) :: elements(:)     !! elements of each item
+
+      integer :: k, row
+
+      self%elements = elements
+      self%sides_apart = all(elements%what == is_point)
+      row = 0
+      do k = 1, size(elements)
+         row = row + merge(3, 1, elements(k)%what == is_point)
+         self%is_angle(row) = elements(k)%what == is_across
+      end do
+      allocate (self%axis_i(3, self%n), self%axis_j(3, self%n), source=0.0_wp)
+      allocate (self%frame_i(3, 3, self%n), self%frame_j(3, 3, self%n), source=0.0_wp)
+      self%axis_i(3, :) = 1.0_wp
+      if (.not. any([(elements(k)%what /= is_point, k=1, size(elements))])) return
+      do k = 1, self%n
+         self%axis_i(:, k) = items(k)%direction("axis_i")
+         if (find_place(items(k), "axis_j") > 0) self%axis_j(:, k) = items(k)%direction("axis_j")
+      end do
+   end subroutine spatial_take_axes
+
+   !> Frames of the joints, from the axes of the deck and where it puts the bodies.
+   subroutine set_joint_frames(self, motion)
+      class(spatial_joint_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion           !! bodies where the deck puts them
+
+      real(wp) :: axis(3), own_i(3, 3), own_j(3, 3)
+      integer :: k
+
+      do k = 1, self%n
+         associate (i => self%body(1, k), j => self%body(2, k), own => motion%spatial%own, rot => motion%rot)
+            own_i = matmul(rot(:, :, i), transpose(own(:, :, i)))  ! own axes of the bodies, world frame
+            own_j = matmul(rot(:, :, j), transpose(own(:, :, j)))
+            self%frame_i(:, :, k) = matmul(transpose(own(:, :, i)), axes_across(self%axis_i(:, k)))
+            axis = self%axis_j(:, k)
+            if (self%holds_turn .and. .not. any(abs(axis) > 0.0_wp)) then
+               self%frame_j(:, :, k) = matmul(transpose(rot(:, :, j)), matmul(rot(:, :, i), self%frame_i(:, :, k)))
+            else
+               if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(matmul(own_i, self%axis_i(:, k)), own_j)
+               self%frame_j(:, :, k) = matmul(transpose(own(:, :, j)), axes_across(axis))
+               if (self%holds_turn) then  ! the given axis, turned about as the deck puts the bodies
+                  axis = matmul(matmul(rot(:, :, i), self%frame_i(:, 1, k)), rot(:, :, j))
+                  self%frame_j(:, :, k) = rotation_of_axes(self%frame_j(:, 3, k), axis)
+                  self%frame_j(:, :, k) = self%frame_j(:, [2, 3, 1], k)
+               end if
+            end if
+         end associate
+      end do
+   end subroutine set_joint_frames
+
+   !> Fill the rows of all items.
+   subroutine spatial_evaluate(self, t, motion, rows)
+      class(spatial_joint_t), intent(in) :: self  !! the set
+      real(wp), intent(in) :: t                   !! time [s]
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(rows_t), intent(inout) :: rows         !! rows, those of the set are filled
+
+      call self%fill_rows(motion, rows)
+   end subroutine spatial_evaluate
+
+   !> Fill the rows of the elements of all items.
+   subroutine spatial_fill_rows(self, motion, rows)
+      class(spatial_joint_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      type(rows_t), intent(inout) :: rows         !! rows, those of the set are filled
+
+      type(scalar_t) :: x
+      integer :: e, k, row
+
+      if (size(self%elements) == 0) return
+      if (self%elements(1)%what == is_point) then
+         call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, motion%omega, &
+                              self%first_row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
+      end if
+      do k = 1, self%n
+         row = self%first_row + (k - 1)*self%n_row_item
+         do e = 1, size(self%elements)
+            associate (element => self%elements(e), body => self%body(:, k))
+               select case (element%what)
+               case (is_point)
+                  row = row + 3
+                  cycle
+               case (is_across)
+                  x = dot_of_axes(motion, body, self%frame_i(:, element%of_i, k), self%frame_j(:, element%of_j, k))
+               case default
+                  x = dot_with_span(motion, body, self%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
+               end select
+               row = row + 1
+               call put_row(rows, row, motion, body, x, 0.0_wp, 0.0_wp, 0.0_wp)
+            end associate
+         end do
+      end do
+   end subroutine spatial_fill_rows
+
+   !> Whether the axes z of an item, parallel by its rows, are opposed: a branch that nobody means.
+   pure logical function spatial_is_turned_over(self, k, motion) result(is_over)
+      class(spatial_joint_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                    !! item
+      type(motion_t), intent(in) :: motion        !! positions
+
+      logical :: are_parallel
+      integer :: e
+
+      are_parallel = any([(self%elements(e)%what == is_across .and. self%elements(e)%of_i == 1 .and. self%elements(e)%of_j == 3, &
+                           e=1, size(self%elements))])
+      is_over = .false.
+      if (are_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%frame_i(:, 3, k)), &
+                                              axis_of(motion, self%body(2, k), self%frame_j(:, 3, k))) < 0.0_wp
+      if (is_over .or. .not. self%holds_turn) return
+      is_over = dot_product(axis_of(motion, self%body(1, k), self%frame_i(:, 1, k)), &
+                            axis_of(motion, self%body(2, k), self%frame_j(:, 1, k))) < 0.0_wp
+   end function spatial_is_turned_over
+
+   !> Values of a channel for all items: angle and displacement here, the others are shared.
+   subroutine spatial_report(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      class(spatial_joint_t), intent(in) :: self       !! the set
+      character(*), intent(in) :: channel              !! the channel
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+      type(rows_t), intent(in) :: rows                 !! rows at the motion
+      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
+      real(wp), intent(inout) :: values(:, :)          !! (components, all joints) those of the set are filled [any]
+
+      type(scalar_t) :: x
+      integer :: k
+
+      select case (channel)
+      case ("angle", "angular_rate", "displacement", "sliding_rate")
+         do k = 1, self%n
+            if (channel == "angle" .or. channel == "angular_rate") then
+               x = angle_between(motion, self%body(:, k), self%frame_i(:, :, k), self%frame_j(:, :, k))
+            else
+               x = dot_with_span(motion, self%body(:, k), self%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
+            end if
+            values(1, self%column(k)) = merge(x%value, x%rate, channel == "angle" .or. channel == "displacement")
+         end do
+      case default
+         call report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      end select
+   end subroutine spatial_report
+
+end module spatial_joint

@@ -1,0 +1,46 @@
+!> Ways in which a mechanism can close that nobody means.
+!>
+!> Rows that hold two axes at right angles to a third keep it parallel to them, and opposed as well. Which of both an assembly
+!> comes to is decided by where the deck puts the bodies; what it came to is looked at here.
+module branches
+   use errors, only: error_t, exit_assembly, set_error
+   use joint_set, only: joint_slot_t
+   use linkage, only: linkage_t
+   implicit none (type, external)
+   private
+   public :: check_branches
+
+contains
+
+   !> Joints whose axes are opposed where their rows only ask them to be parallel: the deck put the bodies nearer to that.
+   subroutine check_branches(linkage, error)
+      type(linkage_t), intent(in) :: linkage             !! the system, assembled
+      type(error_t), allocatable, intent(out) :: error   !! the message
+
+      integer :: item, k
+
+      do k = 1, size(linkage%joints)
+         call look(linkage%joints(k))
+      end do
+      do k = 1, size(linkage%ideal)
+         call look(linkage%ideal(k))
+      end do
+
+   contains
+
+      !> Look at one set.
+      subroutine look(slot)
+         type(joint_slot_t), intent(in) :: slot  !! the set
+
+         do item = 1, slot%set%n
+            if (allocated(error)) return
+            if (.not. slot%set%is_turned_over(item, linkage%motion)) cycle
+            call set_error(error, exit_assembly, "joint '"//slot%set%names(item)%s//"' is closed the wrong way round: its axes " &
+                           //"are parallel but opposed"//new_line("a")// &
+                           "  = turn one of its bodies, or reverse axis_i or axis_j, in the deck")
+         end do
+      end subroutine look
+
+   end subroutine check_branches
+
+end module branches
