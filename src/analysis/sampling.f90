@@ -9,7 +9,7 @@ module sampling
    use film_moments, only: film_moments_t
    use integrator, only: advance_failed_evaluation
    use kinds, only: i8, wp
-   use mechanism_report, only: build_catalogue, report_state
+   use mechanism_report, only: bind_channels, build_catalogue, report_state
    use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
@@ -71,6 +71,7 @@ contains
       do k = 1, size(self%catalogue%groups)
          self%catalogue%groups(k)%is_wanted = recorder%wants(k) .or. stop%wants(k)
       end do
+      call bind_channels(system, self%catalogue)
       call self%films%begin(system, recorder)
    end subroutine ask_readers
 

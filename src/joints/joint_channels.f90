@@ -4,47 +4,32 @@
 !> along its coordinate. Power of a driver: lambda . Phi_t.
 submodule(joint_set) joint_channels
    use coordinates, only: most_rates
+   use joint_friction, only: of_friction_force, of_friction_moment
    use motion, only: cross
    implicit none (type, external)
-
-   ! channels
-   integer, parameter :: of_force = 1             !! reaction
-   integer, parameter :: of_moment = 2            !! reaction moment
-   integer, parameter :: of_violation = 3         !! of the constraints
-   integer, parameter :: of_violation_rate = 4    !! its rate
-   integer, parameter :: of_coordinate = 5        !! of a driver
-   integer, parameter :: of_power = 6             !! of a driver
-   integer, parameter :: of_friction = 7          !! of joints that rub
 
 contains
 
    !> The channels that every ideal joint has.
    module procedure add_joint_channels
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i")
-      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force")
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m")
-      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation")
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
+      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force", &
+                       of_moment)
+      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
+      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
+                       of_violation_rate)
    end procedure add_joint_channels
 
    !> Values of a channel for all items.
    module procedure report_shared
       real(wp) :: force(3), moment(3), rate, value
-      integer :: first, k, last, what
+      integer :: first, k, last
 
-      select case (channel)
-      case ("force"); what = of_force
-      case ("moment"); what = of_moment
-      case ("violation"); what = of_violation
-      case ("violation_rate"); what = of_violation_rate
-      case ("coordinate", "displacement"); what = of_coordinate
-      case ("power"); what = of_power
-      case default; what = of_friction
-      end select
       do k = 1, self%n
          first = self%first_row + (k - 1)*self%n_row_item + 1
          last = first + self%n_row_item - 1
          associate (column => self%column(k))
-            select case (what)
+            select case (code)
             case (of_force)
                if (self%is_driver) then
                   values(1, column) = -lambda(first)
@@ -67,11 +52,11 @@ contains
             end select
          end associate
       end do
-      if (what /= of_friction) return
+      if (code /= of_friction_moment .and. code /= of_friction_force) return
       do k = 1, self%friction%n
          associate (column => self%column(self%friction%item(k)))
-            if (channel == "friction_moment") values(1, column) = self%friction%length(k)*self%friction%force(k)
-            if (channel == "friction_force") values(1, column) = self%friction%force(k)
+            values(1, column) = self%friction%force(k)
+            if (code == of_friction_moment) values(1, column) = self%friction%length(k)*self%friction%force(k)
          end associate
       end do
    end procedure report_shared

@@ -6,6 +6,7 @@
 module catalogue
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
+   use readings, only: reading_plan_t, readings_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -52,6 +53,7 @@ module catalogue
       integer :: n_coordinates = 2                !! of a point: 2 in the plane, 3 in space
       type(room_t) :: rooms(n_rooms)              !! (n_rooms) items
       type(group_t), allocatable :: groups(:)     !! (groups) quantities
+      type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
    contains
       procedure :: add_group => catalogue_add_group
       procedure :: add_item => catalogue_add_item
@@ -59,6 +61,7 @@ module catalogue
       procedure :: allocate_data => catalogue_allocate_data
       procedure :: find_group => catalogue_find_group
       procedure :: item_has => catalogue_item_has
+      procedure :: bind => catalogue_bind
    end type catalogue_t
 
 contains
@@ -182,6 +185,28 @@ contains
 
       has = self%groups(group)%has(item)
    end function catalogue_item_has
+
+   !> What is read of a set: those of its channels that someone wants, and where they go.
+   subroutine catalogue_bind(self, room, info, readings)
+      class(catalogue_t), intent(in) :: self      !! the catalogue
+      integer, intent(in) :: room                 !! room of the set's items; of loose joints: their contacts have one of their own
+      type(kind_info_t), intent(in) :: info       !! its channels
+      type(readings_t), intent(inout) :: readings !! what is read
+
+      integer :: group, k
+
+      if (.not. allocated(info%channels)) then
+         call readings%start(0)
+         return
+      end if
+      call readings%start(size(info%channels))
+      do k = 1, size(info%channels)
+         group = self%find_group(room, info%channels(k)%name)
+         if (group == 0 .and. room == room_clearances) group = self%find_group(room_contacts, info%channels(k)%name)
+         if (group == 0) cycle
+         if (self%groups(group)%is_wanted) call readings%add(info%channels(k)%code, group)
+      end do
+   end subroutine catalogue_bind
 
    !> Whether an item of a room has a channel: it names its own, or has all of the room's.
    pure logical function has_channel(room, channel, item) result(has)
