@@ -337,11 +337,32 @@ contains
       if (allocated(info%columns)) n = size(info%columns)
       allocate (grown(n + 1))
       do i = 1, n
-         grown(i) = info%columns(i)
+         call move_column(info%columns(i), grown(i))
       end do
       grown(n + 1) = column
       call move_alloc(grown, info%columns)
    end subroutine add_column
+
+   !> A column to another place, its words without a copy.
+   pure subroutine move_column(from, to)
+      type(column_t), intent(inout) :: from  !! where it was
+      type(column_t), intent(inout) :: to    !! where it is
+
+      to%cell = from%cell
+      to%dimension = from%dimension
+      to%is_any = from%is_any
+      to%variable = from%variable
+      to%argument = from%argument
+      to%size = from%size
+      to%bounds = from%bounds
+      to%is_free = from%is_free
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%refers_to, to%refers_to)
+      call move_alloc(from%choices, to%choices)
+      call move_alloc(from%default, to%default)
+      call move_alloc(from%options, to%options)
+      call move_alloc(from%help, to%help)
+   end subroutine move_column
 
    !> Append an output channel to a kind.
    subroutine add_channel(info, name, unit, frame, components, help, code)
@@ -360,7 +381,14 @@ contains
       if (allocated(info%channels)) n = size(info%channels)
       allocate (grown(n + 1))
       do i = 1, n
-         grown(i) = info%channels(i)
+         associate (from => info%channels(i), to => grown(i))
+            to%components = from%components
+            to%code = from%code
+            call move_alloc(from%name, to%name)
+            call move_alloc(from%unit, to%unit)
+            call move_alloc(from%frame, to%frame)
+            call move_alloc(from%help, to%help)
+         end associate
       end do
       grown(n + 1)%name = name
       grown(n + 1)%unit = unit

@@ -292,9 +292,9 @@ module mechanism
       !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
       pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
-         class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: y(:)               !! (n) state [any]
-         real(wp), intent(in), optional :: jump(:)  !! (n) jump of its derivative [any]
+         class(mechanism_t), intent(inout) :: self              !! the system
+         real(wp), intent(in), contiguous :: y(:)               !! (n) state [any]
+         real(wp), intent(in), contiguous, optional :: jump(:)  !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
 
       !> Distance in time of differences along the motion that give rates.

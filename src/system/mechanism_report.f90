@@ -244,12 +244,12 @@ contains
    !> Fill the catalogue with the values at a state: evaluates the right-hand side there.
    subroutine report_state(system, t, y, ydot, residual, catalogue, status)
       class(mechanism_t), intent(inout) :: system   !! the system
-      real(wp), intent(in) :: t                         !! time [s]
-      real(wp), intent(in) :: y(:)                      !! (n) state [any]
-      real(wp), intent(out) :: ydot(:)                  !! (n) its derivative [any]
-      real(wp), intent(in) :: residual                  !! of the ledger at the last step [J]
-      type(catalogue_t), intent(inout) :: catalogue     !! values
-      integer, intent(out) :: status                    !! of the evaluation
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in), contiguous :: y(:)      !! (n) state [any]
+      real(wp), intent(inout), contiguous :: ydot(:)  !! (n) its derivative; of quadratures where they are wanted [any]
+      real(wp), intent(in) :: residual              !! of the ledger at the last step [J]
+      type(catalogue_t), intent(inout) :: catalogue !! values
+      integer, intent(out) :: status                !! of the evaluation
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return

@@ -68,7 +68,8 @@ contains
       associate (linkage => self%linkage, coordinates => self%linkage%coordinates, length => self%linkage%scales%length, &
                  known => self%linkage%reduced%known, guided => self%linkage%reduced%guided)
          associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
-            rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
+            rate = 0.0_wp
+            if (linkage%rows%n_unknown > 0) rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
             do k = 1, known%n
                rate = max(rate, coordinates%rate_of(linkage%motion, known%item(k)%body, length))
             end do
