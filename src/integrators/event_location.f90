@@ -73,7 +73,7 @@ contains
       class(ode_system_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method     !! the integrator, after a step
       real(wp), intent(in) :: s                     !! the place [1]
-      real(wp), intent(out) :: y(:)                 !! (n) the state [any]
+      real(wp), intent(inout) :: y(:)               !! (n) the state [any]
 
       system%with_quadratures = .false.
       call method%within(system, s, y)
@@ -136,26 +136,36 @@ contains
       call move_alloc(method%events%g, g)
       call move_alloc(method%events%rate, rate)
       associate (step => method%step, events => method%events)
-         g = events%g1
-         rate = events%rate1
          n = ceiling(step%h/events%look, i8)
          part = step%h/real(n, wp)
-         is_seen = any(rate < 0.0_wp .and. g - rate*part > 0.0_wp)
+         is_seen = is_above(system%n_event, events%g1, events%rate1, part)
          do i = 1, n - 1
             if (is_seen) exit
             call place(system, method, real(i, wp)/real(n, wp), y)
             call method%look_at_events(system, step%t0 + real(i, wp)*part, y, g, rate)
-            is_seen = any(g > 0.0_wp .or. (rate < 0.0_wp .and. g - rate*part > 0.0_wp))
+            is_seen = is_above(system%n_event, g, rate, part)
          end do
-         ! the system is left at the end of the step
-         y = step%y1
-         if (.not. is_seen) call place(system, method, 1.0_wp, y)
-         call method%look_at_events(system, step%t0 + step%h, y, g, rate)
+         call system%settle(step%t0 + step%h, step%y1, g, rate)
       end associate
       call move_alloc(y, method%scratch)
       call move_alloc(g, method%events%g)
       call move_alloc(rate, method%events%rate)
    end subroutine glance
+
+   !> Whether any function is above zero, or falls from there by its tangent.
+   pure logical function is_above(n, g, rate, time)
+      integer, intent(in) :: n           !! functions
+      real(wp), intent(in) :: g(n)       !! (n) event functions [any]
+      real(wp), intent(in) :: rate(n)    !! (n) their rates [any]
+      real(wp), intent(in) :: time       !! how far back the tangent counts [s]
+
+      integer :: k
+
+      is_above = .false.
+      do k = 1, n
+         is_above = is_above .or. g(k) > 0.0_wp .or. (rate(k) < 0.0_wp .and. g(k) - rate(k)*time > 0.0_wp)
+      end do
+   end function is_above
 
    !> Time within which events are one.
    pure real(wp) function time_resolution(method, h) result(time)
@@ -238,7 +248,7 @@ contains
          a = b
       end do
       if (event == 0) then
-         call values_at(1.0_wp)  ! the system is left at the end of the step
+         call system%settle(method%step%t0 + method%step%h, method%step%y1, g, rate)
       else
          low = a
          high = b

@@ -182,7 +182,7 @@ contains
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: t                  !! time [s]
-      real(wp), intent(out) :: y(:)              !! (n) state [any]
+      real(wp), intent(inout) :: y(:)            !! (n) state [any]
 
       if (t >= self%t .or. self%step%h <= 0.0_wp) then
          y = self%step%y1
@@ -191,19 +191,18 @@ contains
       end if
    end subroutine integrator_state_at
 
-   !> State at a place of the last step, by interpolation; quadratures that nobody wants are those at its end.
+   !> State at a place of the last step, by interpolation; quadratures that nobody wants are left alone.
    subroutine integrator_within(self, system, s, y)
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(out) :: y(:)              !! (n) state [any]
+      real(wp), intent(inout) :: y(:)            !! (n) state [any]
 
       integer :: n
 
       n = size(y)
       if (.not. system%with_quadratures) n = n - system%n_quadrature
       call interpolate(self%step, system%n_position, s, y(:n))
-      y(n + 1:) = self%step%y1(n + 1:)
    end subroutine integrator_within
 
    !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.
@@ -242,10 +241,10 @@ contains
 
       self%events%n_happened = 0
       self%step%t0 = self%t
-      self%step%y0 = self%step%y1
-      self%step%f0 = self%step%f1
-      self%events%g0 = self%events%g1
-      self%events%rate0 = self%events%rate1
+      self%step%y0(:) = self%step%y1
+      self%step%f0(:) = self%step%f1
+      self%events%g0(:) = self%events%g1
+      self%events%rate0(:) = self%events%rate1
       self%step%has_inner = .false.
    end subroutine begin_step
 

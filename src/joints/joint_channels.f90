@@ -1,7 +1,7 @@
 !> The channels that ideal joints share, and those that drivers share, and the reaction that they tell of.
 !>
-!> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j, a driver of a length
-!> along its coordinate. Power of a driver: lambda . Phi_t.
+!> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j along its coordinate,
+!> -lambda. Power of a driver: lambda . Phi_t.
 submodule(joint_set) joint_channels
    use coordinates, only: most_rates
    use joint_friction, only: of_friction_force, of_friction_moment
@@ -38,8 +38,12 @@ contains
                   values(:, column) = force(:size(values, 1))
                end if
             case (of_moment)
-               call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-               values(1, column) = merge(-moment(3), moment(3), self%is_driver)
+               if (self%is_driver) then
+                  values(1, column) = -lambda(first)
+               else
+                  call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+                  values(1, column) = moment(3)
+               end if
             case (of_violation)
                values(1, column) = norm2(rows%phi(first:last))
             case (of_violation_rate)

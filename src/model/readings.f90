@@ -26,8 +26,7 @@ module readings
       type(readings_t), allocatable :: ideal(:)    !! (sets) of joints with clearance taken as ideal
       type(readings_t), allocatable :: loose(:)    !! (sets) of joints with clearance
       type(readings_t), allocatable :: forces(:)   !! (sets) of force elements
-   contains
-      procedure :: needs_reactions => plan_needs_reactions
+      logical :: needs_reactions = .true.          !! something is read of joints or drivers: all multipliers must be there
    end type reading_plan_t
 
 contains
@@ -66,20 +65,5 @@ contains
          has = has .or. (self%code(m) >= first .and. self%code(m) <= last)
       end do
    end function readings_has
-
-   !> Whether anything is read of joints or drivers, so that all multipliers must be there.
-   pure logical function plan_needs_reactions(self) result(needs)
-      class(reading_plan_t), intent(in) :: self   !! the plan
-
-      integer :: k
-
-      needs = .false.
-      do k = 1, size(self%joints)
-         needs = needs .or. self%joints(k)%n > 0
-      end do
-      do k = 1, size(self%ideal)
-         needs = needs .or. self%ideal(k)%n > 0
-      end do
-   end function plan_needs_reactions
 
 end module readings

@@ -144,6 +144,7 @@ contains
          do k = 1, size(plan%ideal)
             call catalogue%bind(room_clearances, info, plan%ideal(k))
          end do
+         plan%needs_reactions = any(plan%joints%n > 0) .or. any(plan%ideal%n > 0)
          do k = 1, size(plan%loose)
             call catalogue%bind(room_clearances, loose_info(system%loose%sets(k)%set), plan%loose(k))
          end do
@@ -258,7 +259,7 @@ contains
       else
          call system%linkage%set_acceleration(ydot)
       end if
-      if (catalogue%readings%needs_reactions() .and. system%linkage%rows%n > system%linkage%rows%n_solve) then
+      if (catalogue%readings%needs_reactions .and. system%linkage%rows%n > system%linkage%rows%n_solve) then
          call system%linkage%find_reactions(t, system%loading%g)
       end if
       call fill_catalogue(system, t, y, residual, catalogue)

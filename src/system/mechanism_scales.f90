@@ -31,7 +31,7 @@ contains
                  nq => self%linkage%n_position, length => self%linkage%scales%length)
          n = linkage%n_rate
          rate = max(rate_of(self, y), remembered*linkage%scales%pace, linkage%scales%late_rate)
-         call linkage%coordinates%weigh_positions(length, n_unknown, scale)
+         if (n_unknown > 0) call linkage%coordinates%weigh_positions(length, n_unknown, scale)
          associate (n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
             do k = 1, n_unknown
                do i = 1, n_v
@@ -61,7 +61,7 @@ contains
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
       class(mechanism_t), intent(in) :: self  !! the system
-      real(wp), intent(in), contiguous :: y(:)    !! (n) state [any]
+      real(wp), intent(in) :: y(:)            !! (n) state [any]
 
       integer :: k
 
