@@ -23,7 +23,7 @@ contains
       type(readings_t) :: readings
 
       call readings%start(1)
-      call readings%add(channel_code(set%info(), channel), 1)
+      call readings%add(channel_code(set%info(), channel), 1, 0)
       groups(1)%data = values
       call set%report(readings, motion, groups)
       values = groups(1)%data

@@ -66,10 +66,12 @@ contains
       class(recorder_t), intent(in) :: recorder       !! keeps the results, started
       type(stop_t), intent(in) :: stop                !! conditions that end the run
 
-      integer :: k
+      integer :: i, k
 
       do k = 1, size(self%catalogue%groups)
-         self%catalogue%groups(k)%is_wanted = recorder%wants(k) .or. stop%wants(k)
+         associate (is_wanted => self%catalogue%groups(k)%is_wanted)
+            is_wanted = [(recorder%wants(k, i) .or. stop%wants(k, i), i=1, size(is_wanted))]
+         end associate
       end do
       call bind_channels(system, self%catalogue)
       call self%films%begin(system, recorder)

@@ -20,62 +20,52 @@ contains
                        of_violation_rate)
    end procedure add_joint_channels
 
-   !> Values of a channel for all items.
+   !> Value of a channel of an item.
    module procedure report_shared
-      real(wp) :: force(3), moment(3), rate, value
-      integer :: first, k, last
+      real(wp) :: force(3), moment(3), rate
+      integer :: first, i, last
 
-      do k = 1, self%n
-         first = self%first_row + (k - 1)*self%n_row_item + 1
-         last = first + self%n_row_item - 1
-         associate (column => self%column(k))
-            select case (code)
-            case (of_force)
-               if (self%is_driver) then
-                  values(1, column) = -lambda(first)
-               else
-                  call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-                  values(:, column) = force(:size(values, 1))
-               end if
-            case (of_moment)
-               if (self%is_driver) then
-                  values(1, column) = -lambda(first)
-               else
-                  call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-                  values(1, column) = moment(3)
-               end if
-            case (of_violation)
-               values(1, column) = norm2(rows%phi(first:last))
-            case (of_violation_rate)
-               values(1, column) = norm2(phi_dot(first:last))
-            case (of_coordinate)
-               call self%coordinate(k, motion, value, rate)
-               values(1, column) = value
-            case (of_power)
-               values(1, column) = sum(lambda(first:last)*rows%phi_t(first:last))
-            end select
-         end associate
-      end do
-      if (code /= of_friction_moment .and. code /= of_friction_force) return
-      do k = 1, self%friction%n
-         associate (column => self%column(self%friction%item(k)))
-            values(1, column) = self%friction%force(k)
-            if (code == of_friction_moment) values(1, column) = self%friction%length(k)*self%friction%force(k)
-         end associate
-      end do
+      first = self%first_row + (k - 1)*self%n_row_item + 1
+      last = first + self%n_row_item - 1
+      select case (code)
+      case (of_force, of_moment)
+         if (self%is_driver) then
+            value(1) = -lambda(first)
+            return
+         end if
+         call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+         value = force(:size(value))
+         if (code == of_moment) value(1) = moment(3)
+      case (of_violation)
+         value(1) = norm2(rows%phi(first:last))
+      case (of_violation_rate)
+         value(1) = norm2(phi_dot(first:last))
+      case (of_coordinate)
+         call self%coordinate(k, motion, value(1), rate)
+      case (of_power)
+         value(1) = sum(lambda(first:last)*rows%phi_t(first:last))
+      case (of_friction_moment, of_friction_force)
+         do i = 1, self%friction%n
+            if (self%friction%item(i) /= k) cycle
+            value(1) = self%friction%force(i)
+            if (code == of_friction_moment) value(1) = self%friction%length(i)*self%friction%force(i)
+         end do
+      end select
    end procedure report_shared
 
    !> Reaction of an item on body i.
    module procedure joint_reaction
       real(wp) :: load(most_rates)
-      integer :: body, k, n, row
+      integer :: body, i, k, n, row
 
       n = coordinates%n_v
       load = 0.0_wp
       body = self%body(1, item)
       do k = 1, self%n_row_item
          row = self%first_row + (item - 1)*self%n_row_item + k
-         load(:n) = load(:n) - rows%jac(:n, row)*lambda(row)
+         do i = 1, n
+            load(i) = load(i) - rows%jac(i, row)*lambda(row)
+         end do
       end do
       call coordinates%split_load(load(:n), motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)

@@ -113,20 +113,21 @@ contains
    end subroutine distance_coordinate
 
    !> The tension, which is the multiplier of the row.
-   subroutine distance_report(self, code, motion, coordinates, rows, lambda, phi_dot, values)
+   subroutine distance_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       class(joint_distance_t), intent(in) :: self      !! the set
       integer, intent(in) :: code                      !! the channel
+      integer, intent(in) :: k                         !! item
       type(motion_t), intent(in) :: motion             !! positions and velocities
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
       real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N]
       real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s]
-      real(wp), intent(inout) :: values(:, :)          !! (components, all joints) those of the set are filled [any]
+      real(wp), intent(inout) :: value(:)              !! (components) the value [any]
 
       if (code == of_own) then
-         values(1, self%column) = lambda(self%first_row + 1:self%first_row + self%n)
+         value(1) = lambda(self%first_row + k)
       else
-         call report_shared(self, code, motion, coordinates, rows, lambda, phi_dot, values)
+         call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       end if
    end subroutine distance_report
 

@@ -1,7 +1,7 @@
 !> Which values of a system's sets are read, and where they go: found once, so that a sample compares no names.
 !>
 !> A kind numbers its channels in `info()`. What is read of a set is a list of these numbers, each with the group of the catalogue
-!> that its values go to.
+!> that its values go to; of joints item by item.
 module readings
    implicit none (type, external)
    private
@@ -12,6 +12,7 @@ module readings
       integer :: n = 0                    !! number of channels
       integer, allocatable :: code(:)     !! (n or more) the channels, as `info()` of the set numbers them
       integer, allocatable :: group(:)    !! (n or more) groups of the catalogue that their values go to
+      integer, allocatable :: item(:)     !! (n or more) the item of the set, 0: all
    contains
       procedure :: start => readings_start
       procedure :: add => readings_add
@@ -37,19 +38,21 @@ contains
       integer, intent(in) :: most                !! channels at most
 
       self%n = 0
-      if (allocated(self%code)) deallocate (self%code, self%group)
-      allocate (self%code(most), self%group(most), source=0)
+      if (allocated(self%code)) deallocate (self%code, self%group, self%item)
+      allocate (self%code(most), self%group(most), self%item(most), source=0)
    end subroutine readings_start
 
    !> Add a channel; there is room for it.
-   pure subroutine readings_add(self, code, group)
+   pure subroutine readings_add(self, code, group, item)
       class(readings_t), intent(inout) :: self   !! the list
       integer, intent(in) :: code                !! the channel
       integer, intent(in) :: group               !! its group
+      integer, intent(in) :: item                !! item of the set, 0: all
 
       self%n = self%n + 1
       self%code(self%n) = code
       self%group(self%n) = group
+      self%item(self%n) = item
    end subroutine readings_add
 
    !> Whether a channel from a first to a last one is read.

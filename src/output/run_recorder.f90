@@ -5,6 +5,7 @@
 !> after a failed write nothing more is written to that file, and what it holds stays readable.
 module run_recorder
    use catalogue, only: catalogue_t
+   use channel_names, only: scalar_t
    use channels, only: select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
@@ -169,19 +170,32 @@ contains
       call move_alloc(grown, figures)
    end subroutine append_figure
 
-   !> Whether files, figures or statistics read the values of a quantity.
-   pure logical function run_wants(self, group) result(wants)
+   !> Whether files, figures or statistics read the value of a quantity of an item. A dataset of run.h5 holds all items of its room
+   !> that appear.
+   pure logical function run_wants(self, group, item) result(wants)
       class(run_recorder_t), intent(in) :: self          !! the recorder, started
       integer, intent(in) :: group                       !! its group in the catalogue
+      integer, intent(in) :: item                        !! number of the item in the group's room
 
       integer :: k
 
       wants = self%selection%has_group(group)
-      if (allocated(self%statistics%channels)) wants = wants .or. any(self%statistics%channels%group == group)
-      if (allocated(self%statistics%spectra)) wants = wants .or. any(self%statistics%spectra%group == group)
+      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
+      if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
+      if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
       do k = 1, size(self%figures)
-         if (allocated(self%figures(k)%scalars)) wants = wants .or. any(self%figures(k)%scalars%group == group)
+         if (allocated(self%figures(k)%scalars)) wants = wants .or. reads(self%figures(k)%scalars)
       end do
+
+   contains
+
+      !> Whether it is among some numbers.
+      pure logical function reads(scalars)
+         type(scalar_t), intent(in) :: scalars(:)  !! (n) the numbers
+
+         reads = any(scalars%group == group .and. scalars%item == item)
+      end function reads
+
    end function run_wants
 
    !> Keep the current values.

@@ -8,6 +8,7 @@ module mechanism_report
    use joint_set, only: joint_set_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
+   use linkage, only: linkage_t
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
    use point_contacts, only: of_eccentricity, of_force
@@ -138,7 +139,8 @@ contains
          allocate (plan%loose(size(system%loose%sets)), plan%forces(size(system%loading%forces)))
          do k = 1, size(joints)
             info = joint_info(joints(k)%set, joints(k)%set%friction%n > 0)
-            call catalogue%bind(merge(room_drivers, room_joints, joints(k)%set%is_driver), info, plan%joints(k))
+            call catalogue%bind(merge(room_drivers, room_joints, joints(k)%set%is_driver), info, plan%joints(k), &
+                                joints(k)%set%column)
          end do
          call ideal_info(info)
          do k = 1, size(plan%ideal)
@@ -282,11 +284,7 @@ contains
             call linkage%coordinates%report(plan%bodies%code(m), linkage%motion, groups(plan%bodies%group(m))%data)
          end do
          do k = 1, size(plan%joints)
-            do m = 1, plan%joints(k)%n
-               call linkage%joints(k)%set%report(plan%joints(k)%code(m), linkage%motion, linkage%coordinates, linkage%rows, &
-                                                 linkage%solution%lambda, linkage%solution%phi_dot, &
-                                                 groups(plan%joints(k)%group(m))%data)
-            end do
+            call report_joints(linkage, linkage%joints(k)%set, plan%joints(k), groups)
          end do
          do k = 1, size(plan%loose)
             if (plan%loose(k)%n > 0) call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, groups)
@@ -299,6 +297,22 @@ contains
          end do
       end associate
    end subroutine fill_catalogue
+
+   !> Values of a set of joints or drivers.
+   subroutine report_joints(linkage, set, readings, groups)
+      type(linkage_t), intent(in) :: linkage     !! the linkage at the state
+      class(joint_set_t), intent(in) :: set      !! the set
+      type(readings_t), intent(in) :: readings   !! what is read of it
+      type(group_t), intent(inout) :: groups(:)  !! (groups) values
+
+      integer :: m
+
+      do m = 1, readings%n
+         call set%report(readings%code(m), readings%item(m), linkage%motion, linkage%coordinates, linkage%rows, &
+                         linkage%solution%lambda, linkage%solution%phi_dot, &
+                         groups(readings%group(m))%data(:, set%column(readings%item(m))))
+      end do
+   end subroutine report_joints
 
    !> Values of the joints with clearance that are taken as ideal; they stand behind the loose ones.
    subroutine report_ideal(system, readings, groups)
