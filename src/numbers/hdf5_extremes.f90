@@ -42,12 +42,12 @@ contains
          end do
          call text_dataset(file, "extremes/channels/name", names, .false., "names of the numbers", status)
          call text_dataset(file, "extremes/channels/unit", units, .false., "their units", status)
-         call put("channels/least", extremes%of%least, "as listed", "least value of all rows")
+         call put("channels/least", extremes%of%least, "list", "least value of all rows")
          call put("channels/least_time", extremes%of%least_time, "s", "when it was first there")
-         call put("channels/greatest", extremes%of%greatest, "as listed", "greatest value of all rows")
+         call put("channels/greatest", extremes%of%greatest, "list", "greatest value of all rows")
          call put("channels/greatest_time", extremes%of%greatest_time, "s", "when it was first there")
-         call put("channels/mean", [(extremes%mean(k), k=1, n)], "as listed", "mean over the time")
-         call put("channels/rms", [(extremes%rms(k), k=1, n)], "as listed", "root mean square over the time")
+         call put("channels/mean", [(extremes%mean(k), k=1, n)], "list", "mean over the time")
+         call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over the time")
       end if
       if (size(joints) == 0) return
       call text_dataset(file, "extremes/joints/name", [(text_t(joints(k)%name), k=1, size(joints))], .false., "loose joints", &
