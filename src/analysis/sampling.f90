@@ -9,7 +9,7 @@ module sampling
    use film_moments, only: film_moments_t
    use integrator, only: advance_failed_evaluation
    use kinds, only: i8, wp
-   use mechanism_report, only: build_catalogue, report_state
+   use mechanism_report, only: bind_channels, build_catalogue, report_state
    use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
@@ -66,11 +66,14 @@ contains
       class(recorder_t), intent(in) :: recorder       !! keeps the results, started
       type(stop_t), intent(in) :: stop                !! conditions that end the run
 
-      integer :: k
+      integer :: i, k
 
       do k = 1, size(self%catalogue%groups)
-         self%catalogue%groups(k)%is_wanted = recorder%wants(k) .or. stop%wants(k)
+         associate (is_wanted => self%catalogue%groups(k)%is_wanted)
+            is_wanted = [(recorder%wants(k, i) .or. stop%wants(k, i), i=1, size(is_wanted))]
+         end associate
       end do
+      call bind_channels(system, self%catalogue)
       call self%films%begin(system, recorder)
    end subroutine ask_readers
 
@@ -330,9 +333,11 @@ contains
 
       integer :: status
 
+      whole%system%with_quadratures = self%catalogue%readings%energy%n > 0
       call whole%state_at(t, at_peak, shift, self%y)
       self%n_reports = self%n_reports + 1
       call report_state(whole%system, t + shift, self%y, self%ydot, residual, self%catalogue, status)
+      whole%system%with_quadratures = .true.
       if (status == 0) return
       associate (part => whole%parts(whole%front(1)))
          call describe_failure(part%system, part%method, advance_failed_evaluation, error)

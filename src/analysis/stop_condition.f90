@@ -57,13 +57,14 @@ contains
       self%n = size(self%list)
    end subroutine stop_add
 
-   !> Whether a condition reads the values of a quantity.
-   pure logical function stop_wants(self, group) result(wants)
+   !> Whether a condition reads the value of a quantity of an item.
+   pure logical function stop_wants(self, group, item) result(wants)
       class(stop_t), intent(in) :: self       !! the conditions
       integer, intent(in) :: group            !! its group in the catalogue
+      integer, intent(in) :: item             !! number of the item in the group's room
 
       wants = .false.
-      if (self%n > 0) wants = any(self%list%group == group)
+      if (self%n > 0) wants = any(self%list%group == group .and. self%list%item == item)
    end function stop_wants
 
    !> After a step; before the first one, a condition that is met already ends the run there.

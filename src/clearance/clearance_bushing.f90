@@ -16,8 +16,8 @@ module clearance_bushing
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
-   use point_contacts, only: add_contact_channels
-   use socket_contacts, only: socket_contacts_t
+   use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
+   use socket_contacts, only: of_axial_displacement, of_engagement, of_tilt, socket_contacts_t
    use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
@@ -60,12 +60,14 @@ contains
                     choices="clipped endless")
       call add_word(info, "stiffness", "of each base: half that of the pin, or all of it as in the book", default="half", &
                     choices="half full")
-      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from that of the bushing")
-      call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases")
-      call add_channel(info, "moment", "N.m", "world", 2, "moment on the pin about its middle")
-      call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of pin and bushing")
-      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin from that of the bushing, along its axis")
-      call add_channel(info, "engagement", "m", "joint", 1, "length of the pin that is in the bushing, along its axis")
+      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from that of the bushing", of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases", of_force)
+      call add_channel(info, "moment", "N.m", "world", 2, "moment on the pin about its middle", of_moment)
+      call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of pin and bushing", of_tilt)
+      call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin from that of the bushing, along its axis", &
+                       of_axial_displacement)
+      call add_channel(info, "engagement", "m", "joint", 1, "length of the pin that is in the bushing, along its axis", &
+                       of_engagement)
       call add_contact_channels(info, "pin", "its sliding velocity")
    end function bushing_info
 

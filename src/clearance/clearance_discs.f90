@@ -12,7 +12,7 @@ module clearance_discs
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
-   use point_contacts, only: add_contact_channels
+   use point_contacts, only: add_contact_channels, of_eccentricity, of_force
    use round_contacts, only: round_contacts_t
    use surfaces, only: set_materials, shape_external, surfaces_t
    implicit none (type, external)
@@ -47,8 +47,9 @@ contains
       call add_reference(info, "material_j", "material", "material of the second disc, if another", default="none")
       call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second disc from that of the first")
-      call add_channel(info, "force", "N", "world", 2, "force on the second disc")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second disc from that of the first", &
+                       of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the second disc", of_force)
       call add_contact_channels(info, "second disc", "t = R90 n")
    end function discs_info
 

@@ -15,7 +15,7 @@ module clearance_plane
    use joint_translational, only: add_axis_columns
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
-   use point_contacts, only: add_contact_channels
+   use point_contacts, only: add_contact_channels, of_force
    use surfaces, only: set_materials, shape_plane, surfaces_t
    implicit none (type, external)
    private
@@ -49,7 +49,7 @@ contains
       call add_reference(info, "ball_material", "material", "material of the ball, if another", default="none")
       call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "force", "N", "world", 2, "force on the ball")
+      call add_channel(info, "force", "N", "world", 2, "force on the ball", of_force)
       call add_contact_channels(info, "ball", "t = R90 n")
    end function plane_info
 

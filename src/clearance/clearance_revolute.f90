@@ -15,7 +15,7 @@ module clearance_revolute
    use item, only: item_t, place_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_plane, kind_info_t
    use kinds, only: wp
-   use point_contacts, only: add_contact_channels
+   use point_contacts, only: add_contact_channels, of_eccentricity, of_force
    use revolute_level, only: add_film_channels, add_film_columns, find_level_mistake
    use round_contacts, only: round_contacts_t
    use surfaces, only: set_materials, shape_internal, surfaces_t
@@ -60,8 +60,9 @@ contains
       call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: not known", &
                       default="0 m", lower=0.0_wp)
       call add_film_columns(info)
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing")
-      call add_channel(info, "force", "N", "world", 2, "force on the journal")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing", &
+                       of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the journal", of_force)
       call add_film_channels(info)
       call add_contact_channels(info, "journal", "t = R90 n")
    end function revolute_info

@@ -8,6 +8,7 @@
 module clearance_set
    use bearing_films, only: bearing_films_t
    use bodies, only: material_t, points_t
+   use catalogue, only: group_t
    use contact_grip, only: new_grip, tangent_t
    use contact_states, only: contact_states_t
    use floors, only: gentle
@@ -17,6 +18,7 @@ module clearance_set
    use kinds, only: pi, wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
+   use readings, only: readings_t
    use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
@@ -171,14 +173,14 @@ module clearance_set
          type(tangent_t), intent(inout) :: tangent   !! how it lies
       end subroutine lie_interface
 
-      !> Values of a channel for all items, or for all contacts if it is one of theirs.
-      subroutine report_interface(self, channel, motion, values)
-         import :: clearance_set_t, motion_t, wp
+      !> Values that are read, of all items, or of all contacts if a channel is one of theirs. No allocation.
+      subroutine report_interface(self, readings, motion, groups)
+         import :: clearance_set_t, group_t, motion_t, readings_t
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
-         character(*), intent(in) :: channel         !! name of the channel
+         type(readings_t), intent(in) :: readings    !! channels that are read, as `info` numbers them
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values; others are left alone [any]
+         type(group_t), intent(inout) :: groups(:)   !! (groups) values of all items and contacts; others are left alone
       end subroutine report_interface
 
       !> Elastic energy that the contacts store which act.

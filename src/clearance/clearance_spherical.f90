@@ -10,7 +10,7 @@ module clearance_spherical
    use item, only: item_t, place_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
-   use point_contacts, only: add_contact_channels
+   use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
    use socket_contacts, only: socket_contacts_t
    use surfaces, only: set_materials, shape_internal, surfaces_t
    use text, only: to_text
@@ -41,9 +41,9 @@ contains
       call add_reference(info, "bearing", "points", "centre of the socket")
       call add_reference(info, "journal", "points", "centre of the ball")
       call add_socket_columns(info, "socket", "ball")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the ball from that of the socket")
-      call add_channel(info, "force", "N", "world", 2, "force on the ball")
-      call add_channel(info, "moment", "N.m", "world", 2, "moment on the ball about its centre")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the ball from that of the socket", of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the ball", of_force)
+      call add_channel(info, "moment", "N.m", "world", 2, "moment on the ball about its centre", of_moment)
       call add_contact_channels(info, "ball", "its sliding velocity")
    end function spherical_info
 

@@ -20,7 +20,7 @@ module clearance_stop
       in_plane, kind_info_t, leaves_turn, &
       same_dimension
    use kinds, only: pi, wp
-   use point_contacts, only: add_contact_channels
+   use point_contacts, only: add_contact_channels, of_force
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t
    implicit none (type, external)
@@ -58,7 +58,7 @@ contains
       call add_any_number(info, "upper", "greatest angle or way; left out: none", default="")
       call add_number(info, "lever", dim_length, "of an angle: distance of the stop from the pin", default="0 m", lower=0.0_wp)
       call add_reference(info, "law", "contact.", "normal law with a stiffness, a row of a contact table")
-      call add_channel(info, "force", "N", "world", 2, "force on the body of j")
+      call add_channel(info, "force", "N", "world", 2, "force on the body of j", of_force)
       call add_contact_channels(info, "body of j", "t = R90 n")
    end function stop_info
 

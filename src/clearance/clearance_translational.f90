@@ -26,7 +26,7 @@ module clearance_translational
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_angle, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use normal_law, only: n_law_parameter, parameter_gentle
-   use point_contacts, only: add_contact_channels
+   use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
    use slider_contacts, only: faces_blend, faces_book, faces_corners, faces_foundation, lower, n_corner, slider_contacts_t, upper
    use surfaces, only: set_materials, shape_face, shape_plane, surfaces_t
    implicit none (type, external)
@@ -88,9 +88,10 @@ contains
                     //"face law with its jump, or one of two ways without", default="corners", &
                     choices="corners book blend foundation")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the slider from the guide's line")
-      call add_channel(info, "force", "N", "world", 2, "force on the slider")
-      call add_channel(info, "moment", "N.m", "world", 1, "moment on the slider about its centre")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the slider from the guide's line", &
+                       of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the slider", of_force)
+      call add_channel(info, "moment", "N.m", "world", 1, "moment on the slider about its centre", of_moment)
       call add_contact_channels(info, "slider", "t = R90 n")
    end function translational_info
 

@@ -13,6 +13,7 @@
 !> Source: Flores et al. (2008), sections 3.6 and 4.2 to 4.4. Limits: a contact is a point; contacts that share a face
 !> (`has_faces`): see `faced_contacts`.
 module point_contacts
+   use catalogue, only: group_t
    use clearance_set, only: clearance_set_t
    use contact_grip, only: slip_force, tangent_t
    use contact_laws, only: rub_by_law
@@ -21,10 +22,22 @@ module point_contacts
    use kinds, only: wp
    use motion, only: motion_t
    use planar_contacts, only: planar_force
+   use readings, only: readings_t
    use point_contact, only: contact_work_t, most_of_item, new_work, point_contact_t
    implicit none (type, external)
    private
    public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
+   public :: of_eccentricity, of_force, of_moment, of_state
+
+   ! channels
+   integer, parameter :: of_force = 1             !! force on j
+   integer, parameter :: of_penetration = 2       !! of a contact
+   integer, parameter :: of_penetration_rate = 3  !! of a contact
+   integer, parameter :: of_normal_force = 4      !! of a contact
+   integer, parameter :: of_friction_force = 5    !! of a contact
+   integer, parameter :: of_state = 6             !! of a contact
+   integer, parameter :: of_eccentricity = 7      !! a geometry's own
+   integer, parameter :: of_moment = 8            !! a geometry's own
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t
@@ -114,13 +127,14 @@ module point_contacts
          type(tangent_t), intent(inout) :: tangent    !! how it lies
       end subroutine point_lie
 
-      !> Values of a channel: those of the contacts and the force on j here, others as the geometry has them.
-      module subroutine point_report(self, channel, motion, values)
+      !> Values that are read: those of the contacts and the force on j here, others as the geometry has them. The contacts of an
+      !> item are found once for all of them.
+      module subroutine point_report(self, readings, motion, groups)
          implicit none (type, external)
          class(point_contacts_t), intent(in) :: self  !! the set
-         character(*), intent(in) :: channel          !! name of the channel
+         type(readings_t), intent(in) :: readings     !! channels that are read
          type(motion_t), intent(in) :: motion         !! positions and velocities
-         real(wp), intent(inout) :: values(:, :)      !! (components, all items or contacts) values [any]
+         type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
       end subroutine point_report
 
       !> Elastic energy that the touching contacts store.
@@ -150,11 +164,12 @@ contains
       character(*), intent(in) :: who           !! what has the friction force, as "slider"
       character(*), intent(in) :: along         !! what it is measured along
 
-      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart")
-      call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching")
-      call add_channel(info, "normal_force", "N", "none", 1, "normal contact force")
-      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along)
-      call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed")
+      call add_channel(info, "penetration", "m", "none", 1, "penetration of the surfaces, 0 when apart", of_penetration)
+      call add_channel(info, "penetration_rate", "m/s", "none", 1, "rate of the penetration, positive when approaching", &
+                       of_penetration_rate)
+      call add_channel(info, "normal_force", "N", "none", 1, "normal contact force", of_normal_force)
+      call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along, of_friction_force)
+      call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed", of_state)
    end subroutine add_contact_channels
 
    !> Room for what an evaluation finds.
@@ -189,9 +204,9 @@ contains
    end subroutine point_rub
 
    !> A channel of a geometry's own; there is none here, and the value is left alone.
-   subroutine point_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+   subroutine point_report_item(self, code, item, motion, contacts, f_n, f_t, value)
       class(point_contacts_t), intent(in) :: self         !! the set
-      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(point_contact_t), intent(in) :: contacts(:)    !! (n_contact_item) kinematics of its contacts

@@ -67,40 +67,80 @@ contains
                         tangent)
    end procedure point_lie
 
-   !> Values of a channel: those of the contacts and the force on j here, others as the geometry has them.
+   !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
       type(point_contact_t) :: contacts(most_of_item)
-      real(wp) :: f(3), f_n(most_of_item), f_t(most_of_item)
-      integer :: c, first, item, m, n
+      real(wp) :: f_n(most_of_item), f_t(most_of_item)
+      integer :: first, item, m, n
+      logical :: has_contacts
 
       n = self%n_contact_item
+      has_contacts = readings%has(of_force, of_state) .or. readings%has(of_moment, of_moment)
       do item = 1, self%n
          first = (item - 1)*n
-         call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
-         if (channel == "force") values(:, self%before%items + item) = 0.0_wp
-         do c = 1, n
-            m = self%before%contacts + first + c
-            select case (channel)
-            case ("force")
-               f = self%force_on_j(contacts(c), f_n(c), f_t(c))
-               values(:, self%before%items + item) = values(:, self%before%items + item) + f(:size(values, 1))
-            case ("penetration")
-               values(1, m) = max(contacts(c)%delta, 0.0_wp)
-            case ("penetration_rate")
-               values(1, m) = merge(contacts(c)%rate, 0.0_wp, self%contact(first + c)%is_touching)
-            case ("normal_force")
-               values(1, m) = f_n(c)
-            case ("friction_force")
-               values(1, m) = f_t(c)
-            case ("state")
-               values(1, m) = real(merge(state_contact, state_free, self%contact(first + c)%is_touching), wp)
-            case default
-               call self%report_item(channel, item, motion, contacts(:n), f_n(:n), f_t(:n), values(:, self%before%items + item))
-               exit
-            end select
+         if (has_contacts) call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
+         do m = 1, readings%n
+            associate (values => groups(readings%group(m))%data)
+               if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
+                  call report_contacts(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, &
+                                       values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
+               else if (readings%code(m) == of_force) then
+                  call report_force(self, n, contacts, f_n, f_t, values(:, self%before%items + item))
+               else
+                  call self%report_item(readings%code(m), item, motion, contacts(:n), f_n(:n), f_t(:n), &
+                                        values(:, self%before%items + item))
+               end if
+            end associate
          end do
       end do
    end procedure point_report
+
+   !> Values of a channel of the contacts of an item.
+   pure subroutine report_contacts(code, n, memory, contacts, f_n, f_t, values)
+      integer, intent(in) :: code                           !! the channel
+      integer, intent(in) :: n                              !! contacts
+      type(contact_memory_t), intent(in) :: memory(n)       !! (n) their states
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
+      real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
+      real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
+      real(wp), intent(inout) :: values(:)                  !! (n) values [any]
+
+      integer :: c
+
+      do c = 1, n
+         select case (code)
+         case (of_penetration)
+            values(c) = max(contacts(c)%delta, 0.0_wp)
+         case (of_penetration_rate)
+            values(c) = merge(contacts(c)%rate, 0.0_wp, memory(c)%is_touching)
+         case (of_normal_force)
+            values(c) = f_n(c)
+         case (of_friction_force)
+            values(c) = f_t(c)
+         case (of_state)
+            values(c) = real(merge(state_contact, state_free, memory(c)%is_touching), wp)
+         end select
+      end do
+   end subroutine report_contacts
+
+   !> Force of all contacts of an item on j.
+   pure subroutine report_force(self, n, contacts, f_n, f_t, force)
+      class(point_contacts_t), intent(in) :: self           !! the set
+      integer, intent(in) :: n                              !! contacts
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
+      real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
+      real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
+      real(wp), intent(inout) :: force(:)                   !! (2 or 3) the force, world frame [N]
+
+      real(wp) :: f(3)
+      integer :: c
+
+      force = 0.0_wp
+      do c = 1, n
+         f = self%force_on_j(contacts(c), f_n(c), f_t(c))
+         force = force + f(:size(force))
+      end do
+   end subroutine report_force
 
    !> Kinematics and forces of the contacts of an item at a motion: forces are zero of those that are free.
    subroutine find_forces(self, item, motion, contacts, f_n, f_t)

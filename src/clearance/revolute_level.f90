@@ -6,6 +6,20 @@ module revolute_level
    implicit none (type, external)
    private
    public :: add_film_channels, add_film_columns, film_channels, find_level_mistake, pressure_channels
+   public :: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_power, of_film_pressure
+   public :: of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
+
+   ! channels, behind those of `point_contacts`
+   integer, parameter :: of_film_force = 21          !! force on the journal
+   integer, parameter :: of_film_torque = 22         !! moment of the shear, where it acts
+   integer, parameter :: of_film_thickness = 23      !! least thickness
+   integer, parameter :: of_film_pressure = 24       !! greatest pressure
+   integer, parameter :: of_eccentricity_ratio = 25  !! eccentricity over clearance
+   integer, parameter :: of_drag_journal = 26        !! moment of the shear on the journal
+   integer, parameter :: of_drag_bearing = 27        !! and on the bearing
+   integer, parameter :: of_film_power = 28          !! heat
+   integer, parameter :: of_side_flow = 29           !! what leaves at the ends
+   integer, parameter :: of_temperature_rise = 30    !! of the lubricant
 
    character(*), parameter :: film_channels = " film_force film_torque film_thickness film_pressure eccentricity_ratio "// &
                               "drag_journal drag_bearing film_power side_flow temperature_rise "  !! channels of films
@@ -38,17 +52,22 @@ contains
    subroutine add_film_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the geometry
 
-      call add_channel(info, "film_force", "N", "world", 2, "force of the film on the journal")
-      call add_channel(info, "film_torque", "N.m", "world", 1, "moment of the shear in the film on the journal, where it acts")
-      call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity")
-      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees")
-      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance")
-      call add_channel(info, "drag_journal", "N.m", "world", 1, "moment of the shear on the journal, whether it acts or not")
-      call add_channel(info, "drag_bearing", "N.m", "world", 1, "moment of the shear on the bearing, whether it acts or not")
-      call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat")
-      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bearing")
+      call add_channel(info, "film_force", "N", "world", 2, "force of the film on the journal", of_film_force)
+      call add_channel(info, "film_torque", "N.m", "world", 1, "moment of the shear in the film on the journal, where it acts", &
+                       of_film_torque)
+      call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, clearance less eccentricity", &
+                       of_film_thickness)
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees", &
+                       of_film_pressure)
+      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance", of_eccentricity_ratio)
+      call add_channel(info, "drag_journal", "N.m", "world", 1, "moment of the shear on the journal, whether it acts or not", &
+                       of_drag_journal)
+      call add_channel(info, "drag_bearing", "N.m", "world", 1, "moment of the shear on the bearing, whether it acts or not", &
+                       of_drag_bearing)
+      call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat", of_film_power)
+      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bearing", of_side_flow)
       call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; one " &
-                       //"below L R c (|w_i| + |w_j|)/1000 counts as that")
+                       //"below L R c (|w_i| + |w_j|)/1000 counts as that", of_temperature_rise)
    end subroutine add_film_channels
 
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.

@@ -12,7 +12,7 @@
 !> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
 module round_contacts
    use bearing_films, only: film_state_t
-   use catalogue, only: state_contact, state_film, state_mixed
+   use catalogue, only: group_t, state_contact, state_film, state_mixed
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
@@ -22,15 +22,13 @@ module round_contacts
    use normal_law, only: n_law_parameter, normal_law_t
    use planar_contacts, only: planar_sliding
    use point_contact, only: point_contact_t
-   use point_contacts, only: point_contacts_t, point_report
+   use point_contacts, only: of_eccentricity, of_force, of_state, point_contacts_t, point_report
+   use readings, only: readings_t
+   use revolute_level, only: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_power, &
+      of_film_pressure, of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t
-
-   !> Channels that films tell, or add to.
-   character(*), parameter :: told_of_films = &
-      " force film_force film_torque film_pressure film_thickness eccentricity_ratio state drag_journal drag_bearing "// &
-      "film_power side_flow temperature_rise "
 
    !> The surfaces of one joint.
    type :: journal_t
@@ -250,53 +248,76 @@ contains
       distance = sqrt(e(1)**2 + e(2)**2)
    end subroutine find_centres
 
-   !> Values of a channel: of films here, and what they add to those of contacts.
-   subroutine round_report(self, channel, motion, values)
+   !> Values that are read: of films here, and what they add to those of contacts.
+   subroutine round_report(self, readings, motion, groups)
       class(round_contacts_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel          !! name of the channel
+      type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      real(wp), intent(inout) :: values(:, :)      !! (components, all items or contacts) values [any]
+      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
 
       type(film_motion_t) :: film
       type(film_state_t) :: state
-      integer :: k
+      integer :: k, m
+      logical :: has_state
 
-      call point_report(self, channel, motion, values)
+      call point_report(self, readings, motion, groups)
       if (.not. allocated(self%laws%films)) return
-      if (index(told_of_films, " "//channel//" ") == 0) return
       do k = 1, self%n
-         associate (films => self%laws%films, item => self%before%items + k, contact => self%before%contacts + k, &
-                    c => self%items%clearance(k))
-            film = films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
-            select case (channel)
-            case ("film_pressure"); values(1, item) = films%greatest_pressure(k, film)
-            case ("eccentricity_ratio"); values(1, item) = norm2(film%e)/c
-            case ("film_thickness"); values(1, item) = max(c - norm2(film%e), 0.0_wp)
-            case default
-               state = films%state_of(k, self%items%body(:, k), film, motion)
+         film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
+         has_state = .false.
+         do m = 1, readings%n
+            select case (readings%code(m))
+            case (of_force, of_state, of_film_force, of_film_torque, of_drag_journal:of_temperature_rise)
+               if (.not. has_state) state = self%laws%films%state_of(k, self%items%body(:, k), film, motion)
+               has_state = .true.
             end select
-            select case (channel)
-            case ("force"); values(1:2, item) = values(1:2, item) + state%force
-            case ("film_force"); values(1:2, item) = state%force
-            case ("film_torque"); values(1, item) = state%torque
-            case ("drag_journal"); values(1, item) = state%drag_journal
-            case ("drag_bearing"); values(1, item) = state%drag_bearing
-            case ("film_power"); values(1, item) = state%power
-            case ("side_flow"); values(1, item) = state%side_flow
-            case ("temperature_rise"); values(1, item) = state%rise
-            case ("state")
-               if (state%share > 0.0_wp) then
-                  values(1, contact) = real(merge(state_mixed, state_film, nint(values(1, contact)) == state_contact), wp)
+            associate (values => groups(readings%group(m))%data)
+               if (readings%code(m) == of_state) then
+                  call add_film_state(state, values(1, self%before%contacts + k))
+               else
+                  call report_film(self, readings%code(m), k, film, state, values(:, self%before%items + k))
                end if
-            end select
-         end associate
+            end associate
+         end do
       end do
    end subroutine round_report
 
+   !> What a film makes of the state of a contact.
+   pure subroutine add_film_state(state, value)
+      type(film_state_t), intent(in) :: state   !! the film
+      real(wp), intent(inout) :: value          !! the state [1]
+
+      if (state%share > 0.0_wp) value = real(merge(state_mixed, state_film, nint(value) == state_contact), wp)
+   end subroutine add_film_state
+
+   !> A channel that films tell, or add to.
+   subroutine report_film(self, code, k, film, state, value)
+      class(round_contacts_t), intent(in) :: self    !! the set
+      integer, intent(in) :: code                    !! the channel
+      integer, intent(in) :: k                       !! the item
+      type(film_motion_t), intent(in) :: film        !! motion of its film
+      type(film_state_t), intent(in) :: state        !! what the film does, where the channel needs it
+      real(wp), intent(inout) :: value(:)            !! (components) the value [any]
+
+      select case (code)
+      case (of_force); value(1:2) = value(1:2) + state%force
+      case (of_film_force); value(1:2) = state%force
+      case (of_film_torque); value(1) = state%torque
+      case (of_film_pressure); value(1) = self%laws%films%greatest_pressure(k, film)
+      case (of_eccentricity_ratio); value(1) = norm2(film%e)/self%items%clearance(k)
+      case (of_film_thickness); value(1) = max(self%items%clearance(k) - norm2(film%e), 0.0_wp)
+      case (of_drag_journal); value(1) = state%drag_journal
+      case (of_drag_bearing); value(1) = state%drag_bearing
+      case (of_film_power); value(1) = state%power
+      case (of_side_flow); value(1) = state%side_flow
+      case (of_temperature_rise); value(1) = state%rise
+      end select
+   end subroutine report_film
+
    !> The eccentricity: the journal's centre from the bearing's, world frame.
-   subroutine round_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+   subroutine round_report_item(self, code, item, motion, contacts, f_n, f_t, value)
       class(round_contacts_t), intent(in) :: self         !! the set
-      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(point_contact_t), intent(in) :: contacts(:)    !! (1) kinematics of its contact
@@ -306,7 +327,7 @@ contains
 
       real(wp) :: distance, s_i(2), s_j(2)
 
-      if (channel /= "eccentricity") return
+      if (code /= of_eccentricity) return
       call find_centres(self, item, motion, s_i, s_j, distance)
       associate (i => self%items%body(1, item), j => self%items%body(2, item))
          value = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i

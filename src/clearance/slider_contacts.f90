@@ -24,7 +24,7 @@ module slider_contacts
    use motion, only: motion_t
    use planar_contacts, only: planar_force
    use point_contact, only: point_contact_t
-   use point_contacts, only: point_gaps
+   use point_contacts, only: of_eccentricity, of_moment, point_gaps
    use slider_faces, only: bedding_energy, blend_energy, find_blend, find_face
    use text, only: text_t
    implicit none (type, external)
@@ -111,9 +111,9 @@ contains
    end subroutine slider_gaps
 
    !> The eccentricity, of the slider's centre from the guide's line, and the moment of the contact forces about that centre.
-   subroutine slider_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+   subroutine slider_report_item(self, code, item, motion, contacts, f_n, f_t, value)
       class(slider_contacts_t), intent(in) :: self        !! the set
-      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(point_contact_t), intent(in) :: contacts(:)    !! (8) kinematics of its contacts
@@ -127,12 +127,12 @@ contains
       i = self%items%body(1, item)
       j = self%items%body(2, item)
       centre = matmul(motion%rot(1:2, 1:2, j), self%items%s_j(1:2, item))
-      select case (channel)
-      case ("eccentricity")
+      select case (code)
+      case (of_eccentricity)
          across = motion%rot(1:2, 2, i)*self%guide%axis(1, item) - motion%rot(1:2, 1, i)*self%guide%axis(2, item)
          arm = motion%r(1:2, j) + centre - motion%r(1:2, i) - matmul(motion%rot(1:2, 1:2, i), self%items%s_i(1:2, item))
          value = dot_product(across, arm)*across
-      case ("moment")
+      case (of_moment)
          value = 0.0_wp
          do c = 1, self%n_contact_item
             f = planar_force(contacts(c), f_n(c), f_t(c))

@@ -28,10 +28,15 @@ module socket_contacts
    use motion, only: cross, loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
-   use point_contacts, only: point_contacts_t
+   use point_contacts, only: of_eccentricity, of_moment, point_contacts_t
    implicit none (type, external)
    private
-   public :: socket_contacts_t, socket_t
+   public :: of_axial_displacement, of_engagement, of_tilt, socket_contacts_t, socket_t
+
+   ! channels of a bushing
+   integer, parameter :: of_tilt = 41                !! angle between the axes
+   integer, parameter :: of_axial_displacement = 42  !! along the axis
+   integer, parameter :: of_engagement = 43          !! length of the pin in the bushing
 
    !> The surfaces of one joint.
    type :: socket_t
@@ -298,9 +303,9 @@ contains
    end function socket_force_on_j
 
    !> Eccentricity of centres, tilt, and how much of the pin is in the bushing.
-   subroutine socket_report_item(self, channel, item, motion, contacts, f_n, f_t, value)
+   subroutine socket_report_item(self, code, item, motion, contacts, f_n, f_t, value)
       class(socket_contacts_t), intent(in) :: self        !! the set
-      character(*), intent(in) :: channel                 !! name of the channel
+      integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
       type(point_contact_t), intent(in) :: contacts(:)    !! (contacts of an item) their kinematics
@@ -318,20 +323,20 @@ contains
          pin = turned(motion, j, socket%axis_j)
          cosine = dot_product(u, pin)
          zeta = dot_product(d, u)
-         select case (channel)
-         case ("eccentricity")
+         select case (code)
+         case (of_eccentricity)
             value = d
-         case ("moment")
+         case (of_moment)
             value = 0.0_wp
             do c = 1, size(contacts)
                value = value + cross(contacts(c)%arm_j - turned(motion, j, self%items%s_j(:, item)), &
                                      self%force_on_j(contacts(c), f_n(c), f_t(c)))
             end do
-         case ("tilt")
+         case (of_tilt)
             value = atan2(norm2(cross(u, pin)), abs(cosine))
-         case ("axial_displacement")
+         case (of_axial_displacement)
             value = zeta
-         case ("engagement")
+         case (of_engagement)
             cosine = socket%half_j*abs(cosine)
             value = max(min(cosine, socket%half_i - zeta) - max(-cosine, -socket%half_i - zeta), 0.0_wp)
          end select

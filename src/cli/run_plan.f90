@@ -44,6 +44,8 @@ contains
       call tell_origin(options, loaded, plan)
       plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
       plan%title = loaded%scene%title
+      plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
+      if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
       call plan_statistics(loaded, plan%statistics)
       call known_words(loaded, plan)
       if (assembly%rate_changed > negligible*(1.0_wp + maxval(abs(loaded%scene%bodies%v)))) then
@@ -75,6 +77,8 @@ contains
       type(loaded_t), intent(in) :: loaded         !! the deck
       type(output_plan_t), intent(inout) :: plan   !! its origin is set, but for the deck's echo
 
+      integer :: k
+
       plan%origin%deck_name = loaded%path
       plan%origin%deck_text = deck_text(loaded%deck)
       plan%origin%program_version = program_version
@@ -83,6 +87,11 @@ contains
       plan%origin%libraries = library_versions()
       plan%origin%command = options%command
       call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
+      allocate (plan%origin%parameter_names(loaded%deck%symbols%n_parameter))
+      do k = 1, loaded%deck%symbols%n_parameter
+         plan%origin%parameter_names(k)%s = loaded%deck%symbols%list(k)%name
+      end do
+      plan%origin%parameter_texts = loaded%deck%parameter_text(:loaded%deck%symbols%n_parameter)
    end subroutine tell_origin
 
    !> What the deck asks of the statistics of a motion.

@@ -210,10 +210,10 @@ module coordinates
       end subroutine split_interface
 
       !> Values of a channel of all bodies.
-      pure subroutine report_interface(channel, motion, values)
+      pure subroutine report_interface(code, motion, values)
          import :: motion_t, wp
          implicit none (type, external)
-         character(*), intent(in) :: channel        !! the channel, one of `bodies_info`
+         integer, intent(in) :: code                !! the channel, one of `bodies`
          type(motion_t), intent(in) :: motion       !! the motion, accelerations too
          real(wp), intent(inout) :: values(:, :)    !! (components, bodies) values [any]
       end subroutine report_interface

@@ -5,7 +5,8 @@
 !> Source: Flores et al. (2008), section 2.3.
 module planar_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use bodies, only: bodies_info, bodies_t
+   use bodies, only: bodies_info, bodies_t, of_acceleration, of_angle, of_angular_acceleration, of_angular_velocity, &
+      of_position, of_velocity
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -325,24 +326,24 @@ contains
    end subroutine planar_split_load
 
    !> Values of a channel of all bodies.
-   pure subroutine mechanism_report(channel, motion, values)
-      character(*), intent(in) :: channel        !! the channel
+   pure subroutine mechanism_report(code, motion, values)
+      integer, intent(in) :: code                !! the channel
       type(motion_t), intent(in) :: motion       !! the motion, accelerations too
       real(wp), intent(inout) :: values(:, :)    !! (components, bodies) values [any]
 
       associate (n => size(values, 2))
-         select case (channel)
-         case ("position")
+         select case (code)
+         case (of_position)
             values = motion%r(1:2, 1:n)
-         case ("velocity")
+         case (of_velocity)
             values = motion%v(1:2, 1:n)
-         case ("acceleration")
+         case (of_acceleration)
             values = motion%a(1:2, 1:n)
-         case ("angle")
+         case (of_angle)
             values(1, :) = motion%angle(1:n)
-         case ("angular_velocity")
+         case (of_angular_velocity)
             values(1, :) = motion%omega(3, 1:n)
-         case ("angular_acceleration")
+         case (of_angular_acceleration)
             values(1, :) = motion%alpha(3, 1:n)
          end select
       end associate

@@ -9,12 +9,12 @@
 !> Source: Flores et al. (2008), section 6.2; the gyroscopic moment of (6.9) belongs to g.
 module spatial_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use bodies, only: bodies_t
+   use bodies, only: bodies_t, of_acceleration, of_angular_acceleration, of_angular_velocity, of_position, of_velocity
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
    use rotations, only: euler_parameters_of, product_of, rate_of_parameters, rotation_of_parameters, rotation_vector_of, turned_by
-   use spatial_bodies, only: spatial_bodies_info
+   use spatial_bodies, only: of_orientation, of_spin, spatial_bodies_info
    implicit none (type, external)
    private
    public :: new_spatial_coordinates, spatial_coordinates_t
@@ -350,8 +350,8 @@ contains
    end subroutine spatial_split_load
 
    !> Values of a channel of all bodies. What is along a body's axes is along those of the deck.
-   pure subroutine spatial_report(channel, motion, values)
-      character(*), intent(in) :: channel        !! the channel
+   pure subroutine spatial_report(code, motion, values)
+      integer, intent(in) :: code                !! the channel
       type(motion_t), intent(in) :: motion       !! the motion, accelerations too
       real(wp), intent(inout) :: values(:, :)    !! (components, bodies) values [any]
 
@@ -359,24 +359,24 @@ contains
       integer :: k
 
       associate (n => size(values, 2))
-         select case (channel)
-         case ("position")
+         select case (code)
+         case (of_position)
             values = motion%r(:, 1:n)
-         case ("velocity")
+         case (of_velocity)
             values = motion%v(:, 1:n)
-         case ("acceleration")
+         case (of_acceleration)
             values = motion%a(:, 1:n)
-         case ("orientation")
+         case (of_orientation)
             do k = 1, n
                ! of the own axes, on the side of the parameters that are integrated, so that the curves have no jumps
                p = euler_parameters_of(motion%spatial%own(:, :, k))
                values(:, k) = product_of(motion%spatial%p(:, k), [p(1), -p(2:4)])/norm2(motion%spatial%p(:, k))
             end do
-         case ("angular_velocity")
+         case (of_angular_velocity)
             values = motion%omega(:, 1:n)
-         case ("angular_acceleration")
+         case (of_angular_acceleration)
             values = motion%alpha(:, 1:n)
-         case ("spin")
+         case (of_spin)
             do k = 1, n
                values(:, k) = matmul(motion%spatial%own(:, :, k), motion%spatial%spin(:, k))
             end do

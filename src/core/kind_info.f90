@@ -7,7 +7,7 @@ module kind_info
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: channel_t, column_t, dim_t, kind_info_t
+   public :: channel_code, channel_t, column_t, dim_t, kind_info_t
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
    public :: cell_condition, cell_file, cell_list, cell_words
    public :: add_condition
@@ -120,6 +120,7 @@ module kind_info
       character(:), allocatable :: frame  !! world, body, joint or none
       integer :: components = 1           !! 1; a vector: 2, which in a spatial scene means 3; 4: Euler parameters
       character(:), allocatable :: help   !! long name
+      integer :: code = 0                 !! number by which its kind knows it when values are wanted
    end type channel_t
 
    !> A kind: all that the rest of the program knows of it by name.
@@ -365,20 +366,42 @@ contains
       if (allocated(info%columns)) n = size(info%columns)
       allocate (grown(n + 1))
       do i = 1, n
-         grown(i) = info%columns(i)
+         call move_column(info%columns(i), grown(i))
       end do
       grown(n + 1) = column
       call move_alloc(grown, info%columns)
    end subroutine add_column
 
+   !> A column to another place, its words without a copy.
+   pure subroutine move_column(from, to)
+      type(column_t), intent(inout) :: from  !! where it was
+      type(column_t), intent(inout) :: to    !! where it is
+
+      to%cell = from%cell
+      to%dimension = from%dimension
+      to%is_any = from%is_any
+      to%variable = from%variable
+      to%argument = from%argument
+      to%size = from%size
+      to%bounds = from%bounds
+      to%is_free = from%is_free
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%refers_to, to%refers_to)
+      call move_alloc(from%choices, to%choices)
+      call move_alloc(from%default, to%default)
+      call move_alloc(from%options, to%options)
+      call move_alloc(from%help, to%help)
+   end subroutine move_column
+
    !> Append an output channel to a kind.
-   subroutine add_channel(info, name, unit, frame, components, help)
+   subroutine add_channel(info, name, unit, frame, components, help, code)
       type(kind_info_t), intent(inout) :: info  !! the kind
       character(*), intent(in) :: name          !! part after the item's name and a dot
       character(*), intent(in) :: unit          !! SI unit, `1` if none
       character(*), intent(in) :: frame         !! world, body, joint or none
       integer, intent(in) :: components         !! 1, or 2 in the plane
       character(*), intent(in) :: help          !! long name
+      integer, intent(in), optional :: code     !! number by which the kind knows it
 
       type(channel_t), allocatable :: grown(:)
       integer :: i, n
@@ -387,15 +410,37 @@ contains
       if (allocated(info%channels)) n = size(info%channels)
       allocate (grown(n + 1))
       do i = 1, n
-         grown(i) = info%channels(i)
+         associate (from => info%channels(i), to => grown(i))
+            to%components = from%components
+            to%code = from%code
+            call move_alloc(from%name, to%name)
+            call move_alloc(from%unit, to%unit)
+            call move_alloc(from%frame, to%frame)
+            call move_alloc(from%help, to%help)
+         end associate
       end do
       grown(n + 1)%name = name
       grown(n + 1)%unit = unit
       grown(n + 1)%frame = frame
       grown(n + 1)%components = components
       grown(n + 1)%help = help
+      if (present(code)) grown(n + 1)%code = code
       call move_alloc(grown, info%channels)
    end subroutine add_channel
+
+   !> Number by which a kind knows a channel, 0 if it has none of that name.
+   pure integer function channel_code(info, name) result(code)
+      type(kind_info_t), intent(in) :: info  !! the kind
+      character(*), intent(in) :: name       !! part after the item's name and a dot
+
+      integer :: k
+
+      code = 0
+      if (.not. allocated(info%channels)) return
+      do k = 1, size(info%channels)
+         if (info%channels(k)%name == name) code = info%channels(k)%code
+      end do
+   end function channel_code
 
    !> Whether two dimensions are the same.
    pure logical function same_dimension(a, b)

@@ -15,6 +15,10 @@ module force_point
    private
    public :: force_point_t
 
+   ! channels
+   integer, parameter :: of_force = 1  !! force
+   integer, parameter :: of_power = 2  !! power given to the mechanism
+
    !> All point forces.
    type, extends(force_set_t) :: force_point_t
       integer, allocatable :: body(:)             !! (n) body of each point
@@ -42,8 +46,8 @@ contains
       call add_reference(info, "point", "points", "where the force acts")
       call add_expression(info, "fx", dim_force, "component along world x", default="0 N")
       call add_expression(info, "fy", dim_force, "component along world y", default="0 N")
-      call add_channel(info, "force", "N", "world", 2, "force on the body")
-      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism")
+      call add_channel(info, "force", "N", "world", 2, "force on the body", of_force)
+      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function point_info
 
    !> Make the set.
@@ -100,9 +104,9 @@ contains
    end subroutine point_evaluate
 
    !> Values of a channel for all items.
-   subroutine point_report(self, channel, t, motion, values)
+   subroutine point_report(self, code, t, motion, values)
       class(force_point_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel       !! name of the channel
+      integer, intent(in) :: code               !! the channel
       real(wp), intent(in) :: t                 !! time [s]
       type(motion_t), intent(in) :: motion      !! positions and velocities
       real(wp), intent(inout) :: values(:, :)   !! (components, n) values [N or W]
@@ -112,10 +116,10 @@ contains
 
       do k = 1, self%n
          f = force_of(self, k, t)
-         select case (channel)
-         case ("force")
+         select case (code)
+         case (of_force)
             values(:, k) = f(1:size(values, 1))
-         case ("power")
+         case (of_power)
             p = point_position(motion, self%body(k), self%s(:, k))
             values(1, k) = dot_product(f, point_velocity(motion, self%body(k), p))
          end select

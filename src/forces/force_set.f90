@@ -67,11 +67,11 @@ module force_set
       end subroutine evaluate_interface
 
       !> Values of a channel for all items.
-      subroutine report_interface(self, channel, t, motion, values)
+      subroutine report_interface(self, code, t, motion, values)
          import :: force_set_t, motion_t, wp
          implicit none (type, external)
          class(force_set_t), intent(in) :: self     !! the set
-         character(*), intent(in) :: channel        !! name of the channel
+         integer, intent(in) :: code                !! the channel, as `info` numbers it
          real(wp), intent(in) :: t                  !! time [s]
          type(motion_t), intent(in) :: motion       !! positions and velocities
          real(wp), intent(inout) :: values(:, :)    !! (components, n) values; left alone if not of this kind [any]

@@ -27,6 +27,13 @@ module force_spring
    private
    public :: force_spring_t
 
+   ! channels
+   integer, parameter :: of_force = 1    !! force
+   integer, parameter :: of_tension = 2  !! force along the line of the points
+   integer, parameter :: of_length = 3   !! distance of the points
+   integer, parameter :: of_rate = 4     !! its rate
+   integer, parameter :: of_power = 5    !! power given to the mechanism
+
    !> All translational springs.
    type, extends(force_set_t) :: force_spring_t
       integer, allocatable :: body(:, :)                !! (2, n) bodies i and j, 0: ground
@@ -62,11 +69,12 @@ contains
       call add_expression(info, "actuator", dim_force, "tension as a function of time", default="0 N")
       call add_expression(info, "law", dim_force, "tension as a function of the stretch x from the free length, beside the " &
                           //"stiffness", default="0 N", variable="x", argument=[dim_length])
-      call add_channel(info, "force", "N", "world", 2, "force on the body of i")
-      call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive if it pulls them together")
-      call add_channel(info, "length", "m", "none", 1, "distance of the points")
-      call add_channel(info, "rate", "m/s", "none", 1, "rate of the distance")
-      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together")
+      call add_channel(info, "force", "N", "world", 2, "force on the body of i", of_force)
+      call add_channel(info, "tension", "N", "none", 1, "force along the line of the points, positive if it pulls them together", &
+                       of_tension)
+      call add_channel(info, "length", "m", "none", 1, "distance of the points", of_length)
+      call add_channel(info, "rate", "m/s", "none", 1, "rate of the distance", of_rate)
+      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together", of_power)
    end function spring_info
 
    !> Make the set.
@@ -160,9 +168,9 @@ contains
    end function spring_lost_power
 
    !> Values of a channel for all items.
-   subroutine spring_report(self, channel, t, motion, values)
+   subroutine spring_report(self, code, t, motion, values)
       class(force_spring_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel        !! name of the channel
+      integer, intent(in) :: code                !! the channel
       real(wp), intent(in) :: t                  !! time [s]
       type(motion_t), intent(in) :: motion       !! positions and velocities
       real(wp), intent(inout) :: values(:, :)    !! (components, n) values [N, m, m/s or W]
@@ -172,16 +180,16 @@ contains
 
       do k = 1, self%n
          call tension_of(self, k, t, motion, u, length, rate, tension, actuator)
-         select case (channel)
-         case ("force")
+         select case (code)
+         case (of_force)
             values(:, k) = tension*u(1:size(values, 1))
-         case ("tension")
+         case (of_tension)
             values(1, k) = tension
-         case ("length")
+         case (of_length)
             values(1, k) = length
-         case ("rate")
+         case (of_rate)
             values(1, k) = rate
-         case ("power")
+         case (of_power)
             values(1, k) = -tension*rate
          end select
       end do

@@ -16,6 +16,10 @@ module force_torque
    private
    public :: force_torque_t
 
+   ! channels
+   integer, parameter :: of_moment = 1  !! moment
+   integer, parameter :: of_power = 2   !! power given to the mechanism
+
    !> All torques.
    type, extends(force_set_t) :: force_torque_t
       integer, allocatable :: body(:)                !! (n) body of each torque
@@ -40,8 +44,8 @@ contains
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "body", "bodies", "the body")
       call add_expression(info, "moment", dim_moment, "moment about z")
-      call add_channel(info, "moment", "N.m", "world", 1, "moment on the body")
-      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism")
+      call add_channel(info, "moment", "N.m", "world", 1, "moment on the body", of_moment)
+      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function torque_info
 
    !> Make the set.
@@ -91,9 +95,9 @@ contains
    end subroutine torque_evaluate
 
    !> Values of a channel for all items.
-   subroutine torque_report(self, channel, t, motion, values)
+   subroutine torque_report(self, code, t, motion, values)
       class(force_torque_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel        !! name of the channel
+      integer, intent(in) :: code                !! the channel
       real(wp), intent(in) :: t                  !! time [s]
       type(motion_t), intent(in) :: motion       !! positions and velocities
       real(wp), intent(inout) :: values(:, :)    !! (components, n) values [N.m or W]
@@ -101,10 +105,10 @@ contains
       integer :: k
 
       do k = 1, self%n
-         select case (channel)
-         case ("moment")
+         select case (code)
+         case (of_moment)
             values(1, k) = moment_of(self, k, t)
-         case ("power")
+         case (of_power)
             values(1, k) = moment_of(self, k, t)*motion%omega(3, self%body(k))
          end select
       end do

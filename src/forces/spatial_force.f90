@@ -15,6 +15,10 @@ module spatial_force
    private
    public :: spatial_force_t
 
+   ! channels
+   integer, parameter :: of_force = 1  !! force
+   integer, parameter :: of_power = 2  !! power given to the mechanism
+
    !> All point forces of a spatial scene.
    type, extends(force_set_t) :: spatial_force_t
       integer, allocatable :: body(:)               !! (n) body of each point
@@ -43,8 +47,8 @@ contains
       call add_expression(info, "fy", dim_force, "component along y", default="0 N")
       call add_expression(info, "fz", dim_force, "component along z", default="0 N")
       call add_word(info, "frame", "whose axes x, y, z are", default="world", choices="world body")
-      call add_channel(info, "force", "N", "world", 2, "force on the body")
-      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism")
+      call add_channel(info, "force", "N", "world", 2, "force on the body", of_force)
+      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function force_info
 
    !> Make the set.
@@ -86,9 +90,9 @@ contains
    end subroutine force_evaluate
 
    !> Values of a channel for all items.
-   subroutine force_report(self, channel, t, motion, values)
+   subroutine force_report(self, code, t, motion, values)
       class(spatial_force_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel         !! name of the channel
+      integer, intent(in) :: code                 !! the channel
       real(wp), intent(in) :: t                   !! time [s]
       type(motion_t), intent(in) :: motion        !! positions and velocities
       real(wp), intent(inout) :: values(:, :)     !! (components, n) values [N or W]
@@ -99,8 +103,8 @@ contains
       do k = 1, self%n
          f = self%force(k)%at(t, motion, self%body(k))
          p = point_position(motion, self%body(k), self%s(:, k))
-         if (channel == "force") values(:, k) = f
-         if (channel == "power") values(1, k) = dot_product(f, point_velocity(motion, self%body(k), p))
+         if (code == of_force) values(:, k) = f
+         if (code == of_power) values(1, k) = dot_product(f, point_velocity(motion, self%body(k), p))
       end do
    end subroutine force_report
 

@@ -15,6 +15,10 @@ module spatial_torque
    private
    public :: spatial_torque_t
 
+   ! channels
+   integer, parameter :: of_moment = 1  !! moment
+   integer, parameter :: of_power = 2   !! power given to the mechanism
+
    !> All torques of a spatial scene.
    type, extends(force_set_t) :: spatial_torque_t
       integer, allocatable :: body(:)                !! (n) body of each item
@@ -42,8 +46,8 @@ contains
       call add_expression(info, "my", dim_moment, "component along y", default="0 N.m")
       call add_expression(info, "mz", dim_moment, "component along z", default="0 N.m")
       call add_word(info, "frame", "whose axes x, y, z are", default="world", choices="world body")
-      call add_channel(info, "moment", "N.m", "world", 2, "moment on the body")
-      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism")
+      call add_channel(info, "moment", "N.m", "world", 2, "moment on the body", of_moment)
+      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function torque_info
 
    !> Make the set.
@@ -82,9 +86,9 @@ contains
    end subroutine torque_evaluate
 
    !> Values of a channel for all items.
-   subroutine torque_report(self, channel, t, motion, values)
+   subroutine torque_report(self, code, t, motion, values)
       class(spatial_torque_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel          !! name of the channel
+      integer, intent(in) :: code                  !! the channel
       real(wp), intent(in) :: t                    !! time [s]
       type(motion_t), intent(in) :: motion         !! positions and velocities
       real(wp), intent(inout) :: values(:, :)      !! (components, n) values [N.m or W]
@@ -94,8 +98,8 @@ contains
 
       do k = 1, self%n
          m = self%moment(k)%at(t, motion, self%body(k))
-         if (channel == "moment") values(:, k) = m
-         if (channel == "power") values(1, k) = dot_product(m, motion%omega(:, self%body(k)))
+         if (code == of_moment) values(:, k) = m
+         if (code == of_power) values(1, k) = dot_product(m, motion%omega(:, self%body(k)))
       end do
    end subroutine torque_report
 

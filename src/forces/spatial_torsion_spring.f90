@@ -22,6 +22,12 @@ module spatial_torsion_spring
    private
    public :: spatial_torsion_spring_t
 
+   ! channels
+   integer, parameter :: of_moment = 1        !! moment
+   integer, parameter :: of_angle = 2         !! angle of j relative to i
+   integer, parameter :: of_angular_rate = 3  !! its rate
+   integer, parameter :: of_power = 4         !! power given to the mechanism
+
    !> All torsional springs of a spatial scene.
    type, extends(force_set_t) :: spatial_torsion_spring_t
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
@@ -67,10 +73,10 @@ contains
       call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
       call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
                           default="0 N.m", variable="x", argument=[dim_angle])
-      call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis")
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted")
-      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "rate of the angle")
-      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together")
+      call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis", of_moment)
+      call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted", of_angle)
+      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "rate of the angle", of_angular_rate)
+      call add_channel(info, "power", "W", "none", 1, "power given to the bodies by spring, damper and actuator together", of_power)
    end function torsion_info
 
    !> Make the set.
@@ -195,9 +201,9 @@ contains
    end function torsion_lost_power
 
    !> Values of a channel for all items.
-   subroutine torsion_report(self, channel, t, motion, values)
+   subroutine torsion_report(self, code, t, motion, values)
       class(spatial_torsion_spring_t), intent(in) :: self  !! the set
-      character(*), intent(in) :: channel                  !! name of the channel
+      integer, intent(in) :: code                          !! the channel
       real(wp), intent(in) :: t                            !! time [s]
       type(motion_t), intent(in) :: motion                 !! positions and velocities
       real(wp), intent(inout) :: values(:, :)              !! (components, n) values [N.m, rad, rad/s or W]
@@ -209,14 +215,14 @@ contains
       do k = 1, self%n
          angle = angle_of(self, k, motion)
          call self%law(k)%force(t, angle%value, angle%rate, moment, actuator)
-         select case (channel)
-         case ("moment")
+         select case (code)
+         case (of_moment)
             values(1, k) = moment
-         case ("angle")
+         case (of_angle)
             values(1, k) = angle%value
-         case ("angular_rate")
+         case (of_angular_rate)
             values(1, k) = angle%rate
-         case ("power")
+         case (of_power)
             values(1, k) = -moment*angle%rate
          end select
       end do

@@ -2,8 +2,8 @@
 !>
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
-!> zero, at eight places, and then at least once in an interval that the caller sets (that of the output), so that no function is
-!> above zero there unseen. What is found is a bracket, the same one whatever that interval is; the integrator
+!> zero, at eight places, and everywhere at least once in an interval that the caller sets (that of the output), so that no function
+!> is above zero there unseen. Where the ends leave no room, a glance at that interval says whether to search. What is found is a bracket, the same one whatever that interval is; the integrator
 !> goes into it by its own means (a one-step method re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
@@ -38,11 +38,17 @@ contains
       real(wp), intent(out) :: low                  !! place in the step before the event [1]
       real(wp), intent(out) :: high                 !! place in the step after it [1]
 
+      logical :: is_seen
+
       event = 0
       low = 0.0_wp
       high = 1.0_wp
       method%events%threshold = 0.0_wp
-      if (.not. is_worth_a_search(system, method)) return
+      if (.not. may_any_happen(system, method)) then
+         if (.not. is_long(system, method)) return
+         call glance(system, method, is_seen)
+         if (.not. is_seen) return
+      end if
       call set_thresholds(system, method)
       if (is_worth_a_search(system, method)) call search(system, method, event, low, high)
    end subroutine find_first_event
@@ -62,6 +68,18 @@ contains
       if (is_worth_a_search(system, method)) call search(system, method, event, low, high)
    end subroutine dismiss_event
 
+   !> State at a place of the step, from its interpolant; no event depends on quadratures.
+   subroutine place(system, method, s, y)
+      class(ode_system_t), intent(inout) :: system  !! the system
+      class(integrator_t), intent(in) :: method     !! the integrator, after a step
+      real(wp), intent(in) :: s                     !! the place [1]
+      real(wp), intent(inout) :: y(:)               !! (n) the state [any]
+
+      system%with_quadratures = .false.
+      call method%within(system, s, y)
+      system%with_quadratures = .true.
+   end subroutine place
+
    !> What each function must exceed in the last step to be at its event. Of functions without known noise nothing is asked.
    subroutine set_thresholds(system, method)
       class(ode_system_t), intent(in) :: system     !! the system
@@ -71,21 +89,83 @@ contains
       where (method%events%noise > 0.0_wp) method%events%threshold = max(method%events%g0 + method%events%noise, 0.0_wp)
    end subroutine set_thresholds
 
-   !> Whether any function may become positive within the last step.
+   !> Whether any function may become positive within the last step, or may do so unseen between two looks.
    pure logical function is_worth_a_search(system, method) result(is_worth)
+      class(ode_system_t), intent(in) :: system     !! the system
+      class(integrator_t), intent(in) :: method     !! the integrator, after a step
+
+      is_worth = is_long(system, method)
+      if (.not. is_worth) is_worth = may_any_happen(system, method)
+   end function is_worth_a_search
+
+   !> Whether the last step is longer than events may stay unseen.
+   pure logical function is_long(system, method)
+      class(ode_system_t), intent(in) :: system     !! the system
+      class(integrator_t), intent(in) :: method     !! the integrator, after a step
+
+      is_long = system%n_event > 0 .and. method%step%h > method%events%look
+   end function is_long
+
+   !> Whether the ends of the last step leave room for a function to become positive.
+   pure logical function may_any_happen(system, method) result(may)
       class(ode_system_t), intent(in) :: system     !! the system
       class(integrator_t), intent(in) :: method     !! the integrator, after a step
 
       integer :: k
 
-      is_worth = system%n_event > 0 .and. method%step%h > method%events%look
-      if (is_worth) return
+      may = .false.
       do k = 1, system%n_event
-         is_worth = may_happen(method%events%g0(k) - method%events%threshold(k), method%step%h*method%events%rate0(k), &
-                               method%events%g1(k) - method%events%threshold(k), method%step%h*method%events%rate1(k))
-         if (is_worth) return
+         may = may_happen(method%events%g0(k) - method%events%threshold(k), method%step%h*method%events%rate0(k), &
+                          method%events%g1(k) - method%events%threshold(k), method%step%h*method%events%rate1(k))
+         if (may) return
       end do
-   end function is_worth_a_search
+   end function may_any_happen
+
+   !> Look at a step as often as the caller asks for: whether any function is above zero there, or by its tangent just before.
+   subroutine glance(system, method, is_seen)
+      class(ode_system_t), intent(inout) :: system  !! the system
+      class(integrator_t), intent(inout) :: method  !! the integrator, after a step; its scratch is used
+      logical, intent(out) :: is_seen               !! whether one is
+
+      real(wp), allocatable :: g(:), rate(:), y(:)
+      real(wp) :: part
+      integer(i8) :: i, n
+
+      ! the room of the integrator, while it itself is asked for states
+      call move_alloc(method%scratch, y)
+      call move_alloc(method%events%g, g)
+      call move_alloc(method%events%rate, rate)
+      associate (step => method%step, events => method%events)
+         n = ceiling(step%h/events%look, i8)
+         part = step%h/real(n, wp)
+         is_seen = is_above(system%n_event, events%g1, events%rate1, part)
+         do i = 1, n - 1
+            if (is_seen) exit
+            call place(system, method, real(i, wp)/real(n, wp), y)
+            call method%look_at_events(system, step%t0 + real(i, wp)*part, y, g, rate)
+            is_seen = is_above(system%n_event, g, rate, part)
+         end do
+         call system%settle(step%t0 + step%h, step%y1, g, rate)
+      end associate
+      call move_alloc(y, method%scratch)
+      call move_alloc(g, method%events%g)
+      call move_alloc(rate, method%events%rate)
+   end subroutine glance
+
+   !> Whether any function is above zero, or falls from there by its tangent.
+   pure logical function is_above(n, g, rate, time)
+      integer, intent(in) :: n           !! functions
+      real(wp), intent(in) :: g(n)       !! (n) event functions [any]
+      real(wp), intent(in) :: rate(n)    !! (n) their rates [any]
+      real(wp), intent(in) :: time       !! how far back the tangent counts [s]
+
+      integer :: k
+
+      is_above = .false.
+      do k = 1, n
+         is_above = is_above .or. g(k) > 0.0_wp .or. (rate(k) < 0.0_wp .and. g(k) - rate(k)*time > 0.0_wp)
+      end do
+   end function is_above
 
    !> Time within which events are one.
    pure real(wp) function time_resolution(method, h) result(time)
@@ -168,7 +248,7 @@ contains
          a = b
       end do
       if (event == 0) then
-         call values_at(1.0_wp)  ! the system is left at the end of the step
+         call system%settle(method%step%t0 + method%step%h, method%step%y1, g, rate)
       else
          low = a
          high = b
@@ -201,7 +281,7 @@ contains
       subroutine values_at(s)
          real(wp), intent(in) :: s  !! place [1]
 
-         call method%within(system, s, y)
+         call place(system, method, s, y)
          call method%look_at_events(system, method%step%t0 + s*method%step%h, y, g, rate)
       end subroutine values_at
 

@@ -154,18 +154,21 @@ module integrator
 
 contains
 
-   !> Evaluate the right-hand side at the inner places of the last step, so that `state_at` gains two orders.
+   !> Evaluate the right-hand side at the inner places of the last step, so that `state_at` gains two orders: for the whole step
+   !> with quadratures, or without.
    subroutine integrator_prepare_output(self, system, status)
       class(integrator_t), intent(inout) :: self    !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       integer, intent(out) :: status                !! of the evaluations
 
-      integer :: k
+      integer :: k, n
 
       status = 0
+      n = system%n
+      if (.not. system%with_quadratures) n = n - system%n_quadrature
       if (self%step%has_inner .or. self%step%h <= 0.0_wp) return
       do k = 1, size(inner_places)
-         call interpolate(self%step, system%n_position, system%n_turning, inner_places(k), self%scratch)
+         call interpolate(self%step, system%n_position, system%n_turning, inner_places(k), self%scratch(:n))
          call system%evaluate(self%step%t0 + inner_places(k)*self%step%h, self%scratch, self%step%inner(:, k), status)
          self%count%n_evaluations = self%count%n_evaluations + 1
          self%count%n_output_evaluations = self%count%n_output_evaluations + 1
@@ -179,7 +182,7 @@ contains
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: t                  !! time [s]
-      real(wp), intent(out) :: y(:)              !! (n) state [any]
+      real(wp), intent(inout) :: y(:)            !! (n) state [any]
 
       if (t >= self%t .or. self%step%h <= 0.0_wp) then
          y = self%step%y1
@@ -188,14 +191,18 @@ contains
       end if
    end subroutine integrator_state_at
 
-   !> State at a place of the last step, by interpolation.
+   !> State at a place of the last step, by interpolation; quadratures that nobody wants are left alone.
    subroutine integrator_within(self, system, s, y)
       class(integrator_t), intent(in) :: self    !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(out) :: y(:)              !! (n) state [any]
+      real(wp), intent(inout) :: y(:)            !! (n) state [any]
 
-      call interpolate(self%step, system%n_position, system%n_turning, s, y)
+      integer :: n
+
+      n = size(y)
+      if (.not. system%with_quadratures) n = n - system%n_quadrature
+      call interpolate(self%step, system%n_position, system%n_turning, s, y(:n))
    end subroutine integrator_within
 
    !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.
@@ -234,10 +241,10 @@ contains
 
       self%events%n_happened = 0
       self%step%t0 = self%t
-      self%step%y0 = self%step%y1
-      self%step%f0 = self%step%f1
-      self%events%g0 = self%events%g1
-      self%events%rate0 = self%events%rate1
+      self%step%y0(:) = self%step%y1
+      self%step%f0(:) = self%step%f1
+      self%events%g0(:) = self%events%g1
+      self%events%rate0(:) = self%events%rate1
       self%step%has_inner = .false.
    end subroutine begin_step
 

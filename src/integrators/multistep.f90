@@ -330,7 +330,7 @@ contains
       class(multistep_t), intent(in) :: self     !! the integrator
       class(ode_system_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(out) :: y(:)              !! (n) state [any]
+      real(wp), intent(inout) :: y(:)            !! (n) state [any]
 
       real(wp) :: part
 

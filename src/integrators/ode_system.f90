@@ -28,11 +28,13 @@ module ode_system
       integer :: n_event = 0        !! event functions
       logical :: holds = .false.    !! whether `hold` must be called on the states given out
       logical :: follows_step = .false.  !! whether `set_step` changes the derivative
+      logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left as they are
    contains
       procedure(evaluate_interface), deferred :: evaluate
       procedure(weights_interface), deferred :: weights
       procedure(events_interface), deferred :: events
       procedure :: last_events => ode_last_events
+      procedure :: settle => ode_settle
       procedure :: event_noise => ode_event_noise
       procedure :: set_step => ode_set_step
       procedure :: hold => ode_hold
@@ -86,6 +88,18 @@ contains
 
       call self%events(t, y, g, rate)
    end subroutine ode_last_events
+
+   !> Leave the system at a state after events were looked for elsewhere; a system that can do that without its event functions
+   !> overrides this.
+   subroutine ode_settle(self, t, y, g, rate)
+      class(ode_system_t), intent(inout) :: self  !! the system
+      real(wp), intent(in) :: t                   !! time [s]
+      real(wp), intent(in) :: y(:)                !! (n) state [any]
+      real(wp), intent(inout) :: g(:)             !! (n_event) scratch [any]
+      real(wp), intent(inout) :: rate(:)          !! (n_event) scratch [any]
+
+      call self%events(t, y, g, rate)
+   end subroutine ode_settle
 
    !> Bounds of the round-off of the event functions near the state that was evaluated last. Zero: it is not known, and less
    !> than matters.

@@ -11,7 +11,7 @@ module driver_distance
    use expression, only: expression_t
    use item, only: item_t, place_of
    use joint_distance, only: write_distance_row
-   use joint_set, only: joint_set_t
+   use joint_set, only: joint_set_t, of_coordinate, of_force, of_power
    use rows, only: n_v_planar, rows_t
    use kind_info, only: add_channel, add_expression, add_reference, dim_length, kind_info_t
    use kinds, only: wp
@@ -105,9 +105,9 @@ contains
       character(*), intent(in) :: force           !! what the force is
       character(*), intent(in) :: displacement    !! what the coordinate is
 
-      call add_channel(info, "force", "N", "joint", 1, force)
-      call add_channel(info, "displacement", "m", "joint", 1, displacement)
-      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism")
+      call add_channel(info, "force", "N", "joint", 1, force, of_force)
+      call add_channel(info, "displacement", "m", "joint", 1, displacement, of_coordinate)
+      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end subroutine add_length_channels
 
 end module driver_distance

@@ -9,7 +9,7 @@
 !> Limits: revolute joints.
 module driver_speed
    use item, only: item_t
-   use joint_set, only: joint_set_t
+   use joint_set, only: joint_set_t, of_coordinate, of_moment, of_power
    use rows, only: rows_t
    use kind_info, only: add_channel, add_number, add_reference, dim_angular_speed, in_plane, kind_info_t
    use kinds, only: two_pi, wp
@@ -139,9 +139,10 @@ contains
    subroutine add_driver_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_channel(info, "moment", "N.m", "world", 1, "driving moment on the body of j")
-      call add_channel(info, "coordinate", "rad", "joint", 1, "angle of j relative to i, counter-clockwise, turns counted")
-      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism")
+      call add_channel(info, "moment", "N.m", "world", 1, "driving moment on the body of j", of_moment)
+      call add_channel(info, "coordinate", "rad", "joint", 1, "angle of j relative to i, counter-clockwise, turns counted", &
+                       of_coordinate)
+      call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end subroutine add_driver_channels
 
 end module driver_speed

@@ -1,96 +1,71 @@
 !> The channels that ideal joints share, and those that drivers share, and the reaction that they tell of.
 !>
-!> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j, a driver of a length
-!> along its coordinate. Power of a driver: lambda . Phi_t.
+!> Signs: force and moment of a joint are those on the body of i; those of a driver act on the body of j along its coordinate,
+!> -lambda. Power of a driver: lambda . Phi_t.
 submodule(joint_set) joint_channels
    use coordinates, only: most_rates
+   use joint_friction, only: of_friction_force, of_friction_moment
    use motion, only: cross
    implicit none (type, external)
-
-   ! channels
-   integer, parameter :: of_force = 1             !! reaction
-   integer, parameter :: of_moment = 2            !! reaction moment
-   integer, parameter :: of_violation = 3         !! of the constraints
-   integer, parameter :: of_violation_rate = 4    !! its rate
-   integer, parameter :: of_coordinate = 5        !! of a driver
-   integer, parameter :: of_power = 6             !! of a driver
-   integer, parameter :: of_friction = 7          !! of joints that rub
 
 contains
 
    !> The channels that every ideal joint has.
    module procedure add_joint_channels
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i")
-      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force")
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m")
-      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation")
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
+      call add_channel(info, "moment", "N.m", "world", 1, "reaction moment on the body of i about the point of the force", &
+                       of_moment)
+      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
+      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
+                       of_violation_rate)
    end procedure add_joint_channels
 
-   !> Values of a channel for all items.
+   !> Value of a channel of an item.
    module procedure report_shared
-      real(wp) :: force(3), moment(3), rate, value
-      integer :: first, k, last, what
+      real(wp) :: force(3), moment(3), rate
+      integer :: first, i, last
 
-      select case (channel)
-      case ("force"); what = of_force
-      case ("moment"); what = of_moment
-      case ("violation"); what = of_violation
-      case ("violation_rate"); what = of_violation_rate
-      case ("coordinate", "displacement"); what = of_coordinate
-      case ("power"); what = of_power
-      case default; what = of_friction
+      first = self%first_row + (k - 1)*self%n_row_item + 1
+      last = first + self%n_row_item - 1
+      select case (code)
+      case (of_force, of_moment)
+         if (self%is_driver) then
+            value(1) = -lambda(first)
+            return
+         end if
+         call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+         value = force(:size(value))
+         if (code == of_moment) value = moment(merge(3, 1, size(value) == 1):)
+      case (of_violation)
+         value(1) = norm2(rows%phi(first:last))
+      case (of_violation_rate)
+         value(1) = norm2(phi_dot(first:last))
+      case (of_coordinate)
+         call self%coordinate(k, motion, value(1), rate)
+      case (of_power)
+         value(1) = sum(lambda(first:last)*rows%phi_t(first:last))
+      case (of_friction_moment, of_friction_force)
+         do i = 1, self%friction%n
+            if (self%friction%item(i) /= k) cycle
+            value(1) = self%friction%force(i)
+            if (code == of_friction_moment) value(1) = self%friction%length(i)*self%friction%force(i)
+         end do
       end select
-      do k = 1, self%n
-         first = self%first_row + (k - 1)*self%n_row_item + 1
-         last = first + self%n_row_item - 1
-         associate (column => self%column(k))
-            select case (what)
-            case (of_force)
-               if (self%is_driver) then
-                  values(1, column) = -lambda(first)
-               else
-                  call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-                  values(:, column) = force(:size(values, 1))
-               end if
-            case (of_moment)
-               call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-               if (size(values, 1) == 3) then
-                  values(:, column) = moment
-               else
-                  values(1, column) = merge(-moment(3), moment(3), self%is_driver)
-               end if
-            case (of_violation)
-               values(1, column) = norm2(rows%phi(first:last))
-            case (of_violation_rate)
-               values(1, column) = norm2(phi_dot(first:last))
-            case (of_coordinate)
-               call self%coordinate(k, motion, value, rate)
-               values(1, column) = value
-            case (of_power)
-               values(1, column) = sum(lambda(first:last)*rows%phi_t(first:last))
-            end select
-         end associate
-      end do
-      if (what /= of_friction) return
-      do k = 1, self%friction%n
-         associate (column => self%column(self%friction%item(k)))
-            if (channel == "friction_moment") values(1, column) = self%friction%length(k)*self%friction%force(k)
-            if (channel == "friction_force") values(1, column) = self%friction%force(k)
-         end associate
-      end do
    end procedure report_shared
 
    !> Reaction of an item on body i.
    module procedure joint_reaction
       real(wp) :: load(most_rates)
-      integer :: body, k, n, row
+      integer :: body, i, k, n, row
 
       n = coordinates%n_v
       load = 0.0_wp
       body = self%body(1, item)
       do k = 1, self%n_row_item
          row = self%first_row + (item - 1)*self%n_row_item + k
-         load(:n) = load(:n) - rows%jac(:n, row)*lambda(row)
+         do i = 1, n
+            load(i) = load(i) - rows%jac(i, row)*lambda(row)
+         end do
       end do
       call coordinates%split_load(load(:n), motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)

@@ -14,7 +14,7 @@
 module joint_distance
    use coordinates, only: coordinates_t
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t, report_shared
+   use joint_set, only: add_joint_channels, joint_set_t, of_own, report_shared
    use rows, only: rows_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
@@ -53,7 +53,8 @@ contains
       call add_number(info, "length", dim_length, "length; left out: the distance where the deck puts the bodies at the start", &
                       default="", lower=0.0_wp, open_lower=.true.)
       call add_joint_channels(info)
-      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together")
+      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together", &
+                       of_own)
    end function distance_info
 
    !> Lengths that the deck gives.
@@ -113,20 +114,21 @@ contains
    end subroutine distance_coordinate
 
    !> The tension, which is the multiplier of the row.
-   subroutine distance_report(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+   subroutine distance_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       class(joint_distance_t), intent(in) :: self      !! the set
-      character(*), intent(in) :: channel              !! the channel
+      integer, intent(in) :: code                      !! the channel
+      integer, intent(in) :: k                         !! item
       type(motion_t), intent(in) :: motion             !! positions and velocities
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
       real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N]
       real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s]
-      real(wp), intent(inout) :: values(:, :)          !! (components, all joints) those of the set are filled [any]
+      real(wp), intent(inout) :: value(:)              !! (components) the value [any]
 
-      if (channel == "tension") then
-         values(1, self%column) = lambda(self%first_row + 1:self%first_row + self%n)
+      if (code == of_own) then
+         value(1) = lambda(self%first_row + k)
       else
-         call report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+         call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       end if
    end subroutine distance_report
 

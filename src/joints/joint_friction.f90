@@ -16,9 +16,12 @@ module joint_friction
    implicit none (type, external)
    private
    public :: add_friction_columns, friction_channels, joint_friction_t, law_force, most_rows, new_joint_friction
+   public :: of_friction_force, of_friction_moment
 
    integer, parameter :: most_rows = 3   !! rows of an item, at most
 
+   integer, parameter :: of_friction_moment = 7  !! channel of what turns against friction
+   integer, parameter :: of_friction_force = 8   !! channel of what slides
    character(*), parameter :: friction_channels = " friction_moment friction_force "
       !! channels that an item has only if it rubs
 
@@ -51,7 +54,8 @@ contains
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
       call add_number(info, length, dim_length, length_help, default="0 m", lower=0.0_wp)
       call add_number(info, "preload", dim_force, preload_help, default="0 N", lower=0.0_wp)
-      call add_channel(info, channel, unit, "joint", 1, channel_help)
+      call add_channel(info, channel, unit, "joint", 1, channel_help, &
+                       merge(of_friction_moment, of_friction_force, channel == "friction_moment"))
    end subroutine add_friction_columns
 
    !> Room for the items that rub.

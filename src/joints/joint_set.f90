@@ -19,6 +19,16 @@ module joint_set
    implicit none (type, external)
    private
    public :: add_joint_channels, joint_set_t, joint_slot_t, report_shared
+   public :: of_coordinate, of_force, of_moment, of_own, of_power, of_violation, of_violation_rate
+
+   ! channels; those of friction: see `joint_friction`
+   integer, parameter :: of_force = 1             !! reaction
+   integer, parameter :: of_moment = 2            !! reaction moment
+   integer, parameter :: of_violation = 3         !! of the constraints
+   integer, parameter :: of_violation_rate = 4    !! its rate
+   integer, parameter :: of_coordinate = 5        !! of a driver
+   integer, parameter :: of_power = 6             !! of a driver
+   integer, parameter :: of_own = 11              !! the first of a kind's own
 
    !> All items of one kind of joint or driver.
    type, abstract :: joint_set_t
@@ -100,19 +110,20 @@ module joint_set
          type(kind_info_t), intent(inout) :: info  !! the kind
       end subroutine add_joint_channels
 
-      !> Values of a channel for all items: of those that joints or drivers share. A kind with channels of its own fills these and
+      !> Value of a channel of an item: of those that joints or drivers share. A kind with channels of its own fills these and
       !> hands all others on to this one. A channel of `info()` that nobody fills is a mistake of the kind; the tests of the
       !> registry find it.
-      module subroutine report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+      module subroutine report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
          implicit none (type, external)
          class(joint_set_t), intent(in) :: self           !! the set
-         character(*), intent(in) :: channel              !! the channel, one that the kind announces
+         integer, intent(in) :: code                      !! the channel, one that the kind announces
+         integer, intent(in) :: k                         !! item of the set
          type(motion_t), intent(in) :: motion             !! positions and velocities
          class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
          type(rows_t), intent(in) :: rows                 !! rows at the motion
          real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
          real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
-         real(wp), intent(inout) :: values(:, :)          !! (components, all joints or drivers) those of the set are filled [any]
+         real(wp), intent(inout) :: value(:)              !! (components) the value [any]
       end subroutine report_shared
 
       !> Reaction of an item on body i: force, and moment about its reaction point.

@@ -5,9 +5,10 @@
 !> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2.4. Limits: none.
 module spatial_cylindrical
    use item, only: item_t
-   use kind_info, only: add_channel, kind_info_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
-   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, beside, spatial_joint_t
+   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_slide_channels, add_spatial_channels, &
+      add_turn_channels, beside, spatial_joint_t
    implicit none (type, external)
    private
    public :: spatial_cylindrical_t
@@ -32,10 +33,8 @@ contains
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the shaft")
       call add_spatial_channels(info)
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi")
-      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis")
-      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j from i along the axis of i")
-      call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement")
+      call add_turn_channels(info)
+      call add_slide_channels(info)
    end function cylindrical_info
 
    !> Elements of the joint.

@@ -7,6 +7,7 @@
 !> violation is a length and the multiplier a force. Limits: as joint.distance of the plane.
 module spatial_distance
    use joint_distance, only: joint_distance_t
+   use joint_set, only: of_own
    use kind_info, only: add_channel, add_number, dim_length, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
@@ -38,7 +39,8 @@ contains
       call add_number(info, "length", dim_length, "length; left out: the distance where the deck puts the bodies at the start", &
                       default="", lower=0.0_wp, open_lower=.true.)
       call add_spatial_channels(info)
-      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together")
+      call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together", &
+                       of_own)
    end function distance_info
 
    !> Fill the rows of all items.

@@ -5,10 +5,9 @@
 !> Signs: W > 0 is counter-clockwise of j, seen from the tip of the axis. Source: as driver.speed of the plane.
 !> Limits: as `turn_frames`.
 module spatial_driver_speed
-   use coordinates, only: coordinates_t
    use driver_speed, only: driver_speed_t
    use driver_speed, only: add_driver_channels
-   use joint_set, only: joint_set_t, report_shared
+   use joint_set, only: joint_set_t
    use kind_info, only: add_number, add_reference, dim_angular_speed, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
@@ -27,7 +26,6 @@ module spatial_driver_speed
       procedure :: take_joint => spatial_take_joint
       procedure :: evaluate => spatial_evaluate
       procedure :: coordinate => spatial_coordinate
-      procedure :: report => spatial_report
    end type spatial_driver_speed_t
 
 contains
@@ -93,23 +91,5 @@ contains
       value = angle%value
       rate = angle%rate
    end subroutine spatial_coordinate
-
-   !> Values of a channel for all items.
-   subroutine spatial_report(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
-      class(spatial_driver_speed_t), intent(in) :: self        !! the set
-      character(*), intent(in) :: channel              !! the channel
-      type(motion_t), intent(in) :: motion             !! positions and velocities
-      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
-      type(rows_t), intent(in) :: rows                 !! rows at the motion
-      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N.m]
-      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [rad/s]
-      real(wp), intent(inout) :: values(:, :)          !! (components, all drivers) those of the set are filled [any]
-
-      if (channel == "moment") then
-         values(1, self%column) = -lambda(self%first_row + 1:self%first_row + self%n)
-      else
-         call report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
-      end if
-   end subroutine spatial_report
 
 end module spatial_driver_speed

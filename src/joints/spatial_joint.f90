@@ -15,7 +15,7 @@
 module spatial_joint
    use coordinates, only: coordinates_t
    use item, only: find_place, item_t
-   use joint_set, only: joint_set_t, report_shared
+   use joint_set, only: joint_set_t, of_force, of_moment, of_own, of_violation, of_violation_rate, report_shared
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
@@ -25,11 +25,17 @@ module spatial_joint
    implicit none (type, external)
    private
    public :: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, beside, element_t, set_joint_frames
-   public :: spatial_joint_t
+   public :: add_slide_channels, add_turn_channels, spatial_joint_t
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
    integer, parameter :: is_across = 2   !! two axes at right angles
    integer, parameter :: is_beside = 3   !! no displacement along an axis
+
+   ! channels of joints with an axis
+   integer, parameter :: of_angle = of_own            !! about the axis
+   integer, parameter :: of_angular_rate = of_own + 1 !! its rate
+   integer, parameter :: of_displacement = of_own + 2 !! along the axis
+   integer, parameter :: of_sliding_rate = of_own + 3 !! its rate
 
    !> An elementary constraint.
    type :: element_t
@@ -99,10 +105,11 @@ contains
    subroutine add_spatial_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i")
-      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point")
-      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m")
-      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation")
+      call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
+      call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point", of_moment)
+      call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
+      call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
+                       of_violation_rate)
    end subroutine add_spatial_channels
 
    !> Elements of the kind, and the axes of its rows; `prepare` calls it.
@@ -222,32 +229,46 @@ contains
                             axis_of(motion, self%body(2, k), self%frame_j(:, 1, k))) < 0.0_wp
    end function spatial_is_turned_over
 
-   !> Values of a channel for all items: angle and displacement here, the others are shared.
-   subroutine spatial_report(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+   !> The channels of a joint that turns about its axis.
+   subroutine add_turn_channels(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+
+      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi", of_angle)
+      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis", &
+                       of_angular_rate)
+   end subroutine add_turn_channels
+
+   !> The channels of a joint that slides along its axis.
+   subroutine add_slide_channels(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+
+      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j from i along the axis of i", of_displacement)
+      call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement", of_sliding_rate)
+   end subroutine add_slide_channels
+
+   !> Value of a channel of an item: angle and displacement here, the others are shared.
+   subroutine spatial_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       class(spatial_joint_t), intent(in) :: self       !! the set
-      character(*), intent(in) :: channel              !! the channel
+      integer, intent(in) :: code                      !! the channel
+      integer, intent(in) :: k                         !! item of the set
       type(motion_t), intent(in) :: motion             !! positions and velocities
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
       real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
       real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
-      real(wp), intent(inout) :: values(:, :)          !! (components, all joints) those of the set are filled [any]
+      real(wp), intent(inout) :: value(:)              !! (components) the value [any]
 
       type(scalar_t) :: x
-      integer :: k
 
-      select case (channel)
-      case ("angle", "angular_rate", "displacement", "sliding_rate")
-         do k = 1, self%n
-            if (channel == "angle" .or. channel == "angular_rate") then
-               x = angle_between(motion, self%body(:, k), self%frame_i(:, :, k), self%frame_j(:, :, k))
-            else
-               x = dot_with_span(motion, self%body(:, k), self%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
-            end if
-            values(1, self%column(k)) = merge(x%value, x%rate, channel == "angle" .or. channel == "displacement")
-         end do
+      select case (code)
+      case (of_angle, of_angular_rate)
+         x = angle_between(motion, self%body(:, k), self%frame_i(:, :, k), self%frame_j(:, :, k))
+         value = merge(x%value, x%rate, code == of_angle)
+      case (of_displacement, of_sliding_rate)
+         x = dot_with_span(motion, self%body(:, k), self%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
+         value = merge(x%value, x%rate, code == of_displacement)
       case default
-         call report_shared(self, channel, motion, coordinates, rows, lambda, phi_dot, values)
+         call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       end select
    end subroutine spatial_report
 

@@ -5,9 +5,10 @@
 !> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2, from its elements. Limits: none.
 module spatial_planar
    use item, only: item_t
-   use kind_info, only: add_channel, kind_info_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
-   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, beside, spatial_joint_t
+   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, add_turn_channels, beside, &
+      spatial_joint_t
    implicit none (type, external)
    private
    public :: spatial_planar_t
@@ -32,8 +33,7 @@ contains
       call add_joint_columns(info)
       call add_axis_columns(info, "normal of the plane")
       call add_spatial_channels(info)
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi")
-      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis")
+      call add_turn_channels(info)
    end function planar_info
 
    !> Elements of the joint.

@@ -6,9 +6,10 @@
 !> independent; these two are taken. Limits: none.
 module spatial_revolute
    use item, only: item_t
-   use kind_info, only: add_channel, kind_info_t, leaves_turn
+   use kind_info, only: kind_info_t, leaves_turn
    use kinds, only: wp
-   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, spatial_joint_t
+   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, add_turn_channels, at_point, &
+      spatial_joint_t
    implicit none (type, external)
    private
    public :: spatial_revolute_t
@@ -34,8 +35,7 @@ contains
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the pin")
       call add_spatial_channels(info)
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi")
-      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis")
+      call add_turn_channels(info)
    end function revolute_info
 
    !> Elements of the joint.

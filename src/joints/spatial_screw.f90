@@ -9,12 +9,12 @@
 !> Limits: no self-locking, as there is no friction.
 module spatial_screw
    use item, only: item_t
-   use kind_info, only: add_channel, add_number, dim_length, kind_info_t
+   use kind_info, only: add_number, dim_length, kind_info_t
    use kinds, only: pi, wp
    use motion, only: motion_t
    use rows, only: rows_t
-   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, beside, &
-      set_joint_frames, spatial_joint_t
+   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_slide_channels, add_spatial_channels, &
+      add_turn_channels, beside, set_joint_frames, spatial_joint_t
    use spatial_rows, only: angle_between, dot_with_span, put_row, scalar_t
    implicit none (type, external)
    private
@@ -45,10 +45,8 @@ contains
       call add_axis_columns(info, "axis of the screw")
       call add_number(info, "pitch", dim_length, "displacement of j along the axis in one turn; positive: right-handed")
       call add_spatial_channels(info)
-      call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi")
-      call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis")
-      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j from i along the axis of i")
-      call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement")
+      call add_turn_channels(info)
+      call add_slide_channels(info)
    end function screw_info
 
    !> Pitches.

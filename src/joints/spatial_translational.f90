@@ -7,9 +7,10 @@
 !> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2.4. Limits: none.
 module spatial_translational
    use item, only: item_t
-   use kind_info, only: add_channel, kind_info_t, leaves_way
+   use kind_info, only: kind_info_t, leaves_way
    use kinds, only: wp
-   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_spatial_channels, beside, spatial_joint_t
+   use spatial_joint, only: across, add_axis_columns, add_joint_columns, add_slide_channels, add_spatial_channels, beside, &
+      spatial_joint_t
    implicit none (type, external)
    private
    public :: spatial_translational_t
@@ -35,8 +36,7 @@ contains
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the guide")
       call add_spatial_channels(info)
-      call add_channel(info, "displacement", "m", "joint", 1, "displacement of j from i along the axis of i")
-      call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement")
+      call add_slide_channels(info)
    end function translational_info
 
    !> Elements of the joint.

@@ -156,7 +156,7 @@ contains
       real(wp), intent(in), contiguous :: ydot(:)    !! (positions + rates or more) derivative of a state [any]
 
       associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
-         call self%coordinates%accelerate(n, self%rows%unknown, ydot(nq + 1:), self%motion)
+         if (n > 0) call self%coordinates%accelerate(n, self%rows%unknown, ydot(nq + 1:), self%motion)
          if (guided%n > 0) call set_guided_acceleration(guided, ydot(nq + self%n_rate - guided%n + 1:), self%motion)
       end associate
    end subroutine linkage_set_acceleration
@@ -263,8 +263,9 @@ contains
          do k = 1, guided%n
             call copy(guided%item(k)%body)
          end do
-         call find_guided_multipliers(guided, self%rows, self%mass, g, solution%a, solution%lambda)
-         call find_multipliers(known, self%rows, self%reduced%carried, self%mass, g, solution%a, self%rest, solution%lambda)
+         call find_guided_multipliers(guided, self%rows, self%bodies%n, self%mass, g, solution%a, solution%lambda)
+         call find_multipliers(known, self%rows, self%reduced%carried, self%bodies%n, self%mass, g, solution%a, self%rest, &
+                               solution%lambda)
       end associate
 
    contains

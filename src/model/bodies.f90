@@ -11,7 +11,16 @@ module bodies
    implicit none (type, external)
    private
    public :: bodies_info, bodies_t, material_info, material_t, points_info, points_t
+   public :: of_acceleration, of_angle, of_angular_acceleration, of_angular_velocity, of_position, of_velocity
    public :: new_bodies, new_materials, new_points, spatial_part_t, take_bodies
+
+   ! channels
+   integer, parameter :: of_position = 1              !! of the centre of mass
+   integer, parameter :: of_velocity = 2              !! of the centre of mass
+   integer, parameter :: of_acceleration = 3          !! of the centre of mass
+   integer, parameter :: of_angle = 4                 !! of rotation
+   integer, parameter :: of_angular_velocity = 5      !! its rate
+   integer, parameter :: of_angular_acceleration = 6  !! and the rate of that
 
    !> What only bodies of a spatial scene have. There the frame of a body is that of its principal axes inside the program; decks
    !> and files show its own.
@@ -75,12 +84,12 @@ contains
                       default="0 m/s", is_free=.true.)
       call add_number(info, "omega", dim_angular_speed, "angular velocity at the start; made consistent, left out: free", &
                       default="0 rad/s", is_free=.true.)
-      call add_channel(info, "position", "m", "world", 2, "position of the centre of mass")
-      call add_channel(info, "velocity", "m/s", "world", 2, "velocity of the centre of mass")
-      call add_channel(info, "acceleration", "m/s^2", "world", 2, "acceleration of the centre of mass")
-      call add_channel(info, "angle", "rad", "world", 1, "angle of rotation, counter-clockwise, turns counted")
-      call add_channel(info, "angular_velocity", "rad/s", "world", 1, "angular velocity")
-      call add_channel(info, "angular_acceleration", "rad/s^2", "world", 1, "angular acceleration")
+      call add_channel(info, "position", "m", "world", 2, "position of the centre of mass", of_position)
+      call add_channel(info, "velocity", "m/s", "world", 2, "velocity of the centre of mass", of_velocity)
+      call add_channel(info, "acceleration", "m/s^2", "world", 2, "acceleration of the centre of mass", of_acceleration)
+      call add_channel(info, "angle", "rad", "world", 1, "angle of rotation, counter-clockwise, turns counted", of_angle)
+      call add_channel(info, "angular_velocity", "rad/s", "world", 1, "angular velocity", of_angular_velocity)
+      call add_channel(info, "angular_acceleration", "rad/s^2", "world", 1, "angular acceleration", of_angular_acceleration)
    end function bodies_info
 
    !> The deck table of points.

@@ -6,6 +6,7 @@
 module catalogue
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
+   use readings, only: reading_plan_t, readings_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -32,8 +33,8 @@ module catalogue
    type :: group_t
       integer :: room = 0                     !! room, one of the above
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
-      logical :: is_wanted = .true.           !! someone reads the values; else they are not found
       logical, allocatable :: has(:)          !! (items) which of them have the channel
+      logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found
       real(wp), allocatable :: data(:, :)     !! (components, items) current values, SI; NaN: the item has no such channel [any]
    end type group_t
 
@@ -52,6 +53,7 @@ module catalogue
       integer :: n_coordinates = 2                !! of a point: 2 in the plane, 3 in space
       type(room_t) :: rooms(n_rooms)              !! (n_rooms) items
       type(group_t), allocatable :: groups(:)     !! (groups) quantities
+      type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
    contains
       procedure :: add_group => catalogue_add_group
       procedure :: add_item => catalogue_add_item
@@ -59,6 +61,7 @@ module catalogue
       procedure :: allocate_data => catalogue_allocate_data
       procedure :: find_group => catalogue_find_group
       procedure :: item_has => catalogue_item_has
+      procedure :: bind => catalogue_bind
    end type catalogue_t
 
 contains
@@ -184,6 +187,43 @@ contains
       has = self%groups(group)%has(item)
    end function catalogue_item_has
 
+   !> What is read of a set: those of its channels that someone wants of any item, or item by item, and where they go.
+   subroutine catalogue_bind(self, room, info, readings, columns)
+      class(catalogue_t), intent(in) :: self      !! the catalogue
+      integer, intent(in) :: room                 !! room of the set's items; of loose joints: their contacts have one of their own
+      type(kind_info_t), intent(in) :: info       !! its channels
+      type(readings_t), intent(inout) :: readings !! what is read
+      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: not item by item
+
+      integer :: group, i, k, n
+
+      n = 1
+      if (present(columns)) n = size(columns)
+      call readings%start(n*count_channels(info))
+      do k = 1, count_channels(info)
+         group = self%find_group(room, info%channels(k)%name)
+         if (group == 0 .and. room == room_clearances) group = self%find_group(room_contacts, info%channels(k)%name)
+         if (group == 0) cycle
+         associate (channel => info%channels(k), this => self%groups(group))
+            if (present(columns)) then
+               do i = 1, n
+                  if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call readings%add(channel%code, group, i)
+               end do
+            else
+               if (any(this%is_wanted)) call readings%add(channel%code, group, 0)
+            end if
+         end associate
+      end do
+   end subroutine catalogue_bind
+
+   !> How many channels a kind has.
+   pure integer function count_channels(info)
+      type(kind_info_t), intent(in) :: info  !! the kind
+
+      count_channels = 0
+      if (allocated(info%channels)) count_channels = size(info%channels)
+   end function count_channels
+
    !> Whether an item of a room has a channel: it names its own, or has all of the room's.
    pure logical function has_channel(room, channel, item) result(has)
       type(room_t), intent(in) :: room        !! the room
@@ -213,7 +253,8 @@ contains
       if (.not. allocated(self%groups)) allocate (self%groups(0))
       do k = 1, size(self%groups)
          associate (group => self%groups(k))
-            if (allocated(group%data)) deallocate (group%data, group%has)
+            if (allocated(group%data)) deallocate (group%data, group%has, group%is_wanted)
+            allocate (group%is_wanted(size(self%rooms(group%room)%names)), source=.true.)
             allocate (group%data(group%channel%components, size(self%rooms(group%room)%names)), source=not_a_number())
             group%has = [(has_channel(self%rooms(group%room), group%channel%name, item), item=1, size(group%data, 2))]
          end associate

@@ -158,10 +158,11 @@ module recorder
 
 contains
 
-   !> Whether the values of a quantity are read, once the recorder has started: all are, unless a recorder knows better.
-   pure logical function wants_all(self, group) result(wants)
+   !> Whether the value of a quantity of an item is read, once the recorder has started: all are, unless a recorder knows better.
+   pure logical function wants_all(self, group, item) result(wants)
       class(recorder_t), intent(in) :: self      !! the recorder
       integer, intent(in) :: group               !! its group in the catalogue
+      integer, intent(in) :: item                !! number of the item in the group's room
 
       wants = .true.
    end function wants_all

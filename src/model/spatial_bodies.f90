@@ -14,7 +14,7 @@
 !> Source: Flores et al. (2008), section 6.2. Limits: a tensor that no body can have, and an orientation given twice or by half,
 !> are mistakes.
 module spatial_bodies
-   use bodies, only: bodies_t, points_t
+   use bodies, only: bodies_t, of_acceleration, of_angular_acceleration, of_angular_velocity, of_position, of_velocity, points_t
    use item, only: item_t
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_angle, dim_angular_speed, &
       dim_inertia, dim_length, dim_mass, dim_none, dim_speed, in_space, kind_info_t
@@ -23,7 +23,12 @@ module spatial_bodies
       rotation_of_sequence
    implicit none (type, external)
    private
+   public :: of_orientation, of_spin
    public :: mistake_of_body, new_spatial_bodies, new_spatial_points, spatial_bodies_info, spatial_points_info
+
+   ! channels beside those of the plane
+   integer, parameter :: of_orientation = 7  !! Euler parameters
+   integer, parameter :: of_spin = 8         !! angular velocity along the own axes
 
    character(*), parameter :: sequences = "none xyz xzy yxz yzx zxy zyx xyx xzx yxy yzy zxz zyz"
    character(*), parameter :: rates(6) = [character(2) :: "vx", "vy", "vz", "wx", "wy", "wz"]
@@ -70,13 +75,14 @@ contains
       do k = 4, 6
          call add_number(info, rates(k), dim_angular_speed, "component"//turning, default="0 rad/s", is_free=.true.)
       end do
-      call add_channel(info, "position", "m", "world", 2, "position of the centre of mass")
-      call add_channel(info, "velocity", "m/s", "world", 2, "velocity of the centre of mass")
-      call add_channel(info, "acceleration", "m/s^2", "world", 2, "acceleration of the centre of mass")
-      call add_channel(info, "orientation", "1", "world", 4, "Euler parameters of the body's own axes")
-      call add_channel(info, "angular_velocity", "rad/s", "world", 2, "angular velocity")
-      call add_channel(info, "angular_acceleration", "rad/s^2", "world", 2, "angular acceleration")
-      call add_channel(info, "spin", "rad/s", "body", 2, "angular velocity along the body's own axes")
+      call add_channel(info, "position", "m", "world", 2, "position of the centre of mass", of_position)
+      call add_channel(info, "velocity", "m/s", "world", 2, "velocity of the centre of mass", of_velocity)
+      call add_channel(info, "acceleration", "m/s^2", "world", 2, "acceleration of the centre of mass", &
+                       of_acceleration)
+      call add_channel(info, "orientation", "1", "world", 4, "Euler parameters of the body's own axes", of_orientation)
+      call add_channel(info, "angular_velocity", "rad/s", "world", 2, "angular velocity", of_angular_velocity)
+      call add_channel(info, "angular_acceleration", "rad/s^2", "world", 2, "angular acceleration", of_angular_acceleration)
+      call add_channel(info, "spin", "rad/s", "body", 2, "angular velocity along the body's own axes", of_spin)
    end function spatial_bodies_info
 
    !> The deck table of points in space.

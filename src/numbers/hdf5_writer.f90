@@ -11,6 +11,7 @@ module hdf5_writer
    use channels, only: selection_t
    use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
+   use extremes, only: extremes_t, joint_extremes_t
    use film_fields, only: film_field_t
    use hdf5_accuracy, only: bytes_of_accuracy, write_accuracy
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
@@ -18,6 +19,7 @@ module hdf5_writer
    use hdf5_calls, only: is_memory_short, new_file, new_group, open_library
    use hdf5_datasets, only: text_dataset
    use hdf5_events, only: event_table_t
+   use hdf5_extremes, only: bytes_of_extremes, write_extremes
    use hdf5_fields, only: bytes_of_fields, write_fields
    use hdf5_layout, only: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
    use hdf5_rows, only: write_rows, write_states
@@ -247,13 +249,15 @@ contains
    end subroutine fail
 
    !> Write what waits, the statistics, the warnings and how the run went, and close the file.
-   subroutine finish_file(self, summary, events, statistics, catalogue, numbers, fields, warnings, error)
+   subroutine finish_file(self, summary, events, statistics, catalogue, numbers, extremes, joints, fields, warnings, error)
       class(hdf5_writer_t), intent(inout) :: self        !! the file
       type(summary_t), intent(in) :: summary             !! cost and errors of the run
       type(event_list_t), intent(in) :: events           !! all events
       type(statistics_t), intent(in) :: statistics       !! what was gathered for the statistics
       type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
       type(number_t), intent(in) :: numbers(:)           !! (any) the statistics
+      type(extremes_t), intent(in) :: extremes           !! what the channels went through
+      type(joint_extremes_t), intent(in) :: joints(:)    !! (any) what the loose joints went through
       type(film_field_t), intent(in) :: fields(:)        !! (any) films
       type(text_t), intent(in) :: warnings(:)            !! (any) what a careful reader should know
       type(error_t), allocatable, intent(out) :: error   !! it cannot be written
@@ -265,7 +269,7 @@ contains
       if (.not. self%is_broken) call write_block(self, events, error)
       if (.not. self%is_broken) then
          call reserve(self, sum([(len(warnings(k)%s, i8), k=1, size(warnings))]) + bytes_of_accuracy(self%accuracy) &
-                                    + bytes_of_fields(fields), error)
+                                    + bytes_of_fields(fields) + bytes_of_extremes(extremes, joints), error)
       end if
       if (self%is_broken) then
          ! only what needs no new space
@@ -276,6 +280,7 @@ contains
             call write_statistics(self%file, statistics, catalogue, events, summary%time_end, numbers, status)
          end if
          if (self%accuracy%asked > 0.0_wp) call write_accuracy(self%file, self%accuracy, status)
+         call write_extremes(self%file, extremes, joints, catalogue, status)
          call write_fields(self%file, fields, status)
          call text_dataset(self%file, "warnings", warnings, .false., "what a careful reader should know", status)
          call write_films(self%file, summary%linear, status)

@@ -25,6 +25,8 @@ module output_plan
       character(:), allocatable :: compiler            !! name and version
       character(:), allocatable :: libraries           !! names and versions
       character(:), allocatable :: command             !! the command line
+      type(text_t), allocatable :: parameter_names(:)  !! (m) parameters of the deck
+      type(text_t), allocatable :: parameter_texts(:)  !! (m) their values in force, as written
    end type origin_t
 
    !> What is written.
@@ -45,6 +47,7 @@ module output_plan
       type(origin_t) :: origin                         !! where the run comes from
       character(:), allocatable :: title               !! of the scene
       character(:), allocatable :: suffix              !! of text files' names: blank, or `.ideal` for the ideal twin
+      integer :: n_freedom = 0                         !! degrees of freedom at the start, of drivers none
       type(text_t), allocatable :: channels(:)         !! (n) words of the deck's `channels`; none: everything
       type(text_t), allocatable :: figures(:)          !! (n) words of the deck's `figures`
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
@@ -78,6 +81,8 @@ contains
       call fill(self%contact_rows, "")
       call fill_list(self%origin%include_names)
       call fill_list(self%origin%include_texts)
+      call fill_list(self%origin%parameter_names)
+      call fill_list(self%origin%parameter_texts)
       call fill_list(self%channels)
       call fill_list(self%figures)
       call fill_list(self%warnings)

@@ -5,11 +5,13 @@
 !> after a failed write nothing more is written to that file, and what it holds stays readable.
 module run_recorder
    use catalogue, only: catalogue_t
-   use channels, only: select_channels, selection_t
+   use channel_names, only: scalar_t
+   use channels, only: list_scalars, select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
+   use extremes, only: extremes_t, joints_at_extremes
    use figure_needs, only: add_figure_channels, extra_tables, film_requests, spectral_scalars, stroboscopic_scalars
-   use figure_words, only: figure_film, figure_t, is_of_run, new_figure
+   use figure_words, only: append_figure, figure_film, figure_t, is_of_run, new_figure
    use figures, only: make_figures
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
@@ -44,6 +46,7 @@ module run_recorder
       type(text_writer_t), private :: texts                   !! time histories and events.dat
       type(progress_t), private :: display                    !! how far the run is
       type(statistics_t), private :: statistics               !! what is gathered for the statistics
+      type(extremes_t), private :: extremes                   !! what the channels go through
       type(film_field_t), allocatable, private :: fields(:)   !! (any) films that were asked for
       real(wp), private :: last_time = 0.0_wp                 !! time of the last sample [s]
       logical, private :: has_started = .false.               !! files were made
@@ -86,6 +89,7 @@ contains
          if (any(self%figures%kind == figure_film)) self%wants_fields = film_requests(self%figures)
       end if
       if (.not. self%plan%with%histories) call self%selection%clear(catalogue)
+      call self%extremes%start(list_scalars(self%selection))
       if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
       if (self%plan%with%texts) then
@@ -153,35 +157,32 @@ contains
       end do
    end function without
 
-   !> Append a figure to a list.
-   subroutine append_figure(figures, figure)
-      type(figure_t), allocatable, intent(inout) :: figures(:)  !! (n) figures
-      type(figure_t), intent(in) :: figure                      !! the new one
-
-      type(figure_t), allocatable :: grown(:)
-      integer :: k
-
-      allocate (grown(size(figures) + 1))
-      do k = 1, size(figures)
-         grown(k) = figures(k)
-      end do
-      grown(size(grown)) = figure
-      call move_alloc(grown, figures)
-   end subroutine append_figure
-
-   !> Whether files, figures or statistics read the values of a quantity.
-   pure logical function run_wants(self, group) result(wants)
+   !> Whether files, figures or statistics read the value of a quantity of an item. A dataset of run.h5 holds all items of its room
+   !> that appear.
+   pure logical function run_wants(self, group, item) result(wants)
       class(run_recorder_t), intent(in) :: self          !! the recorder, started
       integer, intent(in) :: group                       !! its group in the catalogue
+      integer, intent(in) :: item                        !! number of the item in the group's room
 
       integer :: k
 
       wants = self%selection%has_group(group)
-      if (allocated(self%statistics%channels)) wants = wants .or. any(self%statistics%channels%group == group)
-      if (allocated(self%statistics%spectra)) wants = wants .or. any(self%statistics%spectra%group == group)
+      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
+      if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
+      if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
       do k = 1, size(self%figures)
-         if (allocated(self%figures(k)%scalars)) wants = wants .or. any(self%figures(k)%scalars%group == group)
+         if (allocated(self%figures(k)%scalars)) wants = wants .or. reads(self%figures(k)%scalars)
       end do
+
+   contains
+
+      !> Whether it is among some numbers.
+      pure logical function reads(scalars)
+         type(scalar_t), intent(in) :: scalars(:)  !! (n) the numbers
+
+         reads = any(scalars%group == group .and. scalars%item == item)
+      end function reads
+
    end function run_wants
 
    !> Keep the current values.
@@ -192,6 +193,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       call keep_row(self, t, row_instant, catalogue, error)
+      call self%extremes%sample(t, catalogue)
       call self%statistics%sample(t, catalogue)
    end subroutine sample_run
 
@@ -204,6 +206,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       call keep_row(self, t, kind, catalogue, error)
+      call self%extremes%note(t, catalogue)
       call self%statistics%note_extremes(t, catalogue)
    end subroutine further_row_run
 
@@ -296,12 +299,15 @@ contains
       call memory_is_for("the statistics and the sorted list of "//to_text(self%events%n)//" events")
       full = complete_summary(summary)
       numbers = self%statistics%numbers(self%items, self%events, full%time_end)
+      outcome%extremes = self%extremes
+      call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
       allocate (outcome%pictures(0), outcome%warnings(0))
       call append_all(outcome%warnings, self%plan%warnings)
       call append_all(outcome%warnings, full%warnings)
       if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
       if (self%plan%with%hdf5) then
-         call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, self%fields, outcome%warnings, error)
+         call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, self%extremes, outcome%joints, &
+                               self%fields, outcome%warnings, error)
       end if
       allocate (outcome%files(0))
       if (self%plan%with%texts) then
@@ -351,8 +357,8 @@ contains
       character(:), allocatable :: json, lines
       integer :: k
 
-      lines = summary_lines(self%plan, summary, self%events, outcome)
-      json = summary_json(self%plan, summary, self%events, outcome)
+      lines = summary_lines(self%plan, summary, self%events, outcome, self%items)
+      json = summary_json(self%plan, summary, self%events, outcome, self%items)
       if (self%plan%with%summary) then
          call replace_file(self%plan%directory//"/summary.txt", lines, error)
          call replace_file(self%plan%directory//"/summary.json", json, second)

@@ -1,8 +1,11 @@
 !> How a run went: summary.txt for people, summary.json for scripts.
 module summary_writer
    use accuracy_text, only: accuracy_json, asked_lines, extreme_lines
+   use catalogue, only: catalogue_t
    use display_units, only: choose_unit, display_unit_t
    use event_list, only: event_list_t, number_names
+   use extremes, only: extremes_t, joint_extremes_t
+   use extremes_text, only: channel_objects, channel_table, joint_objects, joint_table
    use horizon_text, only: add_horizon, horizon_json
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use json_text, only: json_object_t
@@ -10,6 +13,7 @@ module summary_writer
    use linear_text, only: linear_json, linear_lines
    use output_plan, only: output_plan_t
    use plot_text, only: valid_utf8
+   use posix, only: utc_time
    use recorder, only: row_end, row_jump, row_onset, row_peak, row_stop, status_complete, summary_t
    use statistics, only: number_t
    use text, only: append_text, real_text, text_t, to_text
@@ -28,6 +32,8 @@ module summary_writer
       type(text_t), allocatable :: pictures(:)  !! (m) pictures, paths within the directory
       type(number_t), allocatable :: numbers(:) !! (l) the statistics
       type(text_t), allocatable :: warnings(:)  !! (k) what a careful reader should know, and what was not made
+      type(extremes_t) :: extremes              !! what the channels went through
+      type(joint_extremes_t), allocatable :: joints(:)  !! (j) what the loose joints went through
    end type outcome_t
 
 contains
@@ -70,11 +76,12 @@ contains
    end function relative_residual
 
    !> The summary for people.
-   function summary_lines(plan, summary, events, outcome) result(text)
+   function summary_lines(plan, summary, events, outcome, catalogue) result(text)
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
       type(summary_t), intent(in) :: summary       !! cost and errors
       type(event_list_t), intent(in) :: events     !! all events
       type(outcome_t), intent(in) :: outcome       !! what the run left behind
+      type(catalogue_t), intent(in) :: catalogue   !! what could be recorded
       character(:), allocatable :: text            !! whole lines
 
       type(buffer_t) :: lines
@@ -101,6 +108,8 @@ contains
       if (plan%accuracy%asked > 0.0_wp) call extreme_lines(lines, plan%accuracy)
       call add_horizon(lines, plan%horizon)
       call impact_lines(lines, events)
+      call joint_table(lines, outcome%joints)
+      call channel_table(lines, outcome%extremes, catalogue)
       call number_lines(lines, plan, outcome%numbers)
       call lines%line("")
       call lines%line("output     "//plan%directory//"/")
@@ -246,11 +255,12 @@ contains
    end function right
 
    !> The summary for scripts.
-   function summary_json(plan, summary, events, outcome) result(text)
+   function summary_json(plan, summary, events, outcome, catalogue) result(text)
       type(output_plan_t), intent(in) :: plan      !! what is known of the run
       type(summary_t), intent(in) :: summary       !! cost and errors
       type(event_list_t), intent(in) :: events     !! all events
       type(outcome_t), intent(in) :: outcome       !! what the run left behind
+      type(catalogue_t), intent(in) :: catalogue   !! what could be recorded
       character(:), allocatable :: text            !! one object
 
       type(json_object_t) :: json
@@ -258,20 +268,40 @@ contains
       call json%start(0)
       call json%put_text("program", "gudgeon "//plan%origin%program_version)
       call json%put_text("git_sha1", plan%origin%git_sha1)
+      call json%put_text("created", utc_time())
       call json%put_text("deck", plan%origin%deck_name)
+      call json%put_object("parameters", parameter_object(plan))
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
+      call json%put_integer("degrees_of_freedom", int(plan%n_freedom, i8))
       call put_summary(json, summary)
       call linear_json(json, summary%linear)
       if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))
       call horizon_json(plan%horizon, json)
       if (plan%statistics%is_wanted) call json%put_object("statistics", numbers_object(outcome%numbers))
+      call json%put_objects("loose_joints", joint_objects(outcome%joints))
+      call json%put_objects("extremes", channel_objects(outcome%extremes, catalogue))
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)
       call json%put_list("figures", outcome%pictures)
       call json%put_list("warnings", outcome%warnings)
       text = json%get()//new_line("a")
    end function summary_json
+
+   !> The parameters in force, as written.
+   function parameter_object(plan) result(object)
+      type(output_plan_t), intent(in) :: plan       !! what is known of the run
+      character(:), allocatable :: object           !! as text
+
+      type(json_object_t) :: json
+      integer :: k
+
+      call json%start(1)
+      do k = 1, size(plan%origin%parameter_names)
+         call json%put_text(plan%origin%parameter_names(k)%s, plan%origin%parameter_texts(k)%s)
+      end do
+      object = json%get()
+   end function parameter_object
 
    !> The members that are the summary itself.
    subroutine put_summary(json, summary)

@@ -17,7 +17,7 @@ module figure_words
    use text, only: append_text, join, starts_with, text_t
    implicit none (type, external)
    private
-   public :: check_figures, figure_t, new_figure
+   public :: append_figure, check_figures, figure_t, new_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
    public :: figure_film, figure_spectrum, figure_statistics, is_of_run
 
@@ -318,5 +318,21 @@ contains
 
       is_of_run = figure%kind /= figure_bifurcation .and. figure%kind /= figure_statistics
    end function is_of_run
+
+   !> Append a figure to a list.
+   subroutine append_figure(figures, figure)
+      type(figure_t), allocatable, intent(inout) :: figures(:)  !! (n) figures
+      type(figure_t), intent(in) :: figure                      !! the new one
+
+      type(figure_t), allocatable :: grown(:)
+      integer :: k
+
+      allocate (grown(size(figures) + 1))
+      do k = 1, size(figures)
+         grown(k) = figures(k)
+      end do
+      grown(size(grown)) = figure
+      call move_alloc(grown, figures)
+   end subroutine append_figure
 
 end module figure_words

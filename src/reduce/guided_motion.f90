@@ -238,16 +238,30 @@ contains
       real(wp), intent(in) :: x_ddot(guided%n)         !! (n) second derivatives [rad/s^2 or m/s^2]
       type(motion_t), intent(inout) :: motion          !! accelerations of the guided bodies are set
 
+      call accelerate_guided(guided%n, guided%n_turning, guided%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
+   end subroutine set_guided_acceleration
+
+   !> The same on plain arrays.
+   pure subroutine accelerate_guided(n, n_turning, item, x_ddot, n_body, a, alpha)
+      integer, intent(in) :: n                         !! number of guided bodies
+      integer, intent(in) :: n_turning                 !! those that turn
+      type(guided_body_t), intent(in) :: item(n)       !! (n) the bodies, moved
+      real(wp), intent(in) :: x_ddot(n)                !! (n) second derivatives [rad/s^2 or m/s^2]
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(inout) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(inout) :: alpha(3, 0:n_body)    !! (3, 0:bodies) angular accelerations [rad/s^2]
+
       integer :: b, k
 
-      do k = 1, guided%n
-         b = guided%item(k)%body
-         motion%a(1, b) = guided%item(k)%a_0(1) + x_ddot(k)*guided%item(k)%along(1)
-         motion%a(2, b) = guided%item(k)%a_0(2) + x_ddot(k)*guided%item(k)%along(2)
-         motion%alpha(3, b) = motion%alpha(3, guided%item(k)%base)
-         if (k <= guided%n_turning) motion%alpha(3, b) = x_ddot(k)
+      !GCC$ novector
+      do k = 1, n
+         b = item(k)%body
+         a(1, b) = item(k)%a_0(1) + x_ddot(k)*item(k)%along(1)
+         a(2, b) = item(k)%a_0(2) + x_ddot(k)*item(k)%along(2)
+         alpha(3, b) = alpha(3, item(k)%base)
+         if (k <= n_turning) alpha(3, b) = x_ddot(k)
       end do
-   end subroutine set_guided_acceleration
+   end subroutine accelerate_guided
 
    !> Coordinates and rates from a motion of all bodies that fulfils the joints.
    pure subroutine guided_coordinates(guided, motion, x, x_dot)
@@ -276,13 +290,14 @@ contains
    end subroutine guided_coordinates
 
    !> Multipliers of the rows of the guided bodies' joints. All rows are evaluated.
-   pure subroutine find_guided_multipliers(guided, rows, mass, g, a, lambda)
+   pure subroutine find_guided_multipliers(guided, rows, n_body, mass, g, a, lambda)
       type(guided_t), intent(in) :: guided        !! the bodies
       type(rows_t), intent(in) :: rows            !! all rows
-      real(wp), intent(in) :: mass(:, :)          !! (3, bodies) masses [kg, kg, kg.m^2]
-      real(wp), intent(in) :: g(:, 0:)            !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: a(:, 0:)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout) :: lambda(:)        !! (rows) multipliers; those of the joints' rows are set [N or N.m]
+      integer, intent(in) :: n_body               !! number of bodies
+      real(wp), intent(in) :: mass(3, n_body)     !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: g(3, 0:n_body)      !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: a(3, 0:n_body)      !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout) :: lambda(rows%n)   !! (rows) multipliers; those of the joints' rows are set [N or N.m]
 
       real(wp) :: determinant, p(3), q(3), rest(3), s(3), x(2)
       integer :: b, k, place

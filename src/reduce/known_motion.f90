@@ -167,15 +167,16 @@ contains
    end function power_of_known
 
    !> Multipliers of the rows that fix the known bodies. Those of all other rows are there; all rows are evaluated.
-   pure subroutine find_multipliers(known, rows, carried, mass, g, a, rest, lambda)
-      type(known_t), intent(in) :: known          !! the bodies
-      type(rows_t), intent(in) :: rows            !! all rows
-      integer, intent(in) :: carried(:, :)        !! (3, sides) sides of other rows that are known bodies: row, place, body
-      real(wp), intent(in) :: mass(:, :)          !! (3, bodies) masses [kg, kg, kg.m^2]
-      real(wp), intent(in) :: g(:, 0:)            !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: a(:, 0:)            !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout) :: rest(:, 0:)      !! (3, 0:bodies) scratch: what the rows of a body have to carry [N, N, N.m]
-      real(wp), intent(inout) :: lambda(:)        !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+   pure subroutine find_multipliers(known, rows, carried, n_body, mass, g, a, rest, lambda)
+      type(known_t), intent(in) :: known             !! the bodies
+      type(rows_t), intent(in) :: rows               !! all rows
+      integer, intent(in) :: carried(:, :)           !! (3, sides) sides of other rows that are known bodies: row, place, body
+      integer, intent(in) :: n_body                  !! number of bodies
+      real(wp), intent(in) :: mass(3, n_body)        !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in) :: g(3, 0:n_body)         !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: a(3, 0:n_body)         !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout) :: rest(3, 0:n_body)   !! (3, 0:bodies) scratch: what the rows of a body have to carry [N, N, N.m]
+      real(wp), intent(inout) :: lambda(rows%n)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
 
       real(wp) :: matrix(3, 3), x(3)
       integer :: b, i, k, place, row

@@ -65,7 +65,7 @@ module mechanism
       procedure :: evaluate_loads => mechanism_evaluate_loads, multipliers => mechanism_multipliers
       procedure, private :: evaluate_terms, ledger_rates
       procedure :: begin_pace => mechanism_begin_pace, follow_pace => mechanism_follow_pace, time_of_difference
-      procedure :: events => mechanism_events, last_events => mechanism_last_events
+      procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: event_noise => mechanism_event_noise, set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
       procedure :: follow_turns => mechanism_follow_turns
@@ -293,9 +293,9 @@ module mechanism
       !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
       pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
-         class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: y(:)               !! (n) state [any]
-         real(wp), intent(in), optional :: jump(:)  !! (n) jump of its derivative [any]
+         class(mechanism_t), intent(inout) :: self              !! the system
+         real(wp), intent(in), contiguous :: y(:)               !! (n) state [any]
+         real(wp), intent(in), contiguous, optional :: jump(:)  !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
 
       !> A step has ended at a state: what counts turns goes on from there. To be called where `loading%counts_turns`.
@@ -328,6 +328,14 @@ module mechanism
          real(wp), intent(in) :: t, y(:)            !! time of the last evaluation [s] and (n) its state [any]
          real(wp), intent(out) :: g(:), rate(:)     !! (n_event) event functions and their rates [m, m/s]
       end subroutine mechanism_last_events
+
+      !> Leave the system at a state after events were looked for elsewhere.
+      module subroutine mechanism_settle(self, t, y, g, rate)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
+         real(wp), intent(inout) :: g(:), rate(:)   !! (n_event) scratch [any]
+      end subroutine mechanism_settle
 
       !> Round-off of the event functions of contacts and turns at the present motion.
       module subroutine mechanism_event_noise(self, noise)

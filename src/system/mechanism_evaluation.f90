@@ -10,7 +10,9 @@ contains
    !> Right-hand side. Status 1: singular or not a number, try a smaller step.
    module procedure mechanism_evaluate
       real(wp) :: inside
+      logical :: with_powers
 
+      with_powers = self%ledger%is_kept .and. self%with_quadratures
       ! in the smooth stretch: `smooth_piece`, without its call
       inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
       self%n_evaluations = self%n_evaluations + 1
@@ -44,12 +46,12 @@ contains
             associate (last => nq + linkage%n_rate - guided%n)
                call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(last + 1:), &
                                  ydot(nq - guided%n + 1:), ydot(last + 1:), status)
-               if (self%ledger%is_kept) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
+               if (with_powers) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
             end associate
          end if
       end associate
       if (self%friction%grips%n_bristle > 0) call self%bristle_rates(ydot)
-      if (self%ledger%is_kept) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
+      if (with_powers) call self%ledger_rates(ydot(self%n - self%n_quadrature + 1:))
    end procedure mechanism_evaluate
 
    !> Loads and solved rows at the present motion. Status 1 if a known motion is not finite.

@@ -27,6 +27,15 @@ contains
       if (self%loose%functions%has_transition .and. size(g) > self%loose%n_contact) call transition_events(self, g, rate)
    end procedure mechanism_last_events
 
+   !> Leave the system at a state: its motion is enough, but for friction and turns, whose event functions evaluate.
+   module procedure mechanism_settle
+      if (self%friction%grips%n_slip > 0 .or. self%loose%functions%has_turn) then
+         call self%events(t, y, g, rate)
+      else
+         call self%linkage%set_motion(t, y)
+      end if
+   end procedure mechanism_settle
+
    !> Event functions of contacts whose law jumps where the penetration turns: the rate of the penetration falls to zero while they
    !> approach, rises to zero while they part, and leaves its range where they rest.
    subroutine turn_events(self, t, y, g, rate)

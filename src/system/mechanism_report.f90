@@ -1,18 +1,34 @@
 !> What a planar scene reports: its catalogue of channels, and their values at a state.
 module mechanism_report
-   use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
+   use catalogue, only: catalogue_t, group_t, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, &
       room_joints
    use clearance_set, only: clearance_set_t
    use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
+   use linkage, only: linkage_t
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
+   use point_contacts, only: of_eccentricity, of_force
+   use readings, only: readings_t
    use revolute_level, only: film_channels, pressure_channels
    implicit none (type, external)
    private
-   public :: build_catalogue, energy_info, fill_catalogue, report_state
+   public :: bind_channels, build_catalogue, energy_info, fill_catalogue, report_state
+
+   ! channels of the ledger
+   integer, parameter :: of_kinetic = 1               !! kinetic energy
+   integer, parameter :: of_potential = 2             !! of gravity
+   integer, parameter :: of_elastic = 3               !! stored in contacts and springs
+   integer, parameter :: of_drive_work = 4            !! done by drivers
+   integer, parameter :: of_load_work = 5             !! done by applied loads
+   integer, parameter :: of_stabilisation_work = 6    !! done on the drift of constraints
+   integer, parameter :: of_dissipated_contact = 7    !! lost by damping in contacts
+   integer, parameter :: of_dissipated_friction = 8   !! lost by friction
+   integer, parameter :: of_dissipated_damper = 9     !! lost in dampers
+   integer, parameter :: of_dissipated_film = 10      !! taken by films
+   integer, parameter :: of_residual = 11             !! what does not add up
 
    character(*), parameter :: contact_channels = " penetration penetration_rate normal_force friction_force state "
       !! channels of a loose joint that belong to its contact
@@ -29,18 +45,22 @@ contains
       info%help = "the energy ledger"
       info%source = "power balance of the equations of motion"
       info%is_table = .false.
-      call add_channel(info, "kinetic", "J", "none", 1, "kinetic energy")
-      call add_channel(info, "potential", "J", "none", 1, "potential energy of gravity, zero at the origin")
-      call add_channel(info, "elastic", "J", "none", 1, "elastic energy stored in contacts and springs")
+      call add_channel(info, "kinetic", "J", "none", 1, "kinetic energy", of_kinetic)
+      call add_channel(info, "potential", "J", "none", 1, "potential energy of gravity, zero at the origin", of_potential)
+      call add_channel(info, "elastic", "J", "none", 1, "elastic energy stored in contacts and springs", of_elastic)
       if (.not. with_works) return
-      call add_channel(info, "drive_work", "J", "none", 1, "work done by drivers since the start")
-      call add_channel(info, "load_work", "J", "none", 1, "work done by applied loads since the start")
-      call add_channel(info, "stabilisation_work", "J", "none", 1, "work of constraint forces on the drift since the start")
-      call add_channel(info, "dissipated_contact", "J", "none", 1, "lost by damping in contacts since the start")
-      call add_channel(info, "dissipated_friction", "J", "none", 1, "lost by friction since the start")
-      call add_channel(info, "dissipated_damper", "J", "none", 1, "lost in dampers since the start")
-      if (with_films) call add_channel(info, "dissipated_film", "J", "none", 1, "taken by lubricant films since the start")
-      call add_channel(info, "residual", "J", "none", 1, "what does not add up, at the end of the step that holds the sample")
+      call add_channel(info, "drive_work", "J", "none", 1, "work done by drivers since the start", of_drive_work)
+      call add_channel(info, "load_work", "J", "none", 1, "work done by applied loads since the start", of_load_work)
+      call add_channel(info, "stabilisation_work", "J", "none", 1, "work of constraint forces on the drift since the start", &
+                       of_stabilisation_work)
+      call add_channel(info, "dissipated_contact", "J", "none", 1, "lost by damping in contacts since the start", &
+                       of_dissipated_contact)
+      call add_channel(info, "dissipated_friction", "J", "none", 1, "lost by friction since the start", of_dissipated_friction)
+      call add_channel(info, "dissipated_damper", "J", "none", 1, "lost in dampers since the start", of_dissipated_damper)
+      if (with_films) call add_channel(info, "dissipated_film", "J", "none", 1, "taken by lubricant films since the start", &
+                       of_dissipated_film)
+      call add_channel(info, "residual", "J", "none", 1, "what does not add up, at the end of the step that holds the sample", &
+                       of_residual)
    end function energy_info
 
    !> All items and channels of a system.
@@ -99,7 +119,41 @@ contains
          call catalogue%add_kind(room_energy, energy_info(system%ledger%is_kept, system%loose%has_films))
       end if
       call catalogue%allocate_data()
+      call bind_channels(system, catalogue)
    end subroutine build_catalogue
+
+   !> Bind the channels that are wanted to the sets that tell them: what a sample finds.
+   subroutine bind_channels(system, catalogue)
+      class(mechanism_t), intent(in) :: system        !! the system
+      type(catalogue_t), intent(inout) :: catalogue   !! what it can report; its readings are set
+
+      type(kind_info_t) :: info
+      integer :: k
+
+      associate (plan => catalogue%readings, joints => system%linkage%joints)
+         call catalogue%bind(room_bodies, bodies_info(), plan%bodies)
+         call catalogue%bind(room_energy, energy_info(.true., .true.), plan%energy)
+         if (allocated(plan%joints)) deallocate (plan%joints, plan%ideal, plan%loose, plan%forces)
+         allocate (plan%joints(size(joints)), plan%ideal(size(system%linkage%ideal)))
+         allocate (plan%loose(size(system%loose%sets)), plan%forces(size(system%loading%forces)))
+         do k = 1, size(joints)
+            info = joint_info(joints(k)%set, joints(k)%set%friction%n > 0)
+            call catalogue%bind(merge(room_drivers, room_joints, joints(k)%set%is_driver), info, plan%joints(k), &
+                                joints(k)%set%column)
+         end do
+         call ideal_info(info)
+         do k = 1, size(plan%ideal)
+            call catalogue%bind(room_clearances, info, plan%ideal(k))
+         end do
+         plan%needs_reactions = any(plan%joints%n > 0) .or. any(plan%ideal%n > 0)
+         do k = 1, size(plan%loose)
+            call catalogue%bind(room_clearances, loose_info(system%loose%sets(k)%set), plan%loose(k))
+         end do
+         do k = 1, size(plan%forces)
+            call catalogue%bind(room_forces, system%loading%forces(k)%set%info(), plan%forces(k))
+         end do
+      end associate
+   end subroutine bind_channels
 
    !> Joints, or drivers, in the order of their columns.
    subroutine add_joint_items(system, is_driver, catalogue)
@@ -166,8 +220,8 @@ contains
    subroutine ideal_info(info)
       type(kind_info_t), intent(out) :: info  !! channels
 
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing")
-      call add_channel(info, "force", "N", "world", 2, "force on the journal")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing", of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the journal", of_force)
    end subroutine ideal_info
 
    !> Split the channels of a geometry into those of the joint and those of its contact.
@@ -181,9 +235,9 @@ contains
       do k = 1, size(info%channels)
          associate (c => info%channels(k))
             if (index(contact_channels, " "//c%name//" ") > 0) then
-               call add_channel(contact_info, c%name, c%unit, c%frame, c%components, c%help)
+               call add_channel(contact_info, c%name, c%unit, c%frame, c%components, c%help, c%code)
             else
-               call add_channel(joint_info, c%name, c%unit, c%frame, c%components, c%help)
+               call add_channel(joint_info, c%name, c%unit, c%frame, c%components, c%help, c%code)
             end if
          end associate
       end do
@@ -192,145 +246,143 @@ contains
    !> Fill the catalogue with the values at a state: evaluates the right-hand side there.
    subroutine report_state(system, t, y, ydot, residual, catalogue, status)
       class(mechanism_t), intent(inout) :: system   !! the system
-      real(wp), intent(in) :: t                         !! time [s]
-      real(wp), intent(in) :: y(:)                      !! (n) state [any]
-      real(wp), intent(out) :: ydot(:)                  !! (n) its derivative [any]
-      real(wp), intent(in) :: residual                  !! of the ledger at the last step [J]
-      type(catalogue_t), intent(inout) :: catalogue     !! values
-      integer, intent(out) :: status                    !! of the evaluation
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(in), contiguous :: y(:)      !! (n) state [any]
+      real(wp), intent(inout), contiguous :: ydot(:)  !! (n) its derivative; of quadratures where they are wanted [any]
+      real(wp), intent(in) :: residual              !! of the ledger at the last step [J]
+      type(catalogue_t), intent(inout) :: catalogue !! values
+      integer, intent(out) :: status                !! of the evaluation
 
       call system%evaluate(t, y, ydot, status)
       if (status /= 0) return
-      call system%linkage%set_state(t, y, ydot)
-      if (system%linkage%rows%n > system%linkage%rows%n_solve) call system%linkage%find_reactions(t, system%loading%g)
+      if (system%way%at_stages) then  ! the evaluation was that of a corrected state
+         call system%linkage%set_state(t, y, ydot)
+      else
+         call system%linkage%set_acceleration(ydot)
+      end if
+      if (catalogue%readings%needs_reactions .and. system%linkage%rows%n > system%linkage%rows%n_solve) then
+         call system%linkage%find_reactions(t, system%loading%g)
+      end if
       call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state
 
    !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
-   !> violations, multipliers, states of the contacts.
+   !> violations, multipliers, states of the contacts. Only what is bound is found; nothing is allocated.
    subroutine fill_catalogue(system, t, y, residual, catalogue)
-      class(mechanism_t), intent(in) :: system      !! the system at the state
-      real(wp), intent(in) :: t                         !! time [s]
-      real(wp), intent(in) :: y(:)                      !! (n) state; without a ledger positions and velocities suffice [any]
-      real(wp), intent(in) :: residual                  !! of the ledger at the last step [J]
-      type(catalogue_t), intent(inout) :: catalogue     !! values
+      class(mechanism_t), intent(in) :: system       !! the system at the state
+      real(wp), intent(in) :: t                      !! time [s]
+      real(wp), intent(in) :: y(:)                   !! (n) state; without a ledger positions and velocities suffice [any]
+      real(wp), intent(in) :: residual               !! of the ledger at the last step [J]
+      type(catalogue_t), intent(inout) :: catalogue  !! values
 
       type(energy_t) :: energy
-      integer :: k
+      integer :: k, m
 
-      if (system%ledger%has_energies .and. any(catalogue%groups%is_wanted .and. catalogue%groups%room == room_energy)) then
-         energy = energy_of(system, y)
-      end if
-      do k = 1, size(catalogue%groups)
-         associate (group => catalogue%groups(k))
-            if (.not. group%is_wanted) cycle
-            select case (group%room)
-            case (room_bodies)
-               call system%linkage%coordinates%report(group%channel%name, system%linkage%motion, group%data)
-            case (room_joints)
-               call report_joints(system, .false., catalogue, k)
-            case (room_drivers)
-               call report_joints(system, .true., catalogue, k)
-            case (room_clearances, room_contacts)
-               call report_clearances(system, group%channel%name, group%data)
-            case (room_forces)
-               call report_forces(system, t, group%channel%name, group%data)
-            case (room_energy)
-               group%data(1, 1) = energy_value(energy, group%channel%name, residual)
-            end select
-         end associate
-      end do
-   end subroutine fill_catalogue
-
-   !> Values of a channel of the joints, or of the drivers: of the sets that have it.
-   subroutine report_joints(system, is_driver, catalogue, group)
-      class(mechanism_t), intent(in) :: system       !! the system
-      logical, intent(in) :: is_driver               !! drivers, not joints
-      type(catalogue_t), intent(inout) :: catalogue  !! values
-      integer, intent(in) :: group                   !! number of the channel's group
-
-      logical :: has
-      integer :: k
-
-      associate (linkage => system%linkage, channel => catalogue%groups(group)%channel%name)
-         do k = 1, size(linkage%joints)
-            associate (set => linkage%joints(k)%set)
-               if (set%is_driver .neqv. is_driver) cycle
-               has = catalogue%item_has(group, set%column(1))
-               if (set%friction%n > 0) has = has .or. catalogue%item_has(group, set%column(set%friction%item(1)))
-               if (.not. has) cycle
-               call set%report(channel, linkage%motion, linkage%coordinates, linkage%rows, linkage%solution%lambda, &
-                               linkage%solution%phi_dot, catalogue%groups(group)%data)
-            end associate
+      associate (linkage => system%linkage, plan => catalogue%readings, groups => catalogue%groups)
+         do m = 1, plan%bodies%n
+            call linkage%coordinates%report(plan%bodies%code(m), linkage%motion, groups(plan%bodies%group(m))%data)
+         end do
+         do k = 1, size(plan%joints)
+            call report_joints(linkage, linkage%joints(k)%set, plan%joints(k), groups)
+         end do
+         do k = 1, size(plan%loose)
+            if (plan%loose(k)%n > 0) call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, groups)
+         end do
+         call report_ideal(system, plan%ideal, groups)
+         call report_forces(system, t, plan%forces, groups)
+         if (plan%energy%n > 0) energy = energy_of(system, y)
+         do m = 1, plan%energy%n
+            groups(plan%energy%group(m))%data(1, 1) = energy_value(energy, plan%energy%code(m), residual)
          end do
       end associate
+   end subroutine fill_catalogue
+
+   !> Values of a set of joints or drivers.
+   subroutine report_joints(linkage, set, readings, groups)
+      type(linkage_t), intent(in) :: linkage     !! the linkage at the state
+      class(joint_set_t), intent(in) :: set      !! the set
+      type(readings_t), intent(in) :: readings   !! what is read of it
+      type(group_t), intent(inout) :: groups(:)  !! (groups) values
+
+      integer :: m
+
+      do m = 1, readings%n
+         call set%report(readings%code(m), readings%item(m), linkage%motion, linkage%coordinates, linkage%rows, &
+                         linkage%solution%lambda, linkage%solution%phi_dot, &
+                         groups(readings%group(m))%data(:, set%column(readings%item(m))))
+      end do
    end subroutine report_joints
 
-   !> Values of a channel of the joints with clearance, loose ones first, then those taken as ideal.
-   subroutine report_clearances(system, channel, values)
-      class(mechanism_t), intent(in) :: system  !! the system
-      character(*), intent(in) :: channel           !! the channel
-      real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
+   !> Values of the joints with clearance that are taken as ideal; they stand behind the loose ones.
+   subroutine report_ideal(system, readings, groups)
+      class(mechanism_t), intent(in) :: system     !! the system
+      type(readings_t), intent(in) :: readings(:)  !! (sets) what is read of them
+      type(group_t), intent(inout) :: groups(:)    !! (groups) values
 
       real(wp) :: force(3), moment(3)
-      integer :: i, k, n
+      integer :: i, k, m, n
 
-      do k = 1, size(system%loose%sets)
-         call system%loose%sets(k)%set%report(channel, system%linkage%motion, values)
-      end do
       n = system%loose%n
       associate (linkage => system%linkage)
-         do k = 1, size(linkage%ideal)
+         do k = 1, size(readings)
             do i = 1, linkage%ideal(k)%set%n
                n = n + 1
-               select case (channel)
-               case ("force")
-                  call linkage%ideal(k)%set%reaction(i, linkage%motion, linkage%coordinates, linkage%rows, &
-                                                     linkage%solution%lambda, force, moment)
-                  values(:, n) = -force(:size(values, 1))
-               case ("eccentricity")
-                  values(:, n) = 0.0_wp
-               end select
+               do m = 1, readings(k)%n
+                  associate (values => groups(readings(k)%group(m))%data)
+                     if (readings(k)%code(m) == of_force) then
+                        call linkage%ideal(k)%set%reaction(i, linkage%motion, linkage%coordinates, linkage%rows, &
+                                                           linkage%solution%lambda, force, moment)
+                        values(:, n) = -force(:size(values, 1))
+                     else
+                        values(:, n) = 0.0_wp
+                     end if
+                  end associate
+               end do
             end do
          end do
       end associate
-   end subroutine report_clearances
+   end subroutine report_ideal
 
-   !> Values of a channel of the force elements.
-   subroutine report_forces(system, t, channel, values)
-      class(mechanism_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: t                     !! time [s]
-      character(*), intent(in) :: channel           !! the channel
-      real(wp), intent(inout) :: values(:, :)       !! (components, items) values [any]
+   !> Values of the force elements.
+   subroutine report_forces(system, t, readings, groups)
+      class(mechanism_t), intent(in) :: system     !! the system
+      real(wp), intent(in) :: t                    !! time [s]
+      type(readings_t), intent(in) :: readings(:)  !! (sets) what is read of them
+      type(group_t), intent(inout) :: groups(:)    !! (groups) values
 
-      integer :: column, k
+      integer :: column, k, m
 
       column = 0
-      do k = 1, size(system%loading%forces)
+      do k = 1, size(readings)
          associate (set => system%loading%forces(k)%set)
-            call set%report(channel, system%linkage%piece%inside(t), system%linkage%motion, values(:, column + 1:column + set%n))
+            do m = 1, readings(k)%n
+               associate (values => groups(readings(k)%group(m))%data)
+                  call set%report(readings(k)%code(m), system%linkage%piece%inside(t), system%linkage%motion, &
+                                  values(:, column + 1:column + set%n))
+               end associate
+            end do
             column = column + set%n
          end associate
       end do
    end subroutine report_forces
 
    !> One term of the ledger.
-   pure real(wp) function energy_value(energy, channel, residual) result(value)
+   pure real(wp) function energy_value(energy, code, residual) result(value)
       type(energy_t), intent(in) :: energy   !! energies
-      character(*), intent(in) :: channel    !! the term
+      integer, intent(in) :: code            !! the term
       real(wp), intent(in) :: residual       !! at the last step [J]
 
-      select case (channel)
-      case ("kinetic"); value = energy%kinetic
-      case ("potential"); value = energy%potential
-      case ("elastic"); value = energy%elastic
-      case ("drive_work"); value = energy%drive_work
-      case ("load_work"); value = energy%load_work
-      case ("stabilisation_work"); value = energy%stabilisation_work
-      case ("dissipated_contact"); value = energy%dissipated_contact
-      case ("dissipated_friction"); value = energy%dissipated_friction
-      case ("dissipated_damper"); value = energy%dissipated_damper
-      case ("dissipated_film"); value = energy%dissipated_film
+      select case (code)
+      case (of_kinetic); value = energy%kinetic
+      case (of_potential); value = energy%potential
+      case (of_elastic); value = energy%elastic
+      case (of_drive_work); value = energy%drive_work
+      case (of_load_work); value = energy%load_work
+      case (of_stabilisation_work); value = energy%stabilisation_work
+      case (of_dissipated_contact); value = energy%dissipated_contact
+      case (of_dissipated_friction); value = energy%dissipated_friction
+      case (of_dissipated_damper); value = energy%dissipated_damper
+      case (of_dissipated_film); value = energy%dissipated_film
       case default; value = residual
       end select
    end function energy_value

@@ -31,7 +31,7 @@ contains
                  nq => self%linkage%n_position, length => self%linkage%scales%length)
          n = linkage%n_rate
          rate = max(rate_of(self, y), remembered*linkage%scales%pace, linkage%scales%late_rate)
-         call linkage%coordinates%weigh_positions(length, n_unknown, scale)
+         if (n_unknown > 0) call linkage%coordinates%weigh_positions(length, n_unknown, scale)
          associate (n_v => linkage%coordinates%n_v, is_turn => linkage%coordinates%is_turn)
             do k = 1, n_unknown
                do i = 1, n_v
@@ -61,14 +61,15 @@ contains
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
       class(mechanism_t), intent(in) :: self  !! the system
-      real(wp), intent(in), contiguous :: y(:)    !! (n) state [any]
+      real(wp), intent(in) :: y(:)            !! (n) state [any]
 
       integer :: k
 
       associate (linkage => self%linkage, coordinates => self%linkage%coordinates, length => self%linkage%scales%length, &
                  known => self%linkage%reduced%known, guided => self%linkage%reduced%guided)
          associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
-            rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
+            rate = 0.0_wp
+            if (linkage%rows%n_unknown > 0) rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
             do k = 1, known%n
                rate = max(rate, coordinates%rate_of(linkage%motion, known%item(k)%body, length))
             end do

@@ -12,6 +12,7 @@ module test_clearances
    use kinds, only: wp
    use motion, only: loads_t
    use point_contact, only: point_contact_t
+   use read_channel, only: read_loose
    use recorder, only: event_t
    implicit none (type, external)
    private
@@ -87,7 +88,7 @@ contains
       if (bench%is_book .and. .not. bench%has_faces) then
          call get_gaps(bench, 0.0_wp, delta, rate)
          friction = 0.0_wp
-         call bench%set%report("friction_force", bench%motion, friction)
+         call read_loose(bench%set, "friction_force", bench%motion, friction)
          couple = sum(delta(n_before + 1:n_before + n_item)*friction(1, n_before + 1:n_before + n_item))
          if (allocated(bench%set%laws%friction)) call check_true(error, abs(couple) > 1.0e-6_wp, bench%name//": there is a couple")
       end if
@@ -273,7 +274,7 @@ contains
          call check_close(error, [delta, rate], [delta_all(n_before + item), rate_all(n_before + item)], 0.0_wp, &
                           bench%name//": penetration")
          normal = 0.0_wp
-         call bench%set%report("normal_force", bench%motion, normal)
+         call read_loose(bench%set, "normal_force", bench%motion, normal)
          call check_close(error, f, normal(1, n_before + item), 0.0_wp, bench%name//": force")
       end do
    end subroutine force_rate
@@ -304,7 +305,7 @@ contains
       call check_true(error, sum(abs(loads%force(:, 3))) > 100.0_wp, bench%name//": force on the one that does")
       call check_close(error, losses(:, bench%first), [0.0_wp, 0.0_wp], 0.0_wp, bench%name//": losses")
       state = -1.0_wp
-      call bench%set%report("state", bench%motion, state)
+      call read_loose(bench%set, "state", bench%motion, state)
       expected = -1.0_wp
       expected(bench%first:bench%last) = 0.0_wp
       do k = 1, size(bench%touching)
@@ -356,7 +357,7 @@ contains
          call check_close(error, sum(abs(loads%force)), 0.0_wp, 0.0_wp, bench%name//": force when centred")
          do k = 1, size(info%channels)
             value = 0.0_wp
-            call bench%set%report(info%channels(k)%name, bench%motion, value(1:info%channels(k)%components, :))
+            call read_loose(bench%set, info%channels(k)%name, bench%motion, value(1:info%channels(k)%components, :))
             call check_true(error, all(ieee_is_finite(value)), bench%name//": "//info%channels(k)%name//" is finite")
          end do
          bench%v = 0.0_wp

@@ -11,7 +11,7 @@ module test_forces
    use force_set, only: force_set_t
    use generic_item, only: column_number, fill_item, make_expression
    use item, only: item_t
-   use kind_info, only: is_of_space, kind_info_t
+   use kind_info, only: channel_code, is_of_space, kind_info_t
    use kinds, only: i8, pi, wp
    use motion, only: loads_t, motion_t, new_loads, new_motion, point_position
    use planar_coordinates, only: set_planar_motion
@@ -148,7 +148,7 @@ contains
          call check_close(error, bench%power - lost - five_point(stored, step), given, &
                           merge(1.0e-10_wp, 1.0e-13_wp, any(abs(stored) > 0.0_wp)), bench%name//": power of the loads")
          power = 0.0_wp
-         call bench%set%report("power", now, bench%motion, power)
+         call bench%set%report(channel_code(bench%set%info(), "power"), now, bench%motion, power)
          call check_close(error, sum(power), given, 1.0e-13_wp, bench%name//": power reported")
       end do
    end subroutine test_power
@@ -238,13 +238,13 @@ contains
       call check_close(error, bench%power, -3.0_wp, 1.0e-14_wp, "power of the actuator")
       call check_close(error, bench%set%elastic_energy(bench%motion), 5.0_wp*2.7_wp**2, 1.0e-13_wp, "stored energy")
       call check_close(error, bench%set%lost_power(bench%motion), 2.0_wp, 1.0e-14_wp, "power lost")
-      call bench%set%report("tension", 0.5_wp, bench%motion, values)
+      call bench%set%report(channel_code(bench%set%info(), "tension"), 0.5_wp, bench%motion, values)
       call check_close(error, values(1, 1), 32.0_wp, 1.0e-14_wp, "tension")
-      call bench%set%report("length", 0.5_wp, bench%motion, values)
+      call bench%set%report(channel_code(bench%set%info(), "length"), 0.5_wp, bench%motion, values)
       call check_close(error, values(1, 1), 5.0_wp, 1.0e-14_wp, "length")
-      call bench%set%report("rate", 0.5_wp, bench%motion, values)
+      call bench%set%report(channel_code(bench%set%info(), "rate"), 0.5_wp, bench%motion, values)
       call check_close(error, values(1, 1), 1.0_wp, 1.0e-14_wp, "rate")
-      call bench%set%report("force", 0.5_wp, bench%motion, vector)
+      call bench%set%report(channel_code(bench%set%info(), "force"), 0.5_wp, bench%motion, vector)
       call check_close(error, vector(:, 1), [19.2_wp, 25.6_wp], 1.0e-14_wp, "force on the body of i")
       ! points that coincide: no direction, no force, no power; the stored energy is that of the length zero
       call set_planar_motion(n_body, reshape([1.0_wp, 1.7_wp, 0.5_wp*pi, (0.0_wp, k=1, 6)], [3, 3]), &
@@ -274,11 +274,11 @@ contains
       call check_close(error, bench%power, -3.0_wp, 1.0e-14_wp, "power of the actuator")
       call check_close(error, bench%set%elastic_energy(bench%motion), 5.0_wp*2.7_wp**2, 1.0e-13_wp, "stored energy")
       call check_close(error, bench%set%lost_power(bench%motion), 2.0_wp, 1.0e-14_wp, "power lost")
-      call bench%set%report("moment", 0.5_wp, bench%motion, values)
+      call bench%set%report(channel_code(bench%set%info(), "moment"), 0.5_wp, bench%motion, values)
       call check_close(error, values(1, 1), 32.0_wp, 1.0e-14_wp, "moment")
-      call bench%set%report("angle", 0.5_wp, bench%motion, values)
+      call bench%set%report(channel_code(bench%set%info(), "angle"), 0.5_wp, bench%motion, values)
       call check_close(error, values(1, 1), 5.0_wp, 1.0e-14_wp, "angle")
-      call bench%set%report("angular_rate", 0.5_wp, bench%motion, values)
+      call bench%set%report(channel_code(bench%set%info(), "angular_rate"), 0.5_wp, bench%motion, values)
       call check_close(error, values(1, 1), 1.0_wp, 1.0e-14_wp, "rate")
    end subroutine test_torsion_spring_by_hand
 
@@ -392,7 +392,7 @@ contains
       call bench%set%evaluate(now, bench%motion, bench%loads, bench%power)
       f = [3.0_wp*sin(2.0_wp*now), 5.0_wp - 4.0_wp*now]
       force = 0.0_wp
-      call bench%set%report("force", now, bench%motion, force)
+      call bench%set%report(channel_code(bench%set%info(), "force"), now, bench%motion, force)
       do k = 1, n_body
          arm = point_position(bench%motion, k, bench%points%s(:, k)) - bench%motion%r(:, k)
          call check_close(error, bench%loads%force(:, k), [f, 0.0_wp], 1.0e-14_wp, "force on body "//to_text(k))
@@ -413,7 +413,7 @@ contains
       call make_bench(kind_number("force.torque"), bench, "7*cos(3 rad/s*t)")
       call bench%set%evaluate(now, bench%motion, bench%loads, bench%power)
       moment = 0.0_wp
-      call bench%set%report("moment", now, bench%motion, moment)
+      call bench%set%report(channel_code(bench%set%info(), "moment"), now, bench%motion, moment)
       call check_close(error, maxval(abs(bench%loads%force)), 0.0_wp, 0.0_wp, "no force")
       do k = 1, n_body
          call check_close(error, bench%loads%moment(:, k), [0.0_wp, 0.0_wp, 7.0_wp*cos(3.0_wp*now)], 1.0e-14_wp, &

@@ -414,7 +414,10 @@ contains
             values = reshape([(not_a_number(), k=1, info%channels(c)%components*(2*n_item + 1))], &
                              [info%channels(c)%components, 2*n_item + 1])
             if (bench%set%friction%n > 0) bench%set%friction%force = [(0.5_wp*k, k=1, n_item)]
-            call bench%set%report(info%channels(c)%name, bench%motion, coordinates, bench%rows, lambda, phi_dot, values)
+            do k = 1, n_item
+               call bench%set%report(info%channels(c)%code, k, bench%motion, coordinates, bench%rows, lambda, phi_dot, &
+                                     values(:, bench%set%column(k)))
+            end do
             call check_true(error, all(ieee_is_finite(values(:, 2::2))), bench%name//": fills "//info%channels(c)%name)
             call check_true(error, .not. any(ieee_is_finite(values(:, 1::2))), bench%name//": leaves others alone")
             if (info%channels(c)%name == "force" .and. .not. bench%set%is_driver) then

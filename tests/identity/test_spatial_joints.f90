@@ -288,7 +288,9 @@ contains
          do c = 1, size(bench%info%channels)
             associate (channel => bench%info%channels(c))
                allocate (values(merge(3, 1, channel%components == 2), n_item), source=not_a_number())
-               call bench%set%report(channel%name, bench%motion, bench%coordinates, bench%rows, lambda, lambda, values)
+               do k = 1, n_item
+                  call bench%set%report(channel%code, k, bench%motion, bench%coordinates, bench%rows, lambda, lambda, values(:, k))
+               end do
                call check_true(error, all(ieee_is_finite(values)), bench%name//": channel "//channel%name)
                deallocate (values)
             end associate

@@ -11,6 +11,7 @@ module test_acting_apart
    use kinds, only: pi, wp
    use motion, only: loads_t
    use normal_law, only: n_law_parameter, normal_law_t
+   use read_channel, only: read_loose
    use recorder, only: event_t, summary_t
    use surfaces, only: surfaces_t
    implicit none (type, external)
@@ -64,7 +65,7 @@ contains
             allocate (set%laws%normal, source=cushion(reach))
             call evaluate_loads(bench, loads, losses)
             normal = 0.0_wp
-            call set%report("normal_force", bench%motion, normal)
+            call read_loose(set, "normal_force", bench%motion, normal)
             call check_close(error, normal(1, bench%first:bench%last), stiffness*(delta(bench%first:bench%last) + reach), &
                              1.0e-12_wp*stiffness*reach, bench%name//": normal forces")
             scale = sum(abs(loads%force))

@@ -9,6 +9,7 @@ module test_clearance_revolute
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: loads_t
+   use read_channel, only: read_loose
    use recorder, only: event_t
    implicit none (type, external)
    private
@@ -49,9 +50,9 @@ contains
       force = 0.0_wp
       friction = 0.0_wp
       normal = 0.0_wp
-      call bench%set%report("force", bench%motion, force)
-      call bench%set%report("friction_force", bench%motion, friction)
-      call bench%set%report("normal_force", bench%motion, normal)
+      call read_loose(bench%set, "force", bench%motion, force)
+      call read_loose(bench%set, "friction_force", bench%motion, friction)
+      call read_loose(bench%set, "normal_force", bench%motion, normal)
       do k = 1, n_item
          do side = 1, 2
             body = bench%set%items%body(side, k)

@@ -1,0 +1,72 @@
+!> Which values of a system's sets are read, and where they go: found once, so that a sample compares no names.
+!>
+!> A kind numbers its channels in `info()`. What is read of a set is a list of these numbers, each with the group of the catalogue
+!> that its values go to; of joints item by item.
+module readings
+   implicit none (type, external)
+   private
+   public :: reading_plan_t, readings_t
+
+   !> Channels that are read of one set.
+   type :: readings_t
+      integer :: n = 0                    !! number of channels
+      integer, allocatable :: code(:)     !! (n or more) the channels, as `info()` of the set numbers them
+      integer, allocatable :: group(:)    !! (n or more) groups of the catalogue that their values go to
+      integer, allocatable :: item(:)     !! (n or more) the item of the set, 0: all
+   contains
+      procedure :: start => readings_start
+      procedure :: add => readings_add
+      procedure :: has => readings_has
+   end type readings_t
+
+   !> Channels that are read of all sets of a system.
+   type :: reading_plan_t
+      type(readings_t) :: bodies                   !! of the bodies
+      type(readings_t) :: energy                   !! of the ledger
+      type(readings_t), allocatable :: joints(:)   !! (sets) of joints and drivers
+      type(readings_t), allocatable :: ideal(:)    !! (sets) of joints with clearance taken as ideal
+      type(readings_t), allocatable :: loose(:)    !! (sets) of joints with clearance
+      type(readings_t), allocatable :: forces(:)   !! (sets) of force elements
+      logical :: needs_reactions = .true.          !! something is read of joints or drivers: all multipliers must be there
+   end type reading_plan_t
+
+contains
+
+   !> Room for some channels, none yet.
+   subroutine readings_start(self, most)
+      class(readings_t), intent(inout) :: self   !! the list
+      integer, intent(in) :: most                !! channels at most
+
+      self%n = 0
+      if (allocated(self%code)) deallocate (self%code, self%group, self%item)
+      allocate (self%code(most), self%group(most), self%item(most), source=0)
+   end subroutine readings_start
+
+   !> Add a channel; there is room for it.
+   pure subroutine readings_add(self, code, group, item)
+      class(readings_t), intent(inout) :: self   !! the list
+      integer, intent(in) :: code                !! the channel
+      integer, intent(in) :: group               !! its group
+      integer, intent(in) :: item                !! item of the set, 0: all
+
+      self%n = self%n + 1
+      self%code(self%n) = code
+      self%group(self%n) = group
+      self%item(self%n) = item
+   end subroutine readings_add
+
+   !> Whether a channel from a first to a last one is read.
+   pure logical function readings_has(self, first, last) result(has)
+      class(readings_t), intent(in) :: self   !! the list
+      integer, intent(in) :: first            !! the first channel
+      integer, intent(in) :: last             !! the last channel
+
+      integer :: m
+
+      has = .false.
+      do m = 1, self%n
+         has = has .or. (self%code(m) >= first .and. self%code(m) <= last)
+      end do
+   end function readings_has
+
+end module readings

@@ -1,0 +1,171 @@
+!> The extremes of a run in the summaries: a table of the channels and one of the loose joints.
+module extremes_text
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_name
+   use extremes, only: extremes_t, joint_extremes_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use json_text, only: json_object_t
+   use kinds, only: i8, wp
+   use text, only: append_text, real_text, text_t, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: channel_objects, channel_table, joint_objects, joint_table
+
+   integer, parameter :: most_lines = 40     !! channels in summary.txt
+   integer, parameter :: most_objects = 1000 !! channels in summary.json
+   integer, parameter :: widest_name = 60    !! characters of a name that others are lined up with
+
+contains
+
+   !> The table of the channels for people.
+   subroutine channel_table(lines, extremes, catalogue)
+      type(buffer_t), intent(inout) :: lines        !! the summary
+      type(extremes_t), intent(in) :: extremes      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+
+      character(:), allocatable :: name
+      integer :: k, n, width
+
+      n = min(size(extremes%channels), most_lines)
+      if (n == 0) return
+      width = len("extremes")
+      do k = 1, n
+         width = max(width, min(len(full_name(extremes, catalogue, k)), widest_name))
+      end do
+      call lines%line("")
+      call lines%line("extremes"//repeat(" ", width + 3)//right("least")//right("at [s]")//right("greatest")//right("at [s]")// &
+                      right("mean")//right("rms"))
+      do k = 1, n
+         name = full_name(extremes, catalogue, k)
+         associate (one => extremes%of(k))
+            call lines%line("           "//name//repeat(" ", max(width - len(name), 0))//right(real_text(one%least, 5))// &
+                            right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
+                            right(real_text(one%greatest_time, 6))//right(real_text(extremes%mean(k), 5))// &
+                            right(real_text(extremes%rms(k), 5)))
+         end associate
+      end do
+      if (size(extremes%channels) > n) then
+         call lines%line("           "//to_text(size(extremes%channels) - n)//" more in summary.json and in run.h5, /extremes")
+      end if
+   end subroutine channel_table
+
+   !> The table of the loose joints for people: greatest values, each with the onset of its contact.
+   subroutine joint_table(lines, joints)
+      type(buffer_t), intent(inout) :: lines          !! the summary
+      type(joint_extremes_t), intent(in) :: joints(:) !! (n) the joints with contacts
+
+      integer :: k
+
+      if (size(joints) == 0) return
+      call lines%line("")
+      call lines%line("loose joints")
+      do k = 1, min(size(joints), most_lines)
+         associate (joint => joints(k))
+            call lines%add("           "//joint%name//": "//to_text(joint%impacts)//" impacts, "// &
+                           real_text(100.0_wp*joint%contact_fraction, 4)//" % of the time in contact")
+            if (joint%impacts > 0) then
+               call lines%add("; at most "//real_text(joint%speed, 5)//" m/s (onset "//real_text(joint%speed_onset, 6)//" s), "// &
+                              real_text(joint%force, 6)//" N ("//real_text(joint%force_onset, 6)//" s), depth "// &
+                              real_text(joint%penetration, 5)//" m ("//real_text(joint%penetration_onset, 6)//" s)")
+               if (ieee_is_finite(joint%energy_lost)) call lines%add("; lost "//real_text(joint%energy_lost, 5)//" J")
+            end if
+            call lines%line("")
+         end associate
+      end do
+      if (size(joints) > most_lines) then
+         call lines%line("           "//to_text(size(joints) - most_lines)//" more in summary.json and in run.h5, /extremes")
+      end if
+   end subroutine joint_table
+
+   !> The extremes of the channels as objects.
+   function channel_objects(extremes, catalogue) result(objects)
+      type(extremes_t), intent(in) :: extremes      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+      type(text_t), allocatable :: objects(:)       !! (at most 1000) objects as text
+
+      integer :: k
+
+      allocate (objects(0))
+      do k = 1, min(size(extremes%channels), most_objects)
+         block
+            type(json_object_t) :: json
+
+            call json%start(1)
+            call json%put_text("channel", scalar_name(catalogue, extremes%channels(k)))
+            call json%put_text("unit", unit_of(extremes, catalogue, k))
+            associate (one => extremes%of(k))
+               call json%put_real("least", one%least)
+               call json%put_real("least_time", one%least_time)
+               call json%put_real("greatest", one%greatest)
+               call json%put_real("greatest_time", one%greatest_time)
+            end associate
+            call json%put_real("mean", extremes%mean(k))
+            call json%put_real("rms", extremes%rms(k))
+            call append_text(objects, json%get())
+         end block
+      end do
+   end function channel_objects
+
+   !> What the loose joints went through as objects.
+   function joint_objects(joints) result(objects)
+      type(joint_extremes_t), intent(in) :: joints(:) !! (n) the joints with contacts
+      type(text_t), allocatable :: objects(:)         !! (n) objects as text
+
+      integer :: k
+
+      allocate (objects(0))
+      do k = 1, size(joints)
+         block
+            type(json_object_t) :: json
+
+            call json%start(1)
+            associate (joint => joints(k))
+               call json%put_text("joint", joint%name)
+               call json%put_integer("impacts", int(joint%impacts, i8))
+               call json%put_real("contact_fraction", joint%contact_fraction)
+               call json%put_real("impact_speed", joint%speed)
+               call json%put_real("impact_speed_onset", joint%speed_onset)
+               call json%put_real("peak_force", joint%force)
+               call json%put_real("peak_force_onset", joint%force_onset)
+               call json%put_real("peak_penetration", joint%penetration)
+               call json%put_real("peak_penetration_onset", joint%penetration_onset)
+               call json%put_real("energy_lost", joint%energy_lost)
+            end associate
+            call append_text(objects, json%get())
+         end block
+      end do
+   end function joint_objects
+
+   !> Name of a number with its unit.
+   function full_name(extremes, catalogue, k) result(name)
+      type(extremes_t), intent(in) :: extremes      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+      integer, intent(in) :: k                      !! which number
+      character(:), allocatable :: name             !! as `slider.velocity.x [m/s]`
+
+      name = scalar_name(catalogue, extremes%channels(k))
+      if (unit_of(extremes, catalogue, k) /= "1") name = name//" ["//unit_of(extremes, catalogue, k)//"]"
+   end function full_name
+
+   !> Unit of a number.
+   pure function unit_of(extremes, catalogue, k) result(unit)
+      type(extremes_t), intent(in) :: extremes      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+      integer, intent(in) :: k                      !! which number
+      character(:), allocatable :: unit             !! SI, `1` if none
+
+      unit = catalogue%groups(extremes%channels(k)%group)%channel%unit
+   end function unit_of
+
+   !> A string at the right end of a column.
+   pure function right(string) result(s)
+      character(*), intent(in) :: string   !! any string
+      character(:), allocatable :: s       !! never shorter than the string
+
+      integer, parameter :: width = 12     ! of a column
+
+      s = repeat(" ", max(width - len(string), 1))//string
+   end function right
+
+end module extremes_text

@@ -1,0 +1,121 @@
+"""Extremes of a run: against a harmonic motion in closed form, and against the rows and the events of run.h5."""
+
+import functools
+import math
+import re
+
+import numpy as np
+from support import Run, assert_close, call, plain_deck, scratch, written
+
+SWING = """deck = 1
+[scene]
+title   = "Driven arm"
+space   = planar
+gravity = 0 0 m/s^2
+[parameters]
+size = 0.3 rad
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]
+arm   1         0.1              0     0
+[points]
+name   body    xi[m]  eta[m]
+floor  ground  0      0
+end    arm     0      0
+[joint.revolute]
+name   i      j
+hinge  floor  end
+[driver.angle]
+name   joint  angle
+motor  hinge  {size*sin(2*pi*t/1s)}
+[analysis.dynamic]
+end    = 1 s
+[output]
+every    = 1 ms
+channels = arm.angle arm.angular_velocity
+"""
+
+
+def extremes_of(run):
+    """Extremes by channel, from summary.json; run.h5 says the same."""
+    told = {entry["channel"]: entry for entry in run.summary["extremes"]}
+    names = list(run.read("extremes/channels/name"))
+    assert names == list(told)
+    assert list(run.read("extremes/channels/unit")) == [entry["unit"] for entry in told.values()]
+    for key in ("least", "least_time", "greatest", "greatest_time", "mean", "rms"):
+        assert np.array_equal(run.read(f"extremes/channels/{key}"), [entry[key] for entry in told.values()]), key
+    return told
+
+
+@functools.lru_cache(maxsize=None)
+def crank(program):
+    """Two turns of the dry slider-crank."""
+    directory = scratch()
+    call(program, "run", written(directory, plain_deck()), "--set", "restitution=0.8", "--out", directory / "out", "--quiet")
+    return Run(directory / "out")
+
+
+def test_harmonic_motion(gudgeon):
+    """Least and greatest at a quarter and three quarters of the period, mean zero, RMS a over root 2."""
+    directory = scratch()
+    call(gudgeon, "run", written(directory, SWING), "--out", directory / "out", "--quiet")
+    found = extremes_of(Run(directory / "out"))
+    assert_close(found["arm.angle"]["greatest"], 0.3, relative=1e-10)
+    assert_close(found["arm.angle"]["least"], -0.3, relative=1e-10)
+    assert_close(found["arm.angle"]["greatest_time"], 0.25, 1e-12)
+    assert_close(found["arm.angle"]["least_time"], 0.75, 1e-12)
+    assert_close(found["arm.angle"]["mean"], 0.0, 1e-10)
+    assert_close(found["arm.angle"]["rms"], 0.3 / math.sqrt(2), relative=1e-9)
+    assert_close(found["arm.angular_velocity"]["rms"], 0.3 * 2 * math.pi / math.sqrt(2), relative=1e-9)
+
+
+def test_extremes_of_rows(gudgeon):
+    """Least and greatest of all rows, mean and RMS of the output instants."""
+    run = crank(gudgeon)
+    found = extremes_of(run)["motor.moment"]
+    t, x = run.rows("time"), run.rows("drivers/moment")[:, 0]
+    assert found["unit"] == "N.m"
+    assert (found["least"], found["greatest"]) == (x.min(), x.max())
+    assert (found["least_time"], found["greatest_time"]) == (t[x.argmin()], t[x.argmax()])
+    t, x = run.read("time"), run.read("drivers/moment")[:, 0]
+    assert_close(found["mean"], np.trapz(x, t) / (t[-1] - t[0]), 1e-12 * np.abs(x).max())
+    assert_close(found["rms"], math.sqrt(np.trapz(x**2, t) / (t[-1] - t[0])), relative=1e-12)
+
+
+def test_loose_joints(gudgeon):
+    """What a loose joint went through, from the list of events."""
+    run = crank(gudgeon)
+    (joint,) = run.summary["loose_joints"]
+    contacts = run.contacts
+    assert joint["joint"] == "gudgeon"
+    assert joint["impacts"] == len(contacts)
+    for name, column in (("impact_speed", "impact_speed"), ("peak_force", "peak_force"), ("peak_penetration", "peak_penetration")):
+        assert joint[name] == contacts[column].max()
+        assert joint[f"{name}_onset"] == contacts["time"][contacts[column].argmax()]
+    assert_close(joint["energy_lost"], contacts["energy_lost"].sum(), relative=1e-13)
+    ends = np.where(np.isnan(contacts["duration"]), 0.024, contacts["time"] + contacts["duration"])
+    assert_close(joint["contact_fraction"], (ends - contacts["time"]).sum() / 0.024, relative=1e-12)
+    for key in joint.keys() - {"joint"}:
+        assert run.read(f"extremes/joints/{key}")[0] == joint[key]
+
+
+def test_what_was_run(gudgeon):
+    """summary.json tells the parameters in force, the degrees of freedom and when it was written."""
+    summary = crank(gudgeon).summary
+    assert summary["parameters"]["restitution"] == "0.8"
+    assert summary["parameters"]["c"] == "0.5 mm"
+    assert summary["degrees_of_freedom"] == 2
+    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", summary["created"])
+
+
+def test_summary_for_people(gudgeon):
+    """The tables of summary.txt; numbers alone are written without the channels that nobody keeps."""
+    directory = scratch()
+    deck = written(directory, plain_deck())
+    call(gudgeon, "run", deck, "--out", directory / "out", "--quiet")
+    text = (directory / "out" / "summary.txt").read_text()
+    assert re.search(r"^ +gudgeon: \d+ impacts, [\d.]+ % of the time in contact; at most", text, re.M)
+    assert re.search(r"^ +motor.moment \[N.m\] +-\d", text, re.M)
+    call(gudgeon, "run", deck, "--write", "numbers", "--out", directory / "few", "--quiet")
+    few = Run(directory / "few")
+    assert few.summary["extremes"] == []
+    assert len(few.summary["loose_joints"]) == 1
