@@ -278,8 +278,8 @@ module mechanism
       module subroutine mechanism_weights(self, y, scale)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(in) :: y(:)            !! (n) state [any]
-         real(wp), intent(out) :: scale(:)       !! (n) scales [any]
+         real(wp), intent(in) :: y(self%n)       !! (n) state [any]
+         real(wp), intent(out) :: scale(self%n)  !! (n) scales [any]
       end subroutine mechanism_weights
 
       !> The pace at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
@@ -293,8 +293,8 @@ module mechanism
       pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
          class(mechanism_t), intent(inout) :: self  !! the system
-         real(wp), intent(in) :: y(:)               !! (n) state [any]
-         real(wp), intent(in), optional :: jump(:)  !! (n) jump of its derivative [any]
+         real(wp), intent(in) :: y(self%n)               !! (n) state [any]
+         real(wp), intent(in), optional :: jump(self%n)  !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
 
       !> Distance in time of differences along the motion that give rates.

@@ -61,14 +61,15 @@ contains
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
       class(mechanism_t), intent(in) :: self  !! the system
-      real(wp), intent(in), contiguous :: y(:)    !! (n) state [any]
+      real(wp), intent(in) :: y(self%n)       !! (n) state [any]
 
       integer :: k
 
       associate (linkage => self%linkage, coordinates => self%linkage%coordinates, length => self%linkage%scales%length, &
                  known => self%linkage%reduced%known, guided => self%linkage%reduced%guided)
          associate (nq => linkage%n_position, last => linkage%n_position + linkage%n_rate - guided%n)
-            rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
+            rate = 0.0_wp
+            if (linkage%rows%n_unknown > 0) rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
             do k = 1, known%n
                rate = max(rate, coordinates%rate_of(linkage%motion, known%item(k)%body, length))
             end do
@@ -88,7 +89,7 @@ contains
    !> The rate to which accelerations lead, sqrt(|a|/L) and sqrt(|alpha|); of bodies whose motion is known they are not looked at.
    pure real(wp) function rate_to_come(self, ydot) result(rate)
       class(mechanism_t), intent(in) :: self   !! the system
-      real(wp), intent(in), contiguous :: ydot(:)  !! (n) derivative of a state, or what it jumps by [any]
+      real(wp), intent(in) :: ydot(self%n)     !! (n) derivative of a state, or what it jumps by [any]
 
       integer :: k
 
