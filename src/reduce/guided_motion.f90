@@ -51,6 +51,8 @@ module guided_motion
 
 contains
 
+   include "../math/sine_cosine.inc"
+
    !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.
    pure subroutine move_guided(guided, x, x_dot, motion)
       type(guided_t), intent(inout) :: guided    !! the bodies
@@ -87,8 +89,7 @@ contains
       do k = 1, n
          b = item(k)%body
          w = x_dot(k)
-         c = cos(x(k))
-         s = sin(x(k))
+         call sine_cosine(x(k), s, c)
          d(1) = c*item(k)%arm(1) - s*item(k)%arm(2)
          d(2) = s*item(k)%arm(1) + c*item(k)%arm(2)
          angle(b) = x(k)

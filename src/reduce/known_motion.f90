@@ -45,6 +45,8 @@ module known_motion
 
 contains
 
+   include "../math/sine_cosine.inc"
+
    !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
    subroutine move_known(known, joints, t, motion)
       type(known_t), intent(inout) :: known       !! the bodies
@@ -95,8 +97,7 @@ contains
       theta = angle(a) + item%offset + item%sign*f
       w = omega(3, a) + item%sign*f_dot
       e = alpha(3, a) + item%sign*f_dot_dot
-      c = cos(theta)
-      s = sin(theta)
+      call sine_cosine(theta, s, c)
       ! from the common point to the centre of mass
       x = s*item%s_body(2) - c*item%s_body(1)
       y = -s*item%s_body(1) - c*item%s_body(2)
