@@ -131,6 +131,26 @@ module kind_info
       type(channel_t), allocatable :: channels(:)   !! of each item
    end type kind_info_t
 
+   interface
+      !> Append a column to a kind.
+      module subroutine add_column(info, column)
+         implicit none (type, external)
+         type(kind_info_t), intent(inout) :: info  !! the kind
+         type(column_t), intent(in) :: column      !! its new column
+      end subroutine add_column
+
+      !> Append an output channel to a kind.
+      module subroutine add_channel(info, name, unit, frame, components, help)
+         implicit none (type, external)
+         type(kind_info_t), intent(inout) :: info  !! the kind
+         character(*), intent(in) :: name          !! part after the item's name and a dot
+         character(*), intent(in) :: unit          !! SI unit, `1` if none
+         character(*), intent(in) :: frame         !! world, body, joint or none
+         integer, intent(in) :: components         !! 1, or 2 in the plane
+         character(*), intent(in) :: help          !! long name
+      end subroutine add_channel
+   end interface
+
 contains
 
    !> Append a column that holds one number with a dimension.
@@ -322,51 +342,6 @@ contains
       if (present(open_lower)) column%bounds%open_lower = open_lower
       call add_column(info, column)
    end subroutine add_duration
-
-   !> Append a column to a kind.
-   subroutine add_column(info, column)
-      type(kind_info_t), intent(inout) :: info  !! the kind
-      type(column_t), intent(in) :: column      !! its new column
-
-      type(column_t), allocatable :: grown(:)
-      integer :: i, n
-
-      if (len(column%name) > longest_column) error stop "internal mistake: a column with too long a name"
-      n = 0
-      if (allocated(info%columns)) n = size(info%columns)
-      allocate (grown(n + 1))
-      do i = 1, n
-         grown(i) = info%columns(i)
-      end do
-      grown(n + 1) = column
-      call move_alloc(grown, info%columns)
-   end subroutine add_column
-
-   !> Append an output channel to a kind.
-   subroutine add_channel(info, name, unit, frame, components, help)
-      type(kind_info_t), intent(inout) :: info  !! the kind
-      character(*), intent(in) :: name          !! part after the item's name and a dot
-      character(*), intent(in) :: unit          !! SI unit, `1` if none
-      character(*), intent(in) :: frame         !! world, body, joint or none
-      integer, intent(in) :: components         !! 1, or 2 in the plane
-      character(*), intent(in) :: help          !! long name
-
-      type(channel_t), allocatable :: grown(:)
-      integer :: i, n
-
-      n = 0
-      if (allocated(info%channels)) n = size(info%channels)
-      allocate (grown(n + 1))
-      do i = 1, n
-         grown(i) = info%channels(i)
-      end do
-      grown(n + 1)%name = name
-      grown(n + 1)%unit = unit
-      grown(n + 1)%frame = frame
-      grown(n + 1)%components = components
-      grown(n + 1)%help = help
-      call move_alloc(grown, info%channels)
-   end subroutine add_channel
 
    !> Whether two dimensions are the same.
    pure logical function same_dimension(a, b)

@@ -130,17 +130,22 @@ contains
       real(wp), intent(in) :: h                     !! length of the step [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      integer :: i, n
+      integer :: first, i, last, n
 
       n = size(self%y)
+      first = system%n_position + 1  ! of the derivatives that forces make
+      last = n - system%n_quadrature
       self%count%n_evaluations = self%count%n_evaluations + n_new_stage
       self%h_stages = h
       self%k(:, 1) = self%step%f0
       do i = 2, 12
          call add_stages(i, n, self%step%y0, h, self%k, self%y)
          call system%evaluate(self%step%t0 + c(i)*h, self%y, self%k(:, i), status)
-         if (status == 0 .and. greatest(n - system%n_quadrature, self%k(:, i)) > wild) status = 1
          if (status /= 0) return
+         if (greatest(last - first + 1, self%k(first, i)) > wild) then
+            status = 1
+            return
+         end if
       end do
       call add_stages(13, n, self%step%y0, h, self%k, self%trial)
    end subroutine dop853_make_stages

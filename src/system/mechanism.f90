@@ -97,6 +97,15 @@ module mechanism
          integer, intent(out) :: status             !! outcome
       end subroutine evaluate_terms
 
+      !> Move the bodies to a state as the way of holding the constraints corrects it.
+      module subroutine move_corrected(self, t, y, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(in) :: y(self%n)          !! (n) state [any]
+         integer, intent(out) :: status             !! outcome
+      end subroutine move_corrected
+
       !> Loads of gravity, force elements and touching contacts at the present motion.
       module subroutine mechanism_evaluate_loads(self, t)
          implicit none (type, external)
