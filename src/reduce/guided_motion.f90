@@ -239,16 +239,32 @@ contains
       real(wp), intent(in) :: x_ddot(guided%n)         !! (n) second derivatives [rad/s^2 or m/s^2]
       type(motion_t), intent(inout) :: motion          !! accelerations of the guided bodies are set
 
+      call accelerate(guided%n, guided%n_turning, guided%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
+   end subroutine set_guided_acceleration
+
+   !> The same on plain arrays.
+   pure subroutine accelerate(n, n_turning, item, x_ddot, n_body, a, alpha)
+      integer, intent(in) :: n                         !! number of guided bodies
+      integer, intent(in) :: n_turning                 !! those that turn
+      type(guided_body_t), intent(in) :: item(n)       !! (n) the bodies, moved
+      real(wp), intent(in) :: x_ddot(n)                !! (n) second derivatives [rad/s^2 or m/s^2]
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(inout) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(inout) :: alpha(3, 0:n_body)    !! (3, 0:bodies) angular accelerations [rad/s^2]
+
       integer :: b, k
 
-      do k = 1, guided%n
-         b = guided%item(k)%body
-         motion%a(1, b) = guided%item(k)%a_0(1) + x_ddot(k)*guided%item(k)%along(1)
-         motion%a(2, b) = guided%item(k)%a_0(2) + x_ddot(k)*guided%item(k)%along(2)
-         motion%alpha(3, b) = motion%alpha(3, guided%item(k)%base)
-         if (k <= guided%n_turning) motion%alpha(3, b) = x_ddot(k)
+      do k = 1, n
+         b = item(k)%body
+         a(1, b) = item(k)%a_0(1) + x_ddot(k)*item(k)%along(1)
+         a(2, b) = item(k)%a_0(2) + x_ddot(k)*item(k)%along(2)
+         if (k <= n_turning) then
+            alpha(3, b) = x_ddot(k)
+         else
+            alpha(3, b) = alpha(3, item(k)%base)
+         end if
       end do
-   end subroutine set_guided_acceleration
+   end subroutine accelerate
 
    !> Coordinates and rates from a motion of all bodies that fulfils the joints.
    pure subroutine guided_coordinates(guided, motion, x, x_dot)
