@@ -60,7 +60,7 @@ contains
                         motion%angle, motion%a, motion%alpha, known%is_finite)
    end subroutine move_known
 
-   !> The same on plain arrays.
+   !> The same on plain arrays, up to the first body whose driver says what is no finite number.
    subroutine place_bodies(n, item, joints, t, n_body, r, rot, v, omega, angle, acceleration, alpha, is_finite)
       integer, intent(in) :: n                              !! number of known bodies
       type(known_body_t), intent(in) :: item(n)             !! (n) the bodies
@@ -76,10 +76,9 @@ contains
       real(wp), intent(inout) :: alpha(3, 0:n_body)         !! (3, 0:bodies) angular accelerations [rad/s^2]
       logical, intent(out) :: is_finite                     !! whether what the drivers say are finite numbers
 
-      real(wp) :: c, e, f, f_dot, f_dot_dot, s, sum, theta, w, x, y
+      real(wp) :: c, e, f, f_dot, f_dot_dot, s, theta, w, x, y
       integer :: a, b, k
 
-      sum = 0.0_wp
       do k = 1, n
          a = item(k)%base
          b = item(k)%body
@@ -88,7 +87,8 @@ contains
          e = alpha(3, a)
          if (item(k)%slot > 0) then
             call joints(item(k)%slot)%set%prescription(item(k)%item, t, f, f_dot, f_dot_dot)
-            sum = sum + (f + f_dot + f_dot_dot)
+            is_finite = ieee_is_finite(f + f_dot + f_dot_dot)
+            if (.not. is_finite) return
             theta = theta + item(k)%sign*f
             w = w + item(k)%sign*f_dot
             e = e + item(k)%sign*f_dot_dot
@@ -112,7 +112,7 @@ contains
          acceleration(2, b) = e*x - w*w*y
          if (a > 0) call add_base(a, b, item(k)%s_base, n_body, r, rot, v, omega, acceleration, alpha)
       end do
-      is_finite = ieee_is_finite(sum)
+      is_finite = .true.
    end subroutine place_bodies
 
    !> What the motion of the body that carries the common point adds to that of a body.
