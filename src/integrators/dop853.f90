@@ -150,7 +150,8 @@ contains
       call add_stages(13, n, self%step%y0, h, self%k, self%trial)
    end subroutine dop853_make_stages
 
-   !> State of a stage, y = y0 + h sum a_j k_j; of 13: that at the end of the step. Entry by entry, so that no sum is kept in memory.
+   !> State of a stage, y = y0 + h sum a_j k_j; of 13: that at the end of the step. Entry by entry, no sum is kept in memory.
+   !> Length: a formula for each stage.
    pure subroutine add_stages(stage, n, y0, h, k, y)
       integer, intent(in) :: stage       !! the stage, 2 to 13
       integer, intent(in) :: n           !! entries of the state

@@ -56,15 +56,16 @@ contains
 
       if (.not. abs(t - known%t) > 0.0_wp) return
       known%t = t
-      call place_bodies(known%n, known%item, joints, t, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, &
-                        motion%angle, motion%a, motion%alpha, known%is_finite)
+      call place_bodies(known%n, known%item, size(joints), joints, t, ubound(motion%angle, 1), motion%r, motion%rot, motion%v, &
+                        motion%omega, motion%angle, motion%a, motion%alpha, known%is_finite)
    end subroutine move_known
 
    !> The same on plain arrays, up to the first body whose driver says what is no finite number.
-   subroutine place_bodies(n, item, joints, t, n_body, r, rot, v, omega, angle, acceleration, alpha, is_finite)
+   subroutine place_bodies(n, item, n_set, joints, t, n_body, r, rot, v, omega, angle, acceleration, alpha, is_finite)
       integer, intent(in) :: n                              !! number of known bodies
       type(known_body_t), intent(in) :: item(n)             !! (n) the bodies
-      type(joint_slot_t), intent(in) :: joints(*)           !! (sets) joints and drivers
+      integer, intent(in) :: n_set                          !! number of sets of joints
+      type(joint_slot_t), intent(in) :: joints(n_set)       !! (sets) joints and drivers
       real(wp), intent(in) :: t                             !! time [s]
       integer, intent(in) :: n_body                         !! number of bodies
       real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
