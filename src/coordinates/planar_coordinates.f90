@@ -220,6 +220,7 @@ contains
 
       integer :: k
 
+      !GCC$ novector
       do k = 0, n
          g(1, k) = force(1, k)
          g(2, k) = force(2, k)
