@@ -280,8 +280,9 @@ endif
 WARNINGS := -Wall -Wextra -Wimplicit-interface -Wno-unused-dummy-argument -Wno-compare-reals \
             -Wno-maybe-uninitialized -Wno-uninitialized -Wno-function-elimination
 ifeq ($(MODE),release)
-# Loops here are short: as calls of memcpy and memset (loop-distribute-patterns) they take longer.
-OPTIMISE := -O3 -fno-tree-loop-distribute-patterns -g $(ARCH:%=-march=%)
+# Loops here are short: as calls of memcpy and memset (loop-distribute-patterns) they take longer. Vectors of the two components
+# of a point (slp-vectorize) take longer too: they are put together from memory, just written, and taken apart again.
+OPTIMISE := -O3 -fno-tree-loop-distribute-patterns -fno-tree-slp-vectorize -g $(ARCH:%=-march=%)
 else
 # No trap for overflow: a number of a deck that leads there is told as one that is not finite, by both builds alike.
 OPTIMISE := -Og -g -fcheck=all,no-array-temps -ffpe-trap=invalid,zero -finit-real=snan \

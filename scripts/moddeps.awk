@@ -2,7 +2,7 @@
 # module or submodule. An object depends on the .mod files of what it uses; a .mod depends on the object
 # that makes it, with a recipe that only compiles again if the file is gone. gfortran leaves an unchanged
 # .mod untouched, so users are compiled again only when an interface has changed. Text that a source
-# includes lies in its directory.
+# includes is named from its directory.
 #
 # awk -v obj=DIR -v mod=DIR -v gen=DIR -f moddeps.awk FILE...   (sources under gen have their objects in obj/gen)
 

@@ -186,14 +186,18 @@ contains
                if (.not. set%contact(c)%is_touching) cycle
                m = set%before%contacts + c
                associate (contact => set%contact(c))
-                  values = [contact%peak_penetration, contact%peak_penetration, contact%peak_penetration, contact%impact_speed, &
-                            contact%peak_force]
+                  values(guard_penetration) = contact%peak_penetration
+                  values(guard_clearance) = contact%peak_penetration
+                  values(guard_law_range) = contact%peak_penetration
+                  values(guard_impact_speed) = contact%impact_speed
+                  values(guard_strength) = contact%peak_force
                end associate
                if (any(values > self%limit(:, m))) call note(self, set, c, values, t)
             end do
          end associate
       end do
       associate (motion => system%linkage%motion)
+         if (are_near(system%linkage%bodies%n, motion%r, motion%v, self%start, self%way**2, self%speed**2)) return
          do k = 1, system%linkage%bodies%n
             if (motion%v(1, k)**2 + motion%v(2, k)**2 > self%speed**2) then
                call end_run(self, "body '"//system%linkage%bodies%names(k)%s//"' moves with "//real_text(hypot(motion%v(1, k), &
@@ -204,6 +208,25 @@ contains
          end do
       end associate
    end subroutine guards_look
+
+   !> Whether all bodies are near their starts, and none is too fast.
+   pure logical function are_near(n, r, v, start, way_2, speed_2)
+      integer, intent(in) :: n               !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n)      !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: v(3, 0:n)      !! (3, 0:bodies) their velocities [m/s]
+      real(wp), intent(in) :: start(2, n)    !! (2, bodies) centres at the start [m]
+      real(wp), intent(in) :: way_2          !! square of the greatest way [m^2]
+      real(wp), intent(in) :: speed_2        !! square of the greatest speed [m^2/s^2]
+
+      integer :: k
+
+      are_near = .false.
+      do k = 1, n
+         if (v(1, k)**2 + v(2, k)**2 > speed_2) return
+         if ((r(1, k) - start(1, k))**2 + (r(2, k) - start(2, k))**2 > way_2) return
+      end do
+      are_near = .true.
+   end function are_near
 
    !> The ledger after a step: energy made of nothing, more than the part that the guard allows of the largest energy, and more
    !> than the round-off of what it adds up, for many steps in a row: where a motion begins with next to no energy, the first

@@ -233,17 +233,34 @@ contains
       class(instants_t), intent(inout) :: self   !! the instants
       type(mechanism_t), intent(in) :: system    !! the system, its motion that of the beginning of the next step
 
-      integer :: i, k
+      integer :: k
 
       self%omega = 0.0_wp
       do k = 1, size(system%loose%sets)
-         associate (body => system%loose%sets(k)%set%items%body)
-            do i = 1, size(body, 2)
-               self%omega = max(self%omega, maxval(abs(system%linkage%motion%omega(:, body(:, i)))))
-            end do
+         associate (set => system%loose%sets(k)%set, linkage => system%linkage)
+            self%omega = max(self%omega, fastest(set%n, set%items%body, linkage%bodies%n, linkage%motion%omega))
          end associate
       end do
    end subroutine instants_note_turning
+
+   !> Greatest component of the angular velocities of some pairs of bodies.
+   pure real(wp) function fastest(n, body, n_body, omega)
+      integer, intent(in) :: n                        !! number of pairs
+      integer, intent(in) :: body(2, n)               !! (2, n) their bodies
+      integer, intent(in) :: n_body                   !! number of bodies
+      real(wp), intent(in) :: omega(3, 0:n_body)      !! (3, 0:bodies) angular velocities [rad/s]
+
+      integer :: i, k
+
+      fastest = 0.0_wp
+      do k = 1, n
+         do i = 1, 2
+            associate (w => omega(:, body(i, k)))
+               fastest = max(fastest, abs(w(1)), abs(w(2)), abs(w(3)))
+            end associate
+         end do
+      end do
+   end function fastest
 
    !> Latest end of the step that begins; how fast bodies turn there has been noted.
    subroutine instants_stop_after(self, method, stop)

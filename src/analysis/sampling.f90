@@ -99,6 +99,11 @@ contains
       t = next_instant(self, whole%system, plan)
       t_peak = whole%next_peak()
       if (min(t, t_peak) > reached) return
+      if (t > reached .and. .not. wants_row(recorder, plan, row_peak, reached)) then  ! peaks that nobody reads
+         call whole%drop_peaks(reached)
+         if (self%t_row >= whole%t) call whole%note_row()
+         return
+      end if
       call cpu_time(cpu_0)
       do while (min(t, t_peak) <= reached)
          if (t_peak < t) then
@@ -239,6 +244,7 @@ contains
 
       real(wp) :: cpu_0, cpu_1
 
+      if (.not. wants_row(recorder, plan, kind, whole%t)) return
       call cpu_time(cpu_0)
       call put_row(self, whole, plan, whole%t, kind, residual, recorder, error, shift=shift)
       call cpu_time(cpu_1)
@@ -261,7 +267,7 @@ contains
       logical :: is_peak
       real(wp) :: later
 
-      if (t < plan%first_output .or. .not. (recorder%wants_contact_rows .or. kind == row_stop)) return
+      if (.not. wants_row(recorder, plan, kind, t)) return
       is_peak = .false.
       if (present(at_peak)) is_peak = at_peak
       later = 0.0_wp
@@ -273,6 +279,16 @@ contains
       self%t_row = t
       self%n_row(kind) = self%n_row(kind) + 1
    end subroutine put_row
+
+   !> Whether a row beside those of output instants is wanted.
+   pure logical function wants_row(recorder, plan, kind, t)
+      class(recorder_t), intent(in) :: recorder   !! keeps the results
+      type(time_plan_t), intent(in) :: plan       !! times
+      integer, intent(in) :: kind                 !! of the row
+      real(wp), intent(in) :: t                   !! its time [s]
+
+      wants_row = t >= plan%first_output .and. (recorder%wants_contact_rows .or. kind == row_stop)
+   end function wants_row
 
    !> All stroboscopic instants up to the time that all have reached.
    subroutine take_strobes(self, whole, plan, residual, recorder, error)

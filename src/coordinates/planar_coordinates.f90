@@ -41,6 +41,8 @@ module planar_coordinates
 
 contains
 
+   include "../math/sine_cosine.inc"
+
    !> The coordinates of the plane.
    pure function new_planar_coordinates() result(coordinates)
       type(planar_coordinates_t) :: coordinates  !! x, y, angle
@@ -133,8 +135,7 @@ contains
 
       do k = 1, n
          b = body(k)
-         c = cos(q(3, k))
-         s = sin(q(3, k))
+         call sine_cosine(q(3, k), s, c)
          r(1, b) = q(1, k)
          r(2, b) = q(2, k)
          rot(1, 1, b) = c
@@ -236,6 +237,7 @@ contains
 
       integer :: k
 
+      !GCC$ novector
       do k = 0, n
          g(1, k) = force(1, k)
          g(2, k) = force(2, k)

@@ -139,6 +139,27 @@ module kind_info
       type(channel_t), allocatable :: channels(:)   !! of each item
    end type kind_info_t
 
+   interface
+      !> Append a column to a kind.
+      module subroutine add_column(info, column)
+         implicit none (type, external)
+         type(kind_info_t), intent(inout) :: info  !! the kind
+         type(column_t), intent(in) :: column      !! its new column
+      end subroutine add_column
+
+      !> Append an output channel to a kind.
+      module subroutine add_channel(info, name, unit, frame, components, help, code)
+         implicit none (type, external)
+         type(kind_info_t), intent(inout) :: info  !! the kind
+         character(*), intent(in) :: name          !! part after the item's name and a dot
+         character(*), intent(in) :: unit          !! SI unit, `1` if none
+         character(*), intent(in) :: frame         !! world, body, joint or none
+         integer, intent(in) :: components         !! 1, or 2 in the plane
+         character(*), intent(in) :: help          !! long name
+         integer, intent(in), optional :: code     !! number by which the kind knows it
+      end subroutine add_channel
+   end interface
+
 contains
 
    !> Append a column that holds one number with a dimension.
@@ -352,81 +373,6 @@ contains
       if (present(open_lower)) column%bounds%open_lower = open_lower
       call add_column(info, column)
    end subroutine add_duration
-
-   !> Append a column to a kind.
-   subroutine add_column(info, column)
-      type(kind_info_t), intent(inout) :: info  !! the kind
-      type(column_t), intent(in) :: column      !! its new column
-
-      type(column_t), allocatable :: grown(:)
-      integer :: i, n
-
-      if (len(column%name) > longest_column) error stop "internal mistake: a column with too long a name"
-      n = 0
-      if (allocated(info%columns)) n = size(info%columns)
-      allocate (grown(n + 1))
-      do i = 1, n
-         call move_column(info%columns(i), grown(i))
-      end do
-      grown(n + 1) = column
-      call move_alloc(grown, info%columns)
-   end subroutine add_column
-
-   !> A column to another place, its words without a copy.
-   pure subroutine move_column(from, to)
-      type(column_t), intent(inout) :: from  !! where it was
-      type(column_t), intent(inout) :: to    !! where it is
-
-      to%cell = from%cell
-      to%dimension = from%dimension
-      to%is_any = from%is_any
-      to%variable = from%variable
-      to%argument = from%argument
-      to%size = from%size
-      to%bounds = from%bounds
-      to%is_free = from%is_free
-      call move_alloc(from%name, to%name)
-      call move_alloc(from%refers_to, to%refers_to)
-      call move_alloc(from%choices, to%choices)
-      call move_alloc(from%default, to%default)
-      call move_alloc(from%options, to%options)
-      call move_alloc(from%help, to%help)
-   end subroutine move_column
-
-   !> Append an output channel to a kind.
-   subroutine add_channel(info, name, unit, frame, components, help, code)
-      type(kind_info_t), intent(inout) :: info  !! the kind
-      character(*), intent(in) :: name          !! part after the item's name and a dot
-      character(*), intent(in) :: unit          !! SI unit, `1` if none
-      character(*), intent(in) :: frame         !! world, body, joint or none
-      integer, intent(in) :: components         !! 1, or 2 in the plane
-      character(*), intent(in) :: help          !! long name
-      integer, intent(in), optional :: code     !! number by which the kind knows it
-
-      type(channel_t), allocatable :: grown(:)
-      integer :: i, n
-
-      n = 0
-      if (allocated(info%channels)) n = size(info%channels)
-      allocate (grown(n + 1))
-      do i = 1, n
-         associate (from => info%channels(i), to => grown(i))
-            to%components = from%components
-            to%code = from%code
-            call move_alloc(from%name, to%name)
-            call move_alloc(from%unit, to%unit)
-            call move_alloc(from%frame, to%frame)
-            call move_alloc(from%help, to%help)
-         end associate
-      end do
-      grown(n + 1)%name = name
-      grown(n + 1)%unit = unit
-      grown(n + 1)%frame = frame
-      grown(n + 1)%components = components
-      grown(n + 1)%help = help
-      if (present(code)) grown(n + 1)%code = code
-      call move_alloc(grown, info%channels)
-   end subroutine add_channel
 
    !> Number by which a kind knows a channel, 0 if it has none of that name.
    pure integer function channel_code(info, name) result(code)

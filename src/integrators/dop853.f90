@@ -130,66 +130,106 @@ contains
       real(wp), intent(in) :: h                     !! length of the step [s]
       integer, intent(out) :: status                !! of the evaluations
 
-      integer :: n
+      integer :: first, i, last, n
 
       n = size(self%y)
+      first = system%n_position + 1  ! of the derivatives that forces make
+      last = n - system%n_quadrature
       self%count%n_evaluations = self%count%n_evaluations + n_new_stage
       self%h_stages = h
       self%k(:, 1) = self%step%f0
-      call stage(2, 2, a2, status)
-      if (status == 0) call stage(3, 2, a3, status)
-      if (status == 0) call stage(4, 3, a4, status)
-      if (status == 0) call stage(5, 3, a5, status)
-      if (status == 0) call stage(6, 4, a6, status)
-      if (status == 0) call stage(7, 4, a7, status)
-      if (status == 0) call stage(8, 4, a8, status)
-      if (status == 0) call stage(9, 4, a9, status)
-      if (status == 0) call stage(10, 4, a10, status)
-      if (status == 0) call stage(11, 4, a11, status)
-      if (status == 0) call stage(12, 4, a12, status)
-      if (status == 0) call combine(n, 6, 12, self%step%y0, h, self%k, b, self%trial)
-
-   contains
-
-      !> One stage from the first one and those from `first` on.
-      subroutine stage(i, first, a, status)
-         integer, intent(in) :: i        !! the stage
-         integer, intent(in) :: first    !! first stage but 1 that it needs
-         real(wp), intent(in) :: a(:)    !! (i - 1) its coefficients [1]
-         integer, intent(out) :: status  !! of the evaluation
-
-         call combine(n, first, i - 1, self%step%y0, h, self%k, a, self%y)
+      do i = 2, 12
+         call add_stages(i, n, self%step%y0, h, self%k, self%y)
          call system%evaluate(self%step%t0 + c(i)*h, self%y, self%k(:, i), status)
-         if (status == 0 .and. maxval(abs(self%k(:, i))) > wild) status = 1
-      end subroutine stage
-
+         if (status /= 0) return
+         if (greatest(last - first + 1, self%k(first, i)) > wild) then
+            status = 1
+            return
+         end if
+      end do
+      call add_stages(13, n, self%step%y0, h, self%k, self%trial)
    end subroutine dop853_make_stages
 
-   !> y = y0 + h (w_1 k_1 + sum w_j k_j), j from first to last.
-   pure subroutine combine(n, first, last, y0, h, k, w, y)
+   !> State of a stage, y = y0 + h sum a_j k_j; of 13: that at the end of the step. Entry by entry, no sum is kept in memory.
+   !> Length: a formula for each stage.
+   pure subroutine add_stages(stage, n, y0, h, k, y)
+      integer, intent(in) :: stage       !! the stage, 2 to 13
       integer, intent(in) :: n           !! entries of the state
-      integer, intent(in) :: first       !! first stage but 1
-      integer, intent(in) :: last        !! last stage
       real(wp), intent(in) :: y0(n)      !! (n) state at the start [any]
       real(wp), intent(in) :: h          !! length of the step [s]
       real(wp), intent(in) :: k(n, 16)   !! (n, 16) derivatives [any]
-      real(wp), intent(in) :: w(last)    !! (last) weights [1]
-      real(wp), intent(out) :: y(n)      !! (n) the sum [any]
+      real(wp), intent(inout) :: y(n)    !! (n) state of the stage, set [any]
 
-      integer :: i, j
+      integer :: e
 
-      do concurrent(i=1:n)
-         y(i) = w(1)*k(i, 1)
-      end do
-      do j = first, last
-         do concurrent(i=1:n)
-            y(i) = y(i) + w(j)*k(i, j)
+      select case (stage)
+      case (2)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a2(1)*k(e, 1))
          end do
+      case (3)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a3(1)*k(e, 1) + a3(2)*k(e, 2))
+         end do
+      case (4)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a4(1)*k(e, 1) + a4(3)*k(e, 3))
+         end do
+      case (5)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a5(1)*k(e, 1) + a5(3)*k(e, 3) + a5(4)*k(e, 4))
+         end do
+      case (6)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a6(1)*k(e, 1) + a6(4)*k(e, 4) + a6(5)*k(e, 5))
+         end do
+      case (7)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a7(1)*k(e, 1) + a7(4)*k(e, 4) + a7(5)*k(e, 5) + a7(6)*k(e, 6))
+         end do
+      case (8)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a8(1)*k(e, 1) + a8(4)*k(e, 4) + a8(5)*k(e, 5) + a8(6)*k(e, 6) + a8(7)*k(e, 7))
+         end do
+      case (9)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a9(1)*k(e, 1) + a9(4)*k(e, 4) + a9(5)*k(e, 5) + a9(6)*k(e, 6) + a9(7)*k(e, 7) + a9(8)*k(e, 8))
+         end do
+      case (10)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a10(1)*k(e, 1) + a10(4)*k(e, 4) + a10(5)*k(e, 5) + a10(6)*k(e, 6) + a10(7)*k(e, 7) &
+                             + a10(8)*k(e, 8) + a10(9)*k(e, 9))
+         end do
+      case (11)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a11(1)*k(e, 1) + a11(4)*k(e, 4) + a11(5)*k(e, 5) + a11(6)*k(e, 6) + a11(7)*k(e, 7) &
+                             + a11(8)*k(e, 8) + a11(9)*k(e, 9) + a11(10)*k(e, 10))
+         end do
+      case (12)
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(a12(1)*k(e, 1) + a12(4)*k(e, 4) + a12(5)*k(e, 5) + a12(6)*k(e, 6) + a12(7)*k(e, 7) &
+                             + a12(8)*k(e, 8) + a12(9)*k(e, 9) + a12(10)*k(e, 10) + a12(11)*k(e, 11))
+         end do
+      case default
+         do concurrent(e=1:n)
+            y(e) = y0(e) + h*(b(1)*k(e, 1) + b(6)*k(e, 6) + b(7)*k(e, 7) + b(8)*k(e, 8) + b(9)*k(e, 9) + b(10)*k(e, 10) &
+                             + b(11)*k(e, 11) + b(12)*k(e, 12))
+         end do
+      end select
+   end subroutine add_stages
+
+   !> Greatest magnitude of some numbers.
+   pure real(wp) function greatest(n, x)
+      integer, intent(in) :: n       !! how many
+      real(wp), intent(in) :: x(n)   !! (n) the numbers [any]
+
+      integer :: e
+
+      greatest = 0.0_wp
+      do e = 1, n
+         greatest = max(greatest, abs(x(e)))
       end do
-      do concurrent(i=1:n)
-         y(i) = y0(i) + h*y(i)
-      end do
-   end subroutine combine
+   end function greatest
 
    !> Norm of the error estimate of the trial step, over the tolerance.
    real(wp) function dop853_error_norm(self, system, h) result(norm)
@@ -270,7 +310,19 @@ contains
          real(wp), intent(in) :: a(:)    !! (i - 1) its coefficients [1]
          integer, intent(out) :: status  !! of the evaluation
 
-         call combine(n, 6, i - 1, self%step%y0, self%step%h, self%k, a, self%y)
+         integer :: e, j
+
+         do concurrent(e=1:n)
+            self%y(e) = a(1)*self%k(e, 1)
+         end do
+         do j = 6, i - 1
+            do concurrent(e=1:n)
+               self%y(e) = self%y(e) + a(j)*self%k(e, j)
+            end do
+         end do
+         do concurrent(e=1:n)
+            self%y(e) = self%step%y0(e) + self%step%h*self%y(e)
+         end do
          call system%evaluate(self%step%t0 + c_inner(i - 13)*self%step%h, self%y, self%k(:, i), status)
          self%count%n_evaluations = self%count%n_evaluations + 1
       end subroutine stage

@@ -59,8 +59,8 @@ module ode_system
          import :: ode_system_t, wp
          implicit none (type, external)
          class(ode_system_t), intent(in) :: self  !! the system
-         real(wp), intent(in) :: y(:)             !! (n) state [any]
-         real(wp), intent(out) :: scale(:)        !! (n) positive scales; of quadratures not used [any]
+         real(wp), intent(in) :: y(self%n)        !! (n) state [any]
+         real(wp), intent(out) :: scale(self%n)   !! (n) positive scales; of quadratures not used [any]
       end subroutine weights_interface
 
       !> Event functions and their rates at a state.

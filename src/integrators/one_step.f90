@@ -190,7 +190,7 @@ contains
       if (.not. is_fixed) call self%pace%accept(h, norm, is_last)
       self%step%h = h
       self%t = merge(t_stop, self%step%t0 + h, is_last)
-      self%step%y1 = self%trial
+      self%step%y1(:) = self%trial
       call finish_step(self, system, status)
    end subroutine one_step_advance
 

@@ -217,8 +217,8 @@ contains
    !> Increments of the state for difference quotients.
    subroutine increments(system, y, scale, increment)
       class(ode_system_t), intent(in) :: system   !! the system
-      real(wp), intent(in) :: y(:)                !! (n) state [any]
-      real(wp), intent(inout) :: scale(:)         !! (n) scratch [any]
+      real(wp), intent(in) :: y(system%n)         !! (n) state [any]
+      real(wp), intent(inout) :: scale(system%n)  !! (n) scratch [any]
       real(wp), intent(out) :: increment(:)       !! (n) positive; of quadratures not used [any]
 
       integer :: n

@@ -51,6 +51,8 @@ module guided_motion
 
 contains
 
+   include "../math/sine_cosine.inc"
+
    !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.
    pure subroutine move_guided(guided, x, x_dot, motion)
       type(guided_t), intent(inout) :: guided    !! the bodies
@@ -87,8 +89,7 @@ contains
       do k = 1, n
          b = item(k)%body
          w = x_dot(k)
-         c = cos(x(k))
-         s = sin(x(k))
+         call sine_cosine(x(k), s, c)
          d(1) = c*item(k)%arm(1) - s*item(k)%arm(2)
          d(2) = s*item(k)%arm(1) + c*item(k)%arm(2)
          angle(b) = x(k)
@@ -238,11 +239,11 @@ contains
       real(wp), intent(in) :: x_ddot(guided%n)         !! (n) second derivatives [rad/s^2 or m/s^2]
       type(motion_t), intent(inout) :: motion          !! accelerations of the guided bodies are set
 
-      call accelerate_guided(guided%n, guided%n_turning, guided%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
+      call accelerate(guided%n, guided%n_turning, guided%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
    end subroutine set_guided_acceleration
 
    !> The same on plain arrays.
-   pure subroutine accelerate_guided(n, n_turning, item, x_ddot, n_body, a, alpha)
+   pure subroutine accelerate(n, n_turning, item, x_ddot, n_body, a, alpha)
       integer, intent(in) :: n                         !! number of guided bodies
       integer, intent(in) :: n_turning                 !! those that turn
       type(guided_body_t), intent(in) :: item(n)       !! (n) the bodies, moved
@@ -253,15 +254,17 @@ contains
 
       integer :: b, k
 
-      !GCC$ novector
       do k = 1, n
          b = item(k)%body
          a(1, b) = item(k)%a_0(1) + x_ddot(k)*item(k)%along(1)
          a(2, b) = item(k)%a_0(2) + x_ddot(k)*item(k)%along(2)
-         alpha(3, b) = alpha(3, item(k)%base)
-         if (k <= n_turning) alpha(3, b) = x_ddot(k)
+         if (k <= n_turning) then
+            alpha(3, b) = x_ddot(k)
+         else
+            alpha(3, b) = alpha(3, item(k)%base)
+         end if
       end do
-   end subroutine accelerate_guided
+   end subroutine accelerate
 
    !> Coordinates and rates from a motion of all bodies that fulfils the joints.
    pure subroutine guided_coordinates(guided, motion, x, x_dot)

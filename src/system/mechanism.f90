@@ -98,6 +98,15 @@ module mechanism
          integer, intent(out) :: status             !! outcome
       end subroutine evaluate_terms
 
+      !> Move the bodies to a state as the way of holding the constraints corrects it.
+      module subroutine move_corrected(self, t, y, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(in) :: y(self%n)          !! (n) state [any]
+         integer, intent(out) :: status             !! outcome
+      end subroutine move_corrected
+
       !> Loads of gravity, force elements and touching contacts at the present motion.
       module subroutine mechanism_evaluate_loads(self, t)
          implicit none (type, external)
@@ -279,8 +288,8 @@ module mechanism
       module subroutine mechanism_weights(self, y, scale)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system
-         real(wp), intent(in) :: y(:)            !! (n) state [any]
-         real(wp), intent(out) :: scale(:)       !! (n) scales [any]
+         real(wp), intent(in) :: y(self%n)       !! (n) state [any]
+         real(wp), intent(out) :: scale(self%n)  !! (n) scales [any]
       end subroutine mechanism_weights
 
       !> The pace at the start of a run: of the motion there, of what its accelerations make of it, and of the run.
@@ -293,9 +302,9 @@ module mechanism
       !> Raise the pace to that of a state, which the motion is of, and to where accelerations lead that have just jumped there.
       pure module subroutine mechanism_follow_pace(self, y, jump)
          implicit none (type, external)
-         class(mechanism_t), intent(inout) :: self              !! the system
-         real(wp), intent(in), contiguous :: y(:)               !! (n) state [any]
-         real(wp), intent(in), contiguous, optional :: jump(:)  !! (n) jump of its derivative [any]
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: y(self%n)               !! (n) state [any]
+         real(wp), intent(in), optional :: jump(self%n)  !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
 
       !> A step has ended at a state: what counts turns goes on from there. To be called where `loading%counts_turns`.

@@ -18,10 +18,8 @@ contains
       self%n_evaluations = self%n_evaluations + 1
       if (self%friction%grips%n_bristle > 0) call self%take_bristles(y)
       if (self%way%at_stages) then
-         self%held = y(:size(self%held))
-         call self%way%correct_stage(self%linkage, t, self%held, status)
+         call move_corrected(self, t, y, status)
          if (status /= 0) return
-         call self%linkage%move(inside, self%held)
       else
          call self%linkage%move(inside, y)
       end if

@@ -7,6 +7,13 @@ submodule(mechanism) mechanism_holding
 
 contains
 
+   !> Move the bodies to a state as the way of holding the constraints corrects it.
+   module procedure move_corrected
+      self%held(:) = y(:size(self%held))
+      call self%way%correct_stage(self%linkage, t, self%held, status)
+      if (status == 0) call self%linkage%set_motion(t, self%held)
+   end procedure move_corrected
+
    !> Correct a state at the end of a step.
    module procedure mechanism_hold
       real(wp) :: before

@@ -39,10 +39,8 @@ contains
                end do
             end do
          end associate
-         do k = 1, guided%n
-            scale(nq - guided%n + k) = merge(1.0_wp, length, k <= guided%n_turning)
-            scale(nq + n - guided%n + k) = scale(nq - guided%n + k)*rate
-         end do
+         call weigh_guided(guided%n, guided%n_turning, length, rate, scale(nq - guided%n + 1:nq), &
+                           scale(nq + n - guided%n + 1:nq + n))
       end associate
       if (self%friction%grips%n_bristle > 0) call self%bristle_weights(scale)
       swing = -1.0_wp
@@ -53,15 +51,40 @@ contains
       if (swing < 0.0_wp) return
       rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%linkage%scales%tolerance*rate))
       associate (nq => self%linkage%n_position)
-         scale(:nq) = touching*scale(:nq)
-         scale(nq + 1:nq + n) = touching*rate*scale(nq + 1:nq + n)
+         do k = 1, nq
+            scale(k) = touching*scale(k)
+         end do
+         do k = nq + 1, nq + n
+            scale(k) = touching*rate*scale(k)
+         end do
       end associate
    end procedure mechanism_weights
+
+   !> Scales of the coordinates of guided bodies and of their rates.
+   pure subroutine weigh_guided(n, n_turning, length, rate, position, speed)
+      integer, intent(in) :: n                    !! number of guided bodies
+      integer, intent(in) :: n_turning            !! those that turn, the first ones
+      real(wp), intent(in) :: length              !! scale of lengths [m]
+      real(wp), intent(in) :: rate                !! that rates are measured by [1/s]
+      real(wp), intent(inout) :: position(n)      !! (n) of the coordinates, set [1 or m]
+      real(wp), intent(inout) :: speed(n)         !! (n) of their rates, set [1/s or m/s]
+
+      integer :: k
+
+      do k = 1, n_turning
+         position(k) = 1.0_wp
+         speed(k) = rate
+      end do
+      do k = n_turning + 1, n
+         position(k) = length
+         speed(k) = length*rate
+      end do
+   end subroutine weigh_guided
 
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
       class(mechanism_t), intent(in) :: self  !! the system
-      real(wp), intent(in) :: y(:)            !! (n) state [any]
+      real(wp), intent(in) :: y(self%n)       !! (n) state [any]
 
       integer :: k
 
@@ -73,8 +96,11 @@ contains
             do k = 1, known%n
                rate = max(rate, coordinates%rate_of(linkage%motion, known%item(k)%body, length))
             end do
-            do k = 1, guided%n
-               rate = max(rate, abs(y(last + k))/merge(1.0_wp, length, k <= guided%n_turning))
+            do k = last + 1, last + guided%n_turning
+               rate = max(rate, abs(y(k)))
+            end do
+            do k = last + guided%n_turning + 1, last + guided%n
+               rate = max(rate, abs(y(k))/length)
             end do
          end associate
       end associate
@@ -89,7 +115,7 @@ contains
    !> The rate to which accelerations lead, sqrt(|a|/L) and sqrt(|alpha|); of bodies whose motion is known they are not looked at.
    pure real(wp) function rate_to_come(self, ydot) result(rate)
       class(mechanism_t), intent(in) :: self   !! the system
-      real(wp), intent(in), contiguous :: ydot(:)  !! (n) derivative of a state, or what it jumps by [any]
+      real(wp), intent(in) :: ydot(self%n)     !! (n) derivative of a state, or what it jumps by [any]
 
       integer :: k
 

@@ -125,11 +125,11 @@ def test_periodic(gudgeon):
 
 @functools.lru_cache(maxsize=None)
 def combustion(gudgeon, film, words=None):
-    """The first 25 ms, to behind the combustion."""
+    """The first 25 ms, to behind the combustion. Orbits are right to 2e-4 of the clearance there, at a tolerance of 1e-7 to 2e-3."""
     text = DECK.read_text().replace('"engine_gas.txt"', f'"{ROOT}/inputs/engine_gas.txt"')
     text = changed(changed(text, "analysis.dynamic", end="25 ms"), "output", figures=words)
     out = scratch() / "out"
-    return Run(out, call(gudgeon, "run", written(scratch(), text), "--out", out, "--write", "channels", "--tolerance", "1e-7", "--set", f"film={film}"))
+    return Run(out, call(gudgeon, "run", written(scratch(), text), "--out", out, "--write", "channels", "--tolerance", "1e-8", "--set", f"film={film}"))
 
 
 def test_finite_film_against_the_grid(gudgeon):

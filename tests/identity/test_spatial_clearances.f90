@@ -19,7 +19,7 @@ module test_spatial_clearances
    use law_fixture, only: steel, tame
    use motion, only: cross, loads_t, motion_t, new_loads, new_motion
    use normal_law, only: n_law_parameter, normal_law_t
-   use read_channel_of, only: read_channel
+   use read_channel, only: read_loose
    use rotations, only: rate_of_parameters, rotation_of_parameters, second_rate_of_parameters, turned_by
    use spatial_coordinates, only: new_spatial_coordinates, spatial_coordinates_t
    implicit none (type, external)
@@ -366,7 +366,7 @@ contains
             is_of_contact = index(" penetration penetration_rate normal_force friction_force state ", " "//channel%name//" ") > 0
             allocate (values(merge(3, 1, channel%components == 2), merge(bench%set%n_contact, 1, is_of_contact)), &
                       source=not_a_number())
-            call read_channel(bench%set, channel%name, bench%motion, values)
+            call read_loose(bench%set, channel%name, bench%motion, values)
             call check_true(error, all(ieee_is_finite(values)), bench%name//": channel "//channel%name)
             if (channel%name == "force") then
                call check_close(error, values(:, 1)/scale, loads%force(:, 2)/scale, 1.0e-14_wp, bench%name//": force")

@@ -91,8 +91,8 @@ contains
 
    subroutine plain_weights(self, y, scale)
       class(plain_t), intent(in) :: self    !! the system
-      real(wp), intent(in) :: y(:)           !! (n) state [any]
-      real(wp), intent(out) :: scale(:)      !! (n) scales [any]
+      real(wp), intent(in) :: y(self%n)           !! (n) state [any]
+      real(wp), intent(out) :: scale(self%n)      !! (n) scales [any]
 
       scale = 1.0_wp
    end subroutine plain_weights
@@ -234,8 +234,8 @@ contains
 
    subroutine growth_weights(self, y, scale)
       class(growth_t), intent(in) :: self    !! the system
-      real(wp), intent(in) :: y(:)           !! (n) state [any]
-      real(wp), intent(out) :: scale(:)      !! (n) scales [any]
+      real(wp), intent(in) :: y(self%n)           !! (n) state [any]
+      real(wp), intent(out) :: scale(self%n)      !! (n) scales [any]
 
       scale = self%scale
    end subroutine growth_weights
@@ -276,8 +276,8 @@ contains
 
    subroutine particles_weights(self, y, scale)
       class(particles_t), intent(in) :: self   !! the system
-      real(wp), intent(in) :: y(:)             !! (n) state [any]
-      real(wp), intent(out) :: scale(:)        !! (n) scales [any]
+      real(wp), intent(in) :: y(self%n)             !! (n) state [any]
+      real(wp), intent(out) :: scale(self%n)        !! (n) scales [any]
 
       scale = 1.0_wp
    end subroutine particles_weights

@@ -59,8 +59,8 @@ contains
 
    subroutine circle_weights(self, y, scale)
       class(circle_t), intent(in) :: self    !! the system
-      real(wp), intent(in) :: y(:)           !! (n) state [any]
-      real(wp), intent(out) :: scale(:)      !! (n) scales [any]
+      real(wp), intent(in) :: y(self%n)           !! (n) state [any]
+      real(wp), intent(out) :: scale(self%n)      !! (n) scales [any]
 
       scale = 1.0_wp
    end subroutine circle_weights
