@@ -131,7 +131,7 @@ contains
       integer :: k
 
       associate (plan => catalogue%readings, joints => system%linkage%joints)
-         call catalogue%bind(room_bodies, bodies_info(), plan%bodies)
+         call catalogue%bind(room_bodies, system%linkage%coordinates%bodies_info(), plan%bodies)
          call catalogue%bind(room_energy, energy_info(.true., .true.), plan%energy)
          if (allocated(plan%joints)) deallocate (plan%joints, plan%ideal, plan%loose, plan%forces)
          allocate (plan%joints(size(joints)), plan%ideal(size(system%linkage%ideal)))
