@@ -349,11 +349,11 @@ contains
 
       integer :: status
 
-      whole%system%with_quadratures = self%catalogue%readings%energy%n > 0
+      whole%system%traits%with_quadratures = self%catalogue%readings%energy%n > 0
       call whole%state_at(t, at_peak, shift, self%y)
       self%n_reports = self%n_reports + 1
       call report_state(whole%system, t + shift, self%y, self%ydot, residual, self%catalogue, status)
-      whole%system%with_quadratures = .true.
+      whole%system%traits%with_quadratures = .true.
       if (status == 0) return
       associate (part => whole%parts(whole%front(1)))
          call describe_failure(part%system, part%method, advance_failed_evaluation, error)

@@ -61,7 +61,7 @@ contains
       end do
       allocate (reduction%links(0), reduction%guides(0))
       allocate (reduction%is_driven(scene%bodies%n), source=.false.)
-      if (scene%analysis /= analysis_dynamic .or. scene%is_spatial) return
+      if (scene%analysis /= analysis_dynamic .or. scene%settings%is_spatial) return
       call find_known_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
       if (scene%settings%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)

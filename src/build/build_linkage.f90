@@ -37,7 +37,7 @@ contains
 
       n = scene%bodies%n
       linkage%bodies = scene%bodies
-      if (scene%is_spatial) then
+      if (scene%settings%is_spatial) then
          allocate (linkage%coordinates, source=new_spatial_coordinates())
       else
          allocate (linkage%coordinates, source=new_planar_coordinates())
@@ -48,7 +48,7 @@ contains
       end associate
       linkage%scales%length = size_of_bodies(scene)
       linkage%scales%tolerance = scene%settings%dynamic%number("tolerance")
-      if (scene%is_spatial) then
+      if (scene%settings%is_spatial) then
          call new_motion(n, linkage%motion, scene%bodies%spatial%own)
       else
          call new_motion(n, linkage%motion)

@@ -65,7 +65,7 @@ contains
          call new_rubbing(linkage%joints, linkage%n_solved_set, linkage%solution%a, linkage%rows%n, system%friction%rubbing)
          system%n_row = linkage%rows%n_solve
          system%n_position = linkage%n_position
-         if (linkage%coordinates%turns_in_body) system%n_turning = linkage%rows%n_unknown
+         if (linkage%coordinates%turns_in_body) system%traits%n_turning = linkage%rows%n_unknown
          call choose_hold(scene, system)
          call choose_solver(scene, system%way%name(), linkage)
       end associate

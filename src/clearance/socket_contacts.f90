@@ -272,9 +272,9 @@ contains
       integer, intent(in) :: k                       !! contact
       type(motion_t), intent(in) :: motion           !! positions and velocities
       type(point_contact_t), intent(in) :: contact   !! its kinematics
-      real(wp), intent(out) :: turn                  !! not set
-      real(wp), intent(out) :: speed_i               !! not set
-      real(wp), intent(out) :: speed_j               !! not set
+      real(wp), intent(out) :: turn                  !! nothing [rad/s]
+      real(wp), intent(out) :: speed_i               !! nothing [m/s]
+      real(wp), intent(out) :: speed_j               !! nothing [m/s]
 
       turn = 0.0_wp
       speed_i = 0.0_wp

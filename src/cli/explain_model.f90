@@ -29,9 +29,9 @@ contains
       call say("")
       call say("model")
       associate (linkage => system%linkage, names => system%linkage%bodies%names, n => system%linkage%bodies%n)
-         words = trim(merge("spatial", "planar ", scene%is_spatial))
+         words = trim(merge("spatial", "planar ", scene%settings%is_spatial))
          words = counted(n, words//" body", words//" bodies")//", "//to_text(linkage%coordinates%n_q*n)//" coordinates"
-         if (scene%is_spatial) words = words//" (Euler parameters among them), "//to_text(size(linkage%mass))//" rates"
+         if (scene%settings%is_spatial) words = words//" (Euler parameters among them), "//to_text(size(linkage%mass))//" rates"
          call say(words, 2)
          do k = 1, linkage%reduced%known%n
             call say("'"//names(linkage%reduced%known%item(k)%body)%s//"' moves as a known function of time", 2)
@@ -58,7 +58,7 @@ contains
          call say(counted(system%linkage%ideal(1)%set%n, "joint", "joints")//" with clearance taken as ideal, "// &
                   to_text(system%linkage%ideal(1)%set%n_row_item*system%linkage%ideal(1)%set%n)//" rows", 2)
       end if
-      words = trim(merge("rates      ", "coordinates", scene%is_spatial))//" less rows "
+      words = trim(merge("rates      ", "coordinates", scene%settings%is_spatial))//" less rows "
       call say(counted(system%linkage%rows%n, "constraint row", "constraint rows")//": "//words// &
                to_text(size(system%linkage%mass) - system%linkage%rows%n)//"; with all joints ideal "// &
                to_text(size(twin%linkage%mass) - twin%linkage%rows%n), 2)

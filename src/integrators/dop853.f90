@@ -340,7 +340,7 @@ contains
       integer :: j
 
       if (.not. self%step%has_inner) then
-         call interpolate(self%step, system%n_position, system%n_turning, s, y)
+         call interpolate(self%step, system%n_position, system%traits%n_turning, s, y)
          return
       end if
       y = self%term(:, n_term)

@@ -3,8 +3,9 @@
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
 !> zero, at eight places, and everywhere at least once in an interval that the caller sets (that of the output), so that no function
-!> is above zero there unseen. Where the ends leave no room, a glance at that interval says whether to search. What is found is a bracket, the same one whatever that interval is; the integrator
-!> goes into it by its own means (a one-step method re-steps, so that the event is as accurate as the step, not as the interpolant).
+!> is above zero there unseen. Where the ends leave no room, a glance at that interval says whether to search. What is found is a
+!> bracket, the same one whatever that interval is; the integrator goes into it by its own means (a
+!> one-step method re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
 !> - a function that begins a step at g_0 > -r must rise above g_0 + r, its threshold, to be at its event: one that has just had it,
@@ -75,9 +76,9 @@ contains
       real(wp), intent(in) :: s                     !! the place [1]
       real(wp), intent(inout) :: y(:)               !! (n) the state [any]
 
-      system%with_quadratures = .false.
+      system%traits%with_quadratures = .false.
       call method%within(system, s, y)
-      system%with_quadratures = .true.
+      system%traits%with_quadratures = .true.
    end subroutine place
 
    !> What each function must exceed in the last step to be at its event. Of functions without known noise nothing is asked.

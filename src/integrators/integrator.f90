@@ -165,10 +165,10 @@ contains
 
       status = 0
       n = system%n
-      if (.not. system%with_quadratures) n = n - system%n_quadrature
+      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
       if (self%step%has_inner .or. self%step%h <= 0.0_wp) return
       do k = 1, size(inner_places)
-         call interpolate(self%step, system%n_position, system%n_turning, inner_places(k), self%scratch(:n))
+         call interpolate(self%step, system%n_position, system%traits%n_turning, inner_places(k), self%scratch(:n))
          call system%evaluate(self%step%t0 + inner_places(k)*self%step%h, self%scratch, self%step%inner(:, k), status)
          self%count%n_evaluations = self%count%n_evaluations + 1
          self%count%n_output_evaluations = self%count%n_output_evaluations + 1
@@ -201,8 +201,8 @@ contains
       integer :: n
 
       n = size(y)
-      if (.not. system%with_quadratures) n = n - system%n_quadrature
-      call interpolate(self%step, system%n_position, system%n_turning, s, y(:n))
+      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
+      call interpolate(self%step, system%n_position, system%traits%n_turning, s, y(:n))
    end subroutine integrator_within
 
    !> Whether what decays fast keeps the steps short, however little it moves; a method for stiff equations overrides this.

@@ -335,7 +335,7 @@ contains
       real(wp) :: part
 
       if (.not. self%last%has_polynomial) then
-         call interpolate(self%step, system%n_position, system%n_turning, s, y)
+         call interpolate(self%step, system%n_position, system%traits%n_turning, s, y)
          return
       end if
       part = s*self%step%h/self%last%h_whole

@@ -1,9 +1,9 @@
 !> The contract of a system of ordinary differential equations y' = f(t, y) with events.
 !>
-!> The first `n_position` entries of y are positions, then come their rates. Of `n_turning` bodies that turn in space the positions
-!> are three coordinates and four Euler parameters each, the rates three velocities and the angular velocity in the body's frame;
-!> what follows them, in the plane all, are positions whose derivatives are the rates. The last `n_quadrature` entries are
-!> quadratures, which no derivative depends on and which stay out of the error norm. Between, there may be other states.
+!> The first `n_position` entries of y are positions, then come their rates. Of `traits%n_turning` bodies that turn in space the
+!> positions are three coordinates and four Euler parameters each, the rates three velocities and the angular velocity in the
+!> body's frame; what follows them, in the plane all, are positions whose derivatives are the rates. The last `n_quadrature` entries
+!> are quadratures, which no derivative depends on and which stay out of the error norm. Between, there may be other states.
 !> An event function is negative before its event and becomes positive at it. Its last digits are noise: `event_noise` says up to
 !> where, for systems whose event functions are small differences of large numbers.
 !>
@@ -19,16 +19,21 @@ module ode_system
    private
    public :: ode_system_t
 
+   !> What a system is like, and what is asked of it.
+   type :: ode_traits_t
+      integer :: n_turning = 0              !! bodies that turn in space, the first ones
+      logical :: follows_step = .false.     !! whether `set_step` changes the derivative
+      logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
+   end type ode_traits_t
+
    !> A system of ordinary differential equations.
    type, abstract :: ode_system_t
       integer :: n = 0              !! number of entries of y
       integer :: n_position = 0     !! leading entries that are positions
-      integer :: n_turning = 0      !! bodies that turn in space, the first ones
       integer :: n_quadrature = 0   !! trailing entries that are quadratures
       integer :: n_event = 0        !! event functions
       logical :: holds = .false.    !! whether `hold` must be called on the states given out
-      logical :: follows_step = .false.  !! whether `set_step` changes the derivative
-      logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left as they are
+      type(ode_traits_t) :: traits       !! what the system is like, and asked for
    contains
       procedure(evaluate_interface), deferred :: evaluate
       procedure(weights_interface), deferred :: weights

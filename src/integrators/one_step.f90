@@ -249,9 +249,9 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       status = 0
-      if (system%follows_step) call system%evaluate(self%step%t0, self%step%y0, self%step%f0, status)
+      if (system%traits%follows_step) call system%evaluate(self%step%t0, self%step%y0, self%step%f0, status)
       call system%set_step(h)
-      if (status /= 0 .or. .not. system%follows_step) return
+      if (status /= 0 .or. .not. system%traits%follows_step) return
       call system%evaluate(self%step%t0, self%step%y0, self%step%f0, status)
       self%count%n_evaluations = self%count%n_evaluations + 2
    end subroutine tell_step

@@ -41,7 +41,7 @@ contains
    subroutine cylindrical_prepare(self, items, angle)
       class(spatial_cylindrical_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)   !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
       call self%take_axes(items, [across(1, 3), across(2, 3), beside(1), beside(2)])
    end subroutine cylindrical_prepare

@@ -52,7 +52,7 @@ contains
    subroutine position_prepare(self, items, angle)
       class(spatial_driver_position_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                     !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)                        !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)                        !! (0:bodies) not used [rad]
 
       integer :: k
 

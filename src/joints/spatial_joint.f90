@@ -46,14 +46,19 @@ module spatial_joint
 
    type(element_t), parameter :: at_point = element_t(is_point, 0, 0)  !! the points coincide
 
-   !> All items of one kind of joint of space.
-   type, extends(joint_set_t), abstract :: spatial_joint_t
+   !> Elementary constraints of each item, and the axes of all.
+   type :: joint_axes_t
       type(element_t), allocatable :: elements(:)  !! of each item
       logical :: holds_turn = .false.              !! the frames are parallel as the deck puts the bodies
       real(wp), allocatable :: axis_i(:, :)        !! (3, n) as in the deck, body's own axes [1]
       real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: left out [1]
       real(wp), allocatable :: frame_i(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body i [1]
       real(wp), allocatable :: frame_j(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body j [1]
+   end type joint_axes_t
+
+   !> All items of one kind of joint of space.
+   type, extends(joint_set_t), abstract :: spatial_joint_t
+      type(joint_axes_t) :: axes   !! elementary constraints, and the axes that they are of
    contains
       procedure :: take_axes => spatial_take_axes
       procedure :: set_start => set_joint_frames
@@ -120,20 +125,20 @@ contains
 
       integer :: k, row
 
-      self%elements = elements
+      self%axes%elements = elements
       self%sides_apart = all(elements%what == is_point)
       row = 0
       do k = 1, size(elements)
          row = row + merge(3, 1, elements(k)%what == is_point)
          self%is_angle(row) = elements(k)%what == is_across
       end do
-      allocate (self%axis_i(3, self%n), self%axis_j(3, self%n), source=0.0_wp)
-      allocate (self%frame_i(3, 3, self%n), self%frame_j(3, 3, self%n), source=0.0_wp)
-      self%axis_i(3, :) = 1.0_wp
+      allocate (self%axes%axis_i(3, self%n), self%axes%axis_j(3, self%n), source=0.0_wp)
+      allocate (self%axes%frame_i(3, 3, self%n), self%axes%frame_j(3, 3, self%n), source=0.0_wp)
+      self%axes%axis_i(3, :) = 1.0_wp
       if (.not. any([(elements(k)%what /= is_point, k=1, size(elements))])) return
       do k = 1, self%n
-         self%axis_i(:, k) = items(k)%direction("axis_i")
-         if (find_place(items(k), "axis_j") > 0) self%axis_j(:, k) = items(k)%direction("axis_j")
+         self%axes%axis_i(:, k) = items(k)%direction("axis_i")
+         if (find_place(items(k), "axis_j") > 0) self%axes%axis_j(:, k) = items(k)%direction("axis_j")
       end do
    end subroutine spatial_take_axes
 
@@ -149,17 +154,17 @@ contains
          associate (i => self%body(1, k), j => self%body(2, k), own => motion%spatial%own, rot => motion%rot)
             own_i = matmul(rot(:, :, i), transpose(own(:, :, i)))  ! own axes of the bodies, world frame
             own_j = matmul(rot(:, :, j), transpose(own(:, :, j)))
-            self%frame_i(:, :, k) = matmul(transpose(own(:, :, i)), axes_across(self%axis_i(:, k)))
-            axis = self%axis_j(:, k)
-            if (self%holds_turn .and. .not. any(abs(axis) > 0.0_wp)) then
-               self%frame_j(:, :, k) = matmul(transpose(rot(:, :, j)), matmul(rot(:, :, i), self%frame_i(:, :, k)))
+            self%axes%frame_i(:, :, k) = matmul(transpose(own(:, :, i)), axes_across(self%axes%axis_i(:, k)))
+            axis = self%axes%axis_j(:, k)
+            if (self%axes%holds_turn .and. .not. any(abs(axis) > 0.0_wp)) then
+               self%axes%frame_j(:, :, k) = matmul(transpose(rot(:, :, j)), matmul(rot(:, :, i), self%axes%frame_i(:, :, k)))
             else
-               if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(matmul(own_i, self%axis_i(:, k)), own_j)
-               self%frame_j(:, :, k) = matmul(transpose(own(:, :, j)), axes_across(axis))
-               if (self%holds_turn) then  ! the given axis, turned about as the deck puts the bodies
-                  axis = matmul(matmul(rot(:, :, i), self%frame_i(:, 1, k)), rot(:, :, j))
-                  self%frame_j(:, :, k) = rotation_of_axes(self%frame_j(:, 3, k), axis)
-                  self%frame_j(:, :, k) = self%frame_j(:, [2, 3, 1], k)
+               if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(matmul(own_i, self%axes%axis_i(:, k)), own_j)
+               self%axes%frame_j(:, :, k) = matmul(transpose(own(:, :, j)), axes_across(axis))
+               if (self%axes%holds_turn) then  ! the given axis, turned about as the deck puts the bodies
+                  axis = matmul(matmul(rot(:, :, i), self%axes%frame_i(:, 1, k)), rot(:, :, j))
+                  self%axes%frame_j(:, :, k) = rotation_of_axes(self%axes%frame_j(:, 3, k), axis)
+                  self%axes%frame_j(:, :, k) = self%axes%frame_j(:, [2, 3, 1], k)
                end if
             end if
          end associate
@@ -185,23 +190,23 @@ contains
       type(scalar_t) :: x
       integer :: e, k, row
 
-      if (size(self%elements) == 0) return
-      if (self%elements(1)%what == is_point) then
+      if (size(self%axes%elements) == 0) return
+      if (self%axes%elements(1)%what == is_point) then
          call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, motion%omega, &
                               self%first_row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
       end if
       do k = 1, self%n
          row = self%first_row + (k - 1)*self%n_row_item
-         do e = 1, size(self%elements)
-            associate (element => self%elements(e), body => self%body(:, k))
+         do e = 1, size(self%axes%elements)
+            associate (element => self%axes%elements(e), body => self%body(:, k))
                select case (element%what)
                case (is_point)
                   row = row + 3
                   cycle
                case (is_across)
-                  x = dot_of_axes(motion, body, self%frame_i(:, element%of_i, k), self%frame_j(:, element%of_j, k))
+                  x = dot_of_axes(motion, body, self%axes%frame_i(:, element%of_i, k), self%axes%frame_j(:, element%of_j, k))
                case default
-                  x = dot_with_span(motion, body, self%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
+                  x = dot_with_span(motion, body, self%axes%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
                end select
                row = row + 1
                call put_row(rows, row, motion, body, x, 0.0_wp, 0.0_wp, 0.0_wp)
@@ -219,14 +224,16 @@ contains
       logical :: are_parallel
       integer :: e
 
-      are_parallel = any([(self%elements(e)%what == is_across .and. self%elements(e)%of_i == 1 .and. self%elements(e)%of_j == 3, &
-                           e=1, size(self%elements))])
+      associate (elements => self%axes%elements)
+         are_parallel = any([(elements(e)%what == is_across .and. elements(e)%of_i == 1 .and. elements(e)%of_j == 3, &
+                              e=1, size(elements))])
+      end associate
       is_over = .false.
-      if (are_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%frame_i(:, 3, k)), &
-                                              axis_of(motion, self%body(2, k), self%frame_j(:, 3, k))) < 0.0_wp
-      if (is_over .or. .not. self%holds_turn) return
-      is_over = dot_product(axis_of(motion, self%body(1, k), self%frame_i(:, 1, k)), &
-                            axis_of(motion, self%body(2, k), self%frame_j(:, 1, k))) < 0.0_wp
+      if (are_parallel) is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                                              axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) < 0.0_wp
+      if (is_over .or. .not. self%axes%holds_turn) return
+      is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 1, k)), &
+                            axis_of(motion, self%body(2, k), self%axes%frame_j(:, 1, k))) < 0.0_wp
    end function spatial_is_turned_over
 
    !> The channels of a joint that turns about its axis.
@@ -262,10 +269,10 @@ contains
 
       select case (code)
       case (of_angle, of_angular_rate)
-         x = angle_between(motion, self%body(:, k), self%frame_i(:, :, k), self%frame_j(:, :, k))
+         x = angle_between(motion, self%body(:, k), self%axes%frame_i(:, :, k), self%axes%frame_j(:, :, k))
          value = merge(x%value, x%rate, code == of_angle)
       case (of_displacement, of_sliding_rate)
-         x = dot_with_span(motion, self%body(:, k), self%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
+         x = dot_with_span(motion, self%body(:, k), self%axes%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
          value = merge(x%value, x%rate, code == of_displacement)
       case default
          call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)

@@ -42,7 +42,7 @@ contains
    subroutine revolute_prepare(self, items, angle)
       class(spatial_revolute_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)   !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
       call self%take_axes(items, [at_point, across(1, 3), across(2, 3)])
    end subroutine revolute_prepare

@@ -48,7 +48,7 @@ contains
    subroutine link_prepare(self, items, angle)
       class(spatial_revolute_spherical_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)                        !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)                           !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)                           !! (0:bodies) not used [rad]
 
       integer :: k
 

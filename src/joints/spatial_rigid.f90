@@ -39,9 +39,9 @@ contains
    subroutine rigid_prepare(self, items, angle)
       class(spatial_rigid_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)   !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
-      self%holds_turn = .true.
+      self%axes%holds_turn = .true.
       call self%take_axes(items, [at_point, across(1, 3), across(2, 3), across(1, 2)])
    end subroutine rigid_prepare
 

@@ -22,8 +22,8 @@ module spatial_screw
 
    !> All screw joints.
    type, extends(spatial_joint_t) :: spatial_screw_t
-      real(wp), allocatable :: pitch(:)   !! (n) displacement in one turn [m]
-      real(wp), allocatable :: start(:)   !! (n) z_i . d - p theta/(2 pi) at the start of the deck [m]
+      real(wp), allocatable, private :: pitch(:)   !! (n) displacement in one turn [m]
+      real(wp), allocatable, private :: start(:)   !! (n) z_i . d - p theta/(2 pi) at the start of the deck [m]
    contains
       procedure, nopass :: info => screw_info
       procedure :: prepare => screw_prepare
@@ -53,7 +53,7 @@ contains
    subroutine screw_prepare(self, items, angle)
       class(spatial_screw_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)           !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)              !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)              !! (0:bodies) not used [rad]
 
       integer :: k
 
@@ -87,8 +87,8 @@ contains
       type(scalar_t) :: angle
       real(wp) :: part
 
-      x = dot_with_span(motion, self%body(:, k), self%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
-      angle = angle_between(motion, self%body(:, k), self%frame_i(:, :, k), self%frame_j(:, :, k))
+      x = dot_with_span(motion, self%body(:, k), self%axes%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
+      angle = angle_between(motion, self%body(:, k), self%axes%frame_i(:, :, k), self%axes%frame_j(:, :, k))
       part = self%pitch(k)/(2.0_wp*pi)
       x%value = x%value - part*angle%value
       x%rate = x%rate - part*angle%rate

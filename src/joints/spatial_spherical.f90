@@ -37,7 +37,7 @@ contains
    subroutine spherical_prepare(self, items, angle)
       class(spatial_spherical_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)   !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
       call self%take_axes(items, [at_point])
    end subroutine spherical_prepare

@@ -43,9 +43,9 @@ contains
    subroutine translational_prepare(self, items, angle)
       class(spatial_translational_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)   !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
-      self%holds_turn = .true.
+      self%axes%holds_turn = .true.
       call self%take_axes(items, [across(1, 3), across(2, 3), across(1, 2), beside(1), beside(2)])
    end subroutine translational_prepare
 

@@ -40,7 +40,7 @@ contains
    subroutine universal_prepare(self, items, angle)
       class(spatial_universal_t), intent(inout) :: self  !! the set
       type(item_t), intent(in) :: items(:)   !! (n) rows of the table
-      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
 
       call self%take_axes(items, [at_point, across(3, 3)])
    end subroutine universal_prepare

@@ -38,8 +38,8 @@ contains
       if (.not. allocated(self%of_i)) allocate (self%of_i(3, 3, n), self%of_j(3, 3, n), source=0.0_wp)
       select type (joint)
       class is (spatial_joint_t)
-         self%of_i(:, :, k) = joint%frame_i(:, :, 1)
-         self%of_j(:, :, k) = joint%frame_j(:, :, 1)
+         self%of_i(:, :, k) = joint%axes%frame_i(:, :, 1)
+         self%of_j(:, :, k) = joint%axes%frame_j(:, :, 1)
       end select
    end subroutine frames_take
 

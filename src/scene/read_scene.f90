@@ -44,9 +44,9 @@ contains
       integer :: k
 
       call read_section(deck, scene_info(), scene%settings%header, diagnostics)
-      scene%is_spatial = scene%settings%header%word("space") == "spatial"
+      scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
       call all_kinds(kinds)
-      call check_sections(deck, kinds, scene%is_spatial, diagnostics)
+      call check_sections(deck, kinds, scene%settings%is_spatial, diagnostics)
       call functions_from_deck(deck, scene, diagnostics)
       call read_analyses(deck, scene%settings, diagnostics)
       scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
@@ -72,7 +72,7 @@ contains
 
       scene%title = scene%settings%header%word("title")
       scene%gravity = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x
-      if (scene%is_spatial) then
+      if (scene%settings%is_spatial) then
          call new_spatial_bodies(scene%tables%base(table_bodies)%items, scene%bodies)
          call new_spatial_points(scene%tables%base(table_points)%items, scene%bodies%spatial%own, scene%points)
       else
@@ -159,7 +159,7 @@ contains
 
       integer :: k
 
-      if (scene%is_spatial) then
+      if (scene%settings%is_spatial) then
          scene%tables%base(table_bodies)%info = spatial_bodies_info()
          scene%tables%base(table_points)%info = spatial_points_info()
       else
@@ -190,7 +190,7 @@ contains
       subroutine read_if_known(table)
          type(table_t), intent(inout) :: table   !! the kind is set; rows are
 
-         if (is_of_space(table%info, scene%is_spatial)) then
+         if (is_of_space(table%info, scene%settings%is_spatial)) then
             call read_items(deck, table%info, table%items, diagnostics)
          else
             allocate (table%items(0))
@@ -207,13 +207,13 @@ contains
       integer :: k
 
       associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
-         if (gravity%given .and. gravity%vector%n /= merge(3, 2, scene%is_spatial)) then
+         if (gravity%given .and. gravity%vector%n /= merge(3, 2, scene%settings%is_spatial)) then
             call diagnostics%add(gravity%location, "gravity has "//merge("three", "two  ", gravity%vector%n == 3)//" components", &
                                  "of a vector of another space", &
-                                 merge("give three in a spatial scene", "give two in a planar scene   ", scene%is_spatial))
+                                 merge("give three in a spatial scene", "give two in a planar scene   ", scene%settings%is_spatial))
          end if
       end associate
-      if (.not. scene%is_spatial .or. diagnostics%count() > 0) return
+      if (.not. scene%settings%is_spatial .or. diagnostics%count() > 0) return
       associate (items => scene%tables%base(table_bodies)%items)
          do k = 1, size(items)
             if (mistake_of_body(items(k)) == "") cycle
@@ -253,7 +253,7 @@ contains
       do k = 1, n_friction_kinds
          scene%tables%frictions(k)%info = friction_info(k)
          before = diagnostics%count()
-         if (is_of_space(scene%tables%frictions(k)%info, scene%is_spatial)) then
+         if (is_of_space(scene%tables%frictions(k)%info, scene%settings%is_spatial)) then
             call read_items(deck, scene%tables%frictions(k)%info, scene%tables%frictions(k)%items, diagnostics)
          else
             allocate (scene%tables%frictions(k)%items(0))

@@ -54,6 +54,7 @@ module scene
    !> What a deck sets. `kinematic`, `statistics` and `ensemble` have values only if the deck has them, the others have defaults.
    type :: settings_t
       type(section_t) :: header                       !! of the scene itself
+      logical :: is_spatial = .false.                 !! whether bodies move in space, not in the plane x, y
       logical :: has_analysis(n_analysis) = .false.   !! (analyses) which analyses the deck has
       type(section_t) :: dynamic                      !! [analysis.dynamic]
       type(section_t) :: kinematic                    !! [analysis.kinematic]
@@ -83,7 +84,6 @@ module scene
    !> What a deck means.
    type :: scene_t
       character(:), allocatable :: title                     !! one line
-      logical :: is_spatial = .false.                        !! whether bodies move in space, not in the plane x, y
       real(wp) :: gravity(3) = 0.0_wp                        !! (3) acceleration of free fall, world frame [m/s^2]
       type(bodies_t) :: bodies                               !! rigid bodies
       type(points_t) :: points                               !! body-fixed points

@@ -58,7 +58,7 @@ contains
       p = scene%points%s(:, point)
       associate (body => scene%points%body(point))
          if (body == 0) return
-         if (scene%is_spatial) then
+         if (scene%settings%is_spatial) then
             p = scene%bodies%r(:, body) + matmul(rotation_of_parameters(scene%bodies%spatial%p(:, body)), p)
          else
             c = cos(scene%bodies%angle(body))

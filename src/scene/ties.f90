@@ -131,7 +131,7 @@ contains
       character(*), intent(in) :: name     !! as in a deck
 
       do k = 1, n_joint_kinds
-         if (scene%joints(k)%info%name == name .and. is_of_space(scene%joints(k)%info, scene%is_spatial)) return
+         if (scene%joints(k)%info%name == name .and. is_of_space(scene%joints(k)%info, scene%settings%is_spatial)) return
       end do
    end function kind_number
 

@@ -372,7 +372,7 @@ contains
 
       call move_alloc(way, self%way)
       self%holds = self%way%at_steps
-      self%follows_step = self%way%follows_step
+      self%traits%follows_step = self%way%follows_step
       allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
    end subroutine mechanism_take_way
 

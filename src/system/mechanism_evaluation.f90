@@ -12,7 +12,7 @@ contains
       real(wp) :: inside
       logical :: with_powers
 
-      with_powers = self%ledger%is_kept .and. self%with_quadratures
+      with_powers = self%ledger%is_kept .and. self%traits%with_quadratures
       ! in the smooth stretch: `smooth_piece`, without its call
       inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
       self%n_evaluations = self%n_evaluations + 1

@@ -15,10 +15,11 @@ module clearance_bench
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
-   use kind_info, only: is_of_space, kind_info_t, leaves_turn, leaves_way
+   use kind_info, only: kind_info_t, leaves_turn, leaves_way
    use kinds, only: wp
    use law_fixture, only: tame
    use motion, only: loads_t, motion_t, new_loads, new_motion
+   use planar_kinds, only: is_planar_clearance
    use planar_coordinates, only: new_planar_coordinates, planar_coordinates_t, set_planar_motion
    use normal_law, only: n_law_parameter, normal_law_t
    use text, only: split_blank, text_t
@@ -78,7 +79,7 @@ contains
 
       n = 0
       do kind = 1, n_clearance_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_clearance(kind)) cycle
          n_law = n
          do law = 1, n_law_kinds
             do friction = 0, n_friction_kinds
@@ -95,16 +96,6 @@ contains
          call check_true(error, n - n_law >= 2*(n_friction_kinds + 1), "two laws at least fit each geometry")
       end do
    end subroutine claim_all
-
-   !> Whether planar scenes know a geometry.
-   logical function is_planar(kind)
-      integer, intent(in) :: kind   !! number of the geometry
-
-      class(clearance_set_t), allocatable :: set
-
-      call new_clearance_set(kind, set)
-      is_planar = is_of_space(set%info(), .false.)
-   end function is_planar
 
    !> A geometry with a normal law, a friction law (0: none) and a form (1 the first that it offers).
    subroutine make_bench(kind, law_kind, friction_kind, form, bench)

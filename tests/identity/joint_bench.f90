@@ -9,7 +9,7 @@ module joint_bench
    use joint_friction, only: new_joint_friction
    use joint_registry, only: new_joint_set
    use joint_set, only: joint_set_t
-   use kind_info, only: is_of_space, kind_info_t
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, new_motion
    use planar_coordinates, only: set_planar_motion
@@ -18,7 +18,7 @@ module joint_bench
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: before, bench_t, evaluate_after, far, is_planar, make_bench, n_body, n_item, now, span_between, &
+   public :: before, bench_t, evaluate_after, far, make_bench, n_body, n_item, now, span_between, &
       times_jacobian
 
    integer, parameter :: n_item = 3       !! joints: of two bodies, of ground and body, of body and ground
@@ -39,16 +39,6 @@ module joint_bench
    end type bench_t
 
 contains
-
-   !> Whether planar scenes know a kind.
-   logical function is_planar(kind)
-      integer, intent(in) :: kind   !! number of the kind
-
-      class(joint_set_t), allocatable :: set
-
-      call new_joint_set(kind, set)
-      is_planar = is_of_space(set%info(), .false.)
-   end function is_planar
 
    !> Items of a kind between ground and two bodies.
    subroutine make_bench(kind, seed, bench, unit_of_length)

@@ -11,9 +11,10 @@ module test_forces
    use force_set, only: force_set_t
    use generic_item, only: column_number, fill_item, make_expression
    use item, only: item_t
-   use kind_info, only: channel_code, is_of_space, kind_info_t
+   use kind_info, only: channel_code, kind_info_t
    use kinds, only: i8, pi, wp
    use motion, only: loads_t, motion_t, new_loads, new_motion, point_position
+   use planar_kinds, only: is_planar_force
    use planar_coordinates, only: set_planar_motion
    use text, only: to_text
    implicit none (type, external)
@@ -101,20 +102,10 @@ contains
       do kind = 1, n_force_kinds
          call new_force_set(kind, set)
          info = set%info()
-         if (info%name == name .and. is_of_space(info, .false.)) return
+         if (info%name == name .and. is_planar_force(kind)) return
       end do
       error stop "test_forces: no such kind"
    end function kind_number
-
-   !> Whether planar scenes know a kind.
-   logical function is_planar(kind)
-      integer, intent(in) :: kind   !! number of the kind
-
-      class(force_set_t), allocatable :: set
-
-      call new_force_set(kind, set)
-      is_planar = is_of_space(set%info(), .false.)
-   end function is_planar
 
    !> What a kind tells the ledger, and the power of its channel, are the power of its loads: power of the loads
    !> is that told, less that lost, less the rate of the stored energy, by differences along the velocities.
@@ -128,7 +119,7 @@ contains
       integer :: body, k, kind
 
       do kind = 1, n_force_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          call bench%set%evaluate(now, bench%motion, bench%loads, bench%power)
          given = 0.0_wp
@@ -183,7 +174,7 @@ contains
       rot = reshape([cos(turn), sin(turn), -sin(turn), cos(turn)], [2, 2])
       n_kind = 0
       do kind = 1, n_force_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          info = bench%set%info()
          if (column_number(info, "j") == 0) cycle
@@ -343,7 +334,7 @@ contains
       integer :: body, kind
 
       do kind = 1, n_force_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          call bench%set%evaluate(now, bench%motion, bench%loads, bench%power)
          once = bench%loads
@@ -368,7 +359,7 @@ contains
       integer :: kind, place
 
       do kind = 1, n_force_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          place = 0
          row = 0.0_wp
@@ -434,7 +425,7 @@ contains
       integer :: c, kind
 
       do kind = 1, n_force_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_force(kind)) cycle
          call make_bench(kind, bench)
          info = bench%set%info()
          call fill_item(info, 1, random, items(1))

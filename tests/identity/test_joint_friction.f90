@@ -2,9 +2,10 @@
 module test_joint_friction
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use joint_bench, only: bench_t, evaluate_after, is_planar, make_bench, n_item
+   use joint_bench, only: bench_t, evaluate_after, make_bench, n_item
    use joint_friction, only: most_rows
    use joint_registry, only: n_joint_kinds
+   use planar_kinds, only: is_planar_joint
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -34,7 +35,7 @@ contains
 
       n_kind = 0
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             if (bench%set%friction%n == 0) cycle
@@ -64,7 +65,7 @@ contains
       integer :: k, kind, seed, side
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             if (bench%set%friction%n == 0) cycle
@@ -94,7 +95,7 @@ contains
       integer :: c, k, kind, row
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          if (bench%set%friction%n == 0) cycle
          do k = 1, n_item

@@ -11,7 +11,7 @@ module test_joint_kinds
    use fixed_random, only: random_t, seed_of
    use generic_item, only: fill_item
    use item, only: item_t
-   use joint_bench, only: before, bench_t, evaluate_after, far, is_planar, make_bench, n_body, n_item, now, span_between, &
+   use joint_bench, only: before, bench_t, evaluate_after, far, make_bench, n_body, n_item, now, span_between, &
       times_jacobian
    use joint_distance, only: joint_distance_t
    use joint_registry, only: n_joint_kinds, new_joint_set
@@ -21,6 +21,7 @@ module test_joint_kinds
    use kinds, only: not_a_number, wp
    use lapack, only: dgelsd
    use motion, only: motion_t, new_motion
+   use planar_kinds, only: is_planar_joint
    use planar_coordinates, only: new_planar_coordinates, planar_coordinates_t, set_planar_motion
    use span, only: span_of
    use text, only: text_t, to_text
@@ -61,7 +62,7 @@ contains
       integer :: body, c, k, kind, row, seed
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             allocate (phi(4, bench%rows%n))
@@ -96,7 +97,7 @@ contains
       integer :: k, kind, row, seed
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             allocate (phi(4, bench%rows%n))
@@ -121,7 +122,7 @@ contains
       integer :: k, kind, row, seed
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             allocate (rate(4, bench%rows%n))
@@ -146,7 +147,7 @@ contains
       integer :: item, kind, row
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          associate (rows => bench%rows)
             rows%phi = mark
@@ -179,7 +180,7 @@ contains
       integer :: kind, seed
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             call evaluate_after(bench, 0.0_wp)
@@ -198,7 +199,7 @@ contains
       integer :: first, k, kind, last, row, seed
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, bench)
             first = before + 1
@@ -243,7 +244,7 @@ contains
       integer :: kind, seed
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          do seed = 1, n_seed
             call make_bench(kind, seed, small)
             call make_bench(kind, seed, large, 2.0_wp)
@@ -267,7 +268,7 @@ contains
       integer :: item, k, kind
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          do item = 1, n_item
             do k = 1, size(six_places)
@@ -294,7 +295,7 @@ contains
 
       n_kind = 0
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          call evaluate_after(bench, 0.0_wp)
          call bench%set%set_start(bench%motion)
@@ -324,7 +325,7 @@ contains
 
       row = before + 2
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          ! item 2: ground and body 1
          bench%q(1:2, 1) = 0.0_wp
@@ -349,7 +350,7 @@ contains
       integer :: k, kind
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 2, bench)
          call evaluate_after(bench, 0.0_wp)
          select type (set => bench%set)
@@ -377,7 +378,7 @@ contains
       integer :: kind, place
 
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          place = 0
          row = 0.0_wp
@@ -402,7 +403,7 @@ contains
 
       coordinates = new_planar_coordinates()
       do kind = 1, n_joint_kinds
-         if (.not. is_planar(kind)) cycle
+         if (.not. is_planar_joint(kind)) cycle
          call make_bench(kind, 1, bench)
          call evaluate_after(bench, 0.0_wp)
          info = bench%set%info()
