@@ -26,7 +26,7 @@ module ode_system
       integer :: n_event = 0        !! event functions
       logical :: holds = .false.    !! whether `hold` must be called on the states given out
       logical :: follows_step = .false.  !! whether `set_step` changes the derivative
-      logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left as they are
+      logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they and their rates may be left alone
    contains
       procedure(evaluate_interface), deferred :: evaluate
       procedure(weights_interface), deferred :: weights

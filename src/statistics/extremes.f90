@@ -1,7 +1,7 @@
 !> Least and greatest values of the channels of a run with their times, their means, and what loose joints went through.
 !>
-!> Least and greatest are those of all rows, output instants and instants of contacts; mean and root mean square are integrals over the
-!> time by the trapezoidal rule on the output instants. Impacts are read from the list of events.
+!> Least and greatest are those of all rows, output instants and instants of contacts; mean and root mean square are integrals over
+!> the time by the trapezoidal rule on the output instants. Impacts are read from the list of events.
 module extremes
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
