@@ -14,7 +14,7 @@ module figures
    use plot_table, only: plot_table_t, write_plot
    use kinds, only: i8
    use output_marker, only: enter_file
-   use posix, only: is_missing, make_directory, n_processors, remove_file, system_message
+   use posix, only: is_missing, make_directory, remove_file, system_message
    use processes, only: clock_ms, start_program, wait_group
    use system_file, only: read_file
    use text, only: append_text, text_t, to_text
@@ -23,6 +23,7 @@ module figures
    private
    public :: draw_figures, make_figures
 
+   integer, parameter :: most_at_once = 4           !! gnuplots running side by side
    integer, parameter :: patience = 300             !! that a figure may take, unless the environment says otherwise [s]
    character(*), parameter :: patience_variable = "GUDGEON_GNUPLOT_SECONDS"  !! what says so
    integer(i8), parameter :: largest_picture = 1000000000_i8  !! bytes
@@ -100,7 +101,7 @@ contains
       end do
    end function is_named
 
-   !> Run gnuplot on every script, as many side by side as there are processors.
+   !> Run gnuplot on every script, some of them side by side.
    subroutine draw_figures(folder, names, pictures, warnings)
       character(*), intent(in) :: folder                            !! of the figures
       type(text_t), intent(in) :: names(:)                          !! (n) figures
@@ -108,11 +109,10 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) what was not made, and why
 
       integer(i8) :: until
-      integer :: code, first, k, last, most_at_once, n_late, process(size(names)), seconds
+      integer :: code, first, k, last, n_late, process(size(names)), seconds
 
       if (size(names) == 0) return
       call read_patience(seconds, warnings)
-      most_at_once = max(n_processors(), 1)
       do first = 1, size(names), most_at_once
          last = min(first + most_at_once - 1, size(names))
          do k = first, last
