@@ -1,16 +1,30 @@
-!> One channel of a set of loose joints, as a report finds it.
+!> One channel of a set, as a report finds it.
 module read_channel
    use catalogue, only: group_t
    use clearance_set, only: clearance_set_t
-   use kind_info, only: channel_code
+   use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use readings, only: readings_t
    implicit none (type, external)
    private
-   public :: read_loose
+   public :: channel_code, read_loose
 
 contains
+
+   !> Number by which a kind knows a channel, 0 if it has none of that name.
+   pure integer function channel_code(info, name) result(code)
+      type(kind_info_t), intent(in) :: info  !! the kind
+      character(*), intent(in) :: name       !! part after the item's name and a dot
+
+      integer :: k
+
+      code = 0
+      if (.not. allocated(info%channels)) return
+      do k = 1, size(info%channels)
+         if (info%channels(k)%name == name) code = info%channels(k)%code
+      end do
+   end function channel_code
 
    !> Values of a channel of all items, or of all contacts.
    subroutine read_loose(set, channel, motion, values)

@@ -40,6 +40,7 @@ module load
       type(deck_t) :: deck                        !! its text and parameters
       type(scene_t) :: scene                      !! what it means
       type(mechanism_t) :: system             !! its equations
+      type(catalogue_t) :: catalogue              !! what they can report
       type(time_plan_t) :: plan                   !! its times
       type(sweep_t) :: sweep                      !! its cases
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
@@ -79,12 +80,17 @@ contains
       if (allocated(error)) return
       call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
                       loaded%system)
-      if (has_all_words) call build_catalogue(loaded%system, catalogue)
+      call build_catalogue(loaded%system, loaded%catalogue)
       call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
-      call check_words(loaded%scene, loaded%plan%end, catalogue, mistakes)
-      call check_conditions(loaded%scene, catalogue, mistakes)
+      if (has_all_words) then
+         call check_words(loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
+         call check_conditions(loaded%scene, loaded%catalogue, mistakes)
+      else
+         call check_words(loaded%scene, loaded%plan%end, catalogue, mistakes)
+         call check_conditions(loaded%scene, catalogue, mistakes)
+      end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
 

@@ -1,7 +1,6 @@
 !> What a run of a deck is to write and to say: the plan that its recorder follows.
 module run_plan
    use build_info, only: compiler, git_sha1
-   use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
    use consistent_start, only: assembly_t
@@ -11,7 +10,6 @@ module run_plan
    use kinds, only: wp
    use libraries, only: library_versions
    use load, only: loaded_t
-   use mechanism_report, only: build_catalogue
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
@@ -116,7 +114,6 @@ contains
       type(loaded_t), intent(in) :: loaded           !! the deck
       type(output_plan_t), intent(inout) :: plan     !! words are set, dropped ones become warnings
 
-      type(catalogue_t) :: catalogue
       type(item_finder_t) :: finder
       character(:), allocatable :: reason
 
@@ -124,8 +121,7 @@ contains
       if (loaded%scene%analysis /= analysis_dynamic) then
          reason = "not known to a "//trim(analysis_names(loaded%scene%analysis))//" analysis"
       end if
-      call build_catalogue(loaded%system, catalogue)
-      call finder%start(catalogue)
+      call finder%start(loaded%catalogue)
       call keep("channel", "channels", plan%channels)
       call keep("figure", "figures", plan%figures)
 
@@ -145,9 +141,9 @@ contains
          associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
             do k = 1, size(words)
                if (one == "figure") then
-                  call check_figures(words(k:k), catalogue, bad, message, hint)
+                  call check_figures(words(k:k), loaded%catalogue, bad, message, hint)
                else
-                  call find_scalars(words(k)%s, catalogue, finder, scalars, message, hint)
+                  call find_scalars(words(k)%s, loaded%catalogue, finder, scalars, message, hint)
                   bad = merge(1, 0, len(message) > 0)
                end if
                if (bad == 0) then

@@ -2,7 +2,6 @@
 module verb_run
    use accurate_run, only: check_accuracy, choose_tolerance, tell_accuracy
    use build_system, only: levels_as_written, levels_ideal, new_system
-   use catalogue, only: catalogue_t
    use consistent_start, only: assembly_t
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_usage, set_error
@@ -16,7 +15,6 @@ module verb_run
    use kinematic_start, only: find_kinematic_start
    use load, only: load_deck, loaded_t
    use mechanism, only: mechanism_t
-   use mechanism_report, only: build_catalogue
    use memory_purpose, only: memory_is_for
    use mobility, only: mobility_t
    use options, only: options_t
@@ -74,7 +72,6 @@ contains
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
-      type(catalogue_t) :: catalogue
       type(error_t), allocatable :: twin_error
       type(ideal_start_t) :: ideal
       type(limits_t) :: limits
@@ -106,8 +103,7 @@ contains
          if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
                                                      first_line(twin_error%message))
       end if
-      call build_catalogue(loaded%system, catalogue)
-      call limits_of(loaded%scene, loaded%system, catalogue, limits, plan%warnings)
+      call limits_of(loaded%scene, loaded%system, loaded%catalogue, limits, plan%warnings)
       if (options%with_horizon) call look_ahead(options, loaded, plan%horizon)
       keeper%plan = plan
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")

@@ -7,7 +7,7 @@ module kind_info
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: channel_code, channel_t, column_t, dim_t, kind_info_t
+   public :: channel_t, column_t, dim_t, kind_info_t
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
    public :: cell_condition, cell_file, cell_list, cell_words
    public :: add_condition
@@ -373,20 +373,6 @@ contains
       if (present(open_lower)) column%bounds%open_lower = open_lower
       call add_column(info, column)
    end subroutine add_duration
-
-   !> Number by which a kind knows a channel, 0 if it has none of that name.
-   pure integer function channel_code(info, name) result(code)
-      type(kind_info_t), intent(in) :: info  !! the kind
-      character(*), intent(in) :: name       !! part after the item's name and a dot
-
-      integer :: k
-
-      code = 0
-      if (.not. allocated(info%channels)) return
-      do k = 1, size(info%channels)
-         if (info%channels(k)%name == name) code = info%channels(k)%code
-      end do
-   end function channel_code
 
    !> Whether two dimensions are the same.
    pure logical function same_dimension(a, b)

@@ -2,10 +2,10 @@
 !>
 !> A sign change at the ends is not enough: a contact may begin and end within a step. The
 !> interpolant is searched wherever the values and rates at the ends leave room for a maximum above
-!> zero, at eight places, and everywhere at least once in an interval that the caller sets (that of the output), so that no function
-!> is above zero there unseen. Where the ends leave no room, a glance at that interval says whether to search. What is found is a
-!> bracket, the same one whatever that interval is; the integrator goes into it by its own means (a
-!> one-step method re-steps, so that the event is as accurate as the step, not as the interpolant).
+!> zero, at eight places, and everywhere at least once in an interval that the caller sets (that of the output), so that no
+!> function is above zero there unseen. Where the ends leave no room, a glance at that interval says whether to search. What is
+!> found is a bracket, the same one whatever that interval is; the integrator goes into it by its own means (a one-step method
+!> re-steps, so that the event is as accurate as the step, not as the interpolant).
 !>
 !> Noise: an event function g is known to its round-off r only (`event_noise`), the time of an event to some spacings of time. So
 !> - a function that begins a step at g_0 > -r must rise above g_0 + r, its threshold, to be at its event: one that has just had it,
@@ -13,6 +13,7 @@
 !> - an event wants a rate > 0: a function found above its threshold that does not rise is at none in this step;
 !> - all functions that rise, at zero to r and to the spacing of time, are at their events together with the first one.
 module event_location
+   use event_chance, only: is_long, is_worth_a_search, may_any_happen
    use integrator, only: integrator_t
    use kinds, only: eps, i8, wp
    use ode_system, only: ode_system_t
@@ -89,38 +90,6 @@ contains
       call system%event_noise(method%events%noise)
       where (method%events%noise > 0.0_wp) method%events%threshold = max(method%events%g0 + method%events%noise, 0.0_wp)
    end subroutine set_thresholds
-
-   !> Whether any function may become positive within the last step, or may do so unseen between two looks.
-   pure logical function is_worth_a_search(system, method) result(is_worth)
-      class(ode_system_t), intent(in) :: system     !! the system
-      class(integrator_t), intent(in) :: method     !! the integrator, after a step
-
-      is_worth = is_long(system, method)
-      if (.not. is_worth) is_worth = may_any_happen(system, method)
-   end function is_worth_a_search
-
-   !> Whether the last step is longer than events may stay unseen.
-   pure logical function is_long(system, method)
-      class(ode_system_t), intent(in) :: system     !! the system
-      class(integrator_t), intent(in) :: method     !! the integrator, after a step
-
-      is_long = system%n_event > 0 .and. method%step%h > method%events%look
-   end function is_long
-
-   !> Whether the ends of the last step leave room for a function to become positive.
-   pure logical function may_any_happen(system, method) result(may)
-      class(ode_system_t), intent(in) :: system     !! the system
-      class(integrator_t), intent(in) :: method     !! the integrator, after a step
-
-      integer :: k
-
-      may = .false.
-      do k = 1, system%n_event
-         may = may_happen(method%events%g0(k) - method%events%threshold(k), method%step%h*method%events%rate0(k), &
-                          method%events%g1(k) - method%events%threshold(k), method%step%h*method%events%rate1(k))
-         if (may) return
-      end do
-   end function may_any_happen
 
    !> Look at a step as often as the caller asks for: whether any function is above zero there, or by its tangent just before.
    subroutine glance(system, method, is_seen)
@@ -403,22 +372,5 @@ contains
       end subroutine narrow
 
    end subroutine search
-
-   !> Whether a function with these end values and rates (times the step) may become positive within.
-   !> The curvature is taken from the cubic of Hermite, twice over.
-   pure logical function may_happen(g0, r0, g1, r1)
-      real(wp), intent(in) :: g0  !! value at the start [any]
-      real(wp), intent(in) :: r0  !! rate at the start times the step [any]
-      real(wp), intent(in) :: g1  !! value at the end [any]
-      real(wp), intent(in) :: r1  !! rate at the end times the step [any]
-
-      real(wp) :: curvature
-
-      may_happen = g1 > 0.0_wp
-      if (may_happen) return
-      curvature = 2.0_wp*max(abs(6.0_wp*(g1 - g0) - 4.0_wp*r0 - 2.0_wp*r1), abs(6.0_wp*(g0 - g1) + 2.0_wp*r0 + 4.0_wp*r1))
-      if (r0 < 0.0_wp .and. r1 < 0.0_wp .and. curvature < min(-r0, -r1)) return
-      may_happen = max(g0, g1) + 0.125_wp*curvature > 0.0_wp
-   end function may_happen
 
 end module event_location

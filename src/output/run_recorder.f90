@@ -193,7 +193,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       call keep_row(self, t, row_instant, catalogue, error)
-      call self%extremes%sample(t, catalogue)
+      if (size(self%extremes%channels) > 0) call self%extremes%sample(t, catalogue)
       call self%statistics%sample(t, catalogue)
    end subroutine sample_run
 

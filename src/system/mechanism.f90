@@ -50,6 +50,7 @@ module mechanism
    end type ledger_t
 
    !> A planar scene.
+   !> Components: seven are those of every system of equations.
    type, extends(dae_system_t) :: mechanism_t
       type(linkage_t) :: linkage                  !! bodies, ideal joints and drivers, and the solution of the equations
       type(loading_t) :: loading                  !! gravity and force elements

@@ -22,6 +22,9 @@ PARTS = (
      "two output instants of one channel, the second those of the deck (2401 instants, and rows at contacts)."),
     ("rooms.csv", None, "Where the instructions of that run go",
      "With the output of the deck, by room of src/ and by library (callgrind)."),
+    ("sample_cost.csv", None, "What a sample costs",
+     "The same mechanism with twelve channels every 2 us, in instructions (callgrind). `evaluation`: of the right-hand side. `sample`: state, "
+     "evaluation, reactions and channels at an output instant. `row`: what is then written to run.h5."),
     ("large_scenes.csv", "large_scenes.png", "Large scenes: time by body, start, memory",
      "Decks of `scripts/make_chain`, ledger off, RK4 in steps of 1 ms. `us_per_body`: by body and right-hand side; `start_s`: reading, "
      "assembling and output; memory beyond that of the smallest scene."),

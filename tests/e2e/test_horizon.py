@@ -304,7 +304,7 @@ def test_horizon_changes_nothing_else(gudgeon):
     directory = scratch()
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     plain_summary = json.loads((directory / "out" / "summary.json").read_text())
-    aside = ("cpu_seconds", "wall_seconds", "seconds_per_rhs", "directory", "deck")
+    aside = ("created", "cpu_seconds", "wall_seconds", "seconds_per_rhs", "directory", "deck")
     for name, value in plain_summary.items():
         if name not in aside:
             assert summary[name] == value, name

@@ -11,11 +11,12 @@ module test_forces
    use force_set, only: force_set_t
    use generic_item, only: column_number, fill_item, make_expression
    use item, only: item_t
-   use kind_info, only: channel_code, kind_info_t
+   use kind_info, only: kind_info_t
    use kinds, only: i8, pi, wp
    use motion, only: loads_t, motion_t, new_loads, new_motion, point_position
    use planar_kinds, only: is_planar_force
    use planar_coordinates, only: set_planar_motion
+   use read_channel, only: channel_code
    use text, only: to_text
    implicit none (type, external)
    private

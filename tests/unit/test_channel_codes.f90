@@ -2,9 +2,10 @@
 module test_channel_codes
    use check, only: check_true, suite_t
    use errors, only: error_t
-   use kind_info, only: channel_code, kind_info_t
+   use kind_info, only: kind_info_t
    use kind_list, only: all_kinds
    use mechanism_report, only: energy_info
+   use read_channel, only: channel_code
    implicit none (type, external)
    private
    public :: run_test_channel_codes
