@@ -62,7 +62,7 @@ contains
       integer, intent(in) :: item                       !! contact of the set
       type(trend_t), intent(in) :: left                 !! penetration at the start of the step
       type(trend_t), intent(in) :: right                !! penetration at its end
-      real(wp), intent(inout) :: y(:)                   !! (n) scratch state [any]
+      real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
       real(wp), intent(out) :: greatest                 !! the greatest penetration found [m]
 
       type(bracket_t) :: bracket
@@ -92,8 +92,8 @@ contains
       integer, intent(in) :: item                       !! contact of the set
       type(trend_t), intent(in) :: left                 !! force at the start of the step
       type(trend_t), intent(in) :: right                !! force at its end
-      real(wp), intent(inout) :: y(:)                   !! (n) scratch state [any]
-      real(wp), intent(inout) :: ydot(:)                !! (n) scratch derivative [any]
+      real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
+      real(wp), intent(inout), contiguous :: ydot(:)    !! (n) scratch derivative [any]
       type(peak_t), intent(inout) :: peak               !! the greatest force that was found
 
       type(bracket_t) :: bracket
@@ -133,7 +133,7 @@ contains
 
       !> The force at a place, with the accelerations there.
       subroutine look_from(state, status)
-         real(wp), intent(in) :: state(:)  !! (n) state at the place [any]
+         real(wp), intent(in), contiguous :: state(:)  !! (n) state at the place [any]
          integer, intent(out) :: status    !! of the evaluation
 
          type(trend_t) :: penetration
