@@ -7,7 +7,7 @@
 !> the book's: shorter and harder impacts.
 !>
 !> Signs: the reported force is that on the pin, its moment is about the pin's point; the eccentricity is the pin's point from the
-!> bushing's, world frame. Source: Flores et al. (2008), section 6.3, corrected: see `socket_contacts`.
+!> bushing's axis, across it, world frame. Source: Flores et al. (2008), section 6.3, corrected: see `socket_contacts`.
 !> Limits: those of `socket_contacts`; the pin is held along its axis by nothing.
 module clearance_bushing
    use clearance_spherical, only: add_socket_columns, check_socket, describe_socket
@@ -60,7 +60,7 @@ contains
                     choices="clipped endless")
       call add_word(info, "stiffness", "of each base: half that of the pin, or all of it as in the book", default="half", &
                     choices="half full")
-      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from that of the bushing", of_eccentricity)
+      call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from the axis of the bushing", of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the pin about its middle", of_moment)
       call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of pin and bushing", of_tilt)

@@ -325,7 +325,7 @@ contains
          zeta = dot_product(d, u)
          select case (code)
          case (of_eccentricity)
-            value = d
+            value = d - zeta*u  ! of a ball u is zero
          case (of_moment)
             value = 0.0_wp
             do c = 1, size(contacts)
