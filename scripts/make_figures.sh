@@ -8,7 +8,7 @@ program=$1
 shift
 comparisons=""
 if [ $# -eq 0 ]; then
-   comparisons="scripts/four_bar_figures scripts/law_figures scripts/slider_crank_figures scripts/lubrication_figures"
+   comparisons="scripts/four_bar_figures scripts/law_figures scripts/slider_crank_figures scripts/lubrication_figures scripts/space_figures"
    set -- inputs/*.deck
 fi
 [ -e "$1" ] || { echo "no decks in inputs/" >&2; exit 1; }
