@@ -106,7 +106,7 @@ contains
       integer :: outcome
 
       state%q = q
-      allocate (state%v(size(q)), state%a(size(q)), source=0.0_wp)
+      allocate (state%v(size(system%linkage%mass)), state%a(size(system%linkage%mass)), source=0.0_wp)
       call solve_instant(system, newton, state, outcome)
       if (outcome /= solved) then
          call describe_failure(system, state, 0.0_wp, outcome, newton, error)

@@ -151,7 +151,7 @@ contains
       type(error_t), allocatable, intent(out) :: error      !! cannot be assembled
 
       type(mechanism_t) :: twin
-      real(wp) :: v(size(q))
+      real(wp) :: v(size(system%linkage%mass))
 
       v = 0.0_wp
       if (scene%settings%static%word("start") == "ideal") then
@@ -177,7 +177,7 @@ contains
 
       type(assembly_t) :: rows
       type(newton_t) :: newton
-      real(wp) :: load, q_new(size(q)), rest(size(q))
+      real(wp) :: load, moved(size(system%linkage%mass)), q_new(size(q)), rest(size(system%linkage%mass))
       integer :: outcome
 
       load = load_scale(system)
@@ -186,7 +186,8 @@ contains
       rest = 0.0_wp
       call find_dependent(system%linkage, q, rest, rows)
       call polish(system, rows%dependent, load, to_round_off, n_polish, q_new, equilibrium%is_polished)
-      if (equilibrium%is_polished) equilibrium%is_polished = maxval(abs(q_new - q)/position_scale(system)) < nearby
+      call system%linkage%coordinates%difference(system%linkage%bodies%n, q, q_new, moved)
+      if (equilibrium%is_polished) equilibrium%is_polished = maxval(abs(moved)/position_scale(system)) < nearby
       if (.not. equilibrium%is_polished) q_new = q
       call solve_positions(system%linkage, 0.0_wp, newton, q_new, outcome)
       call evaluate_balance(system, q_new, balance)
@@ -333,7 +334,7 @@ contains
       type(energy_t) :: energy
       type(error_t), allocatable :: late_error
       type(film_moments_t) :: films
-      real(wp) :: rest(size(equilibrium%q)), unbalanced, y(2*size(equilibrium%q))
+      real(wp) :: rest(size(system%linkage%mass)), unbalanced, y(size(equilibrium%q) + size(system%linkage%mass))
 
       call build_catalogue(system, catalogue)
       rest = 0.0_wp

@@ -1,6 +1,6 @@
 !> Newton's iteration of KINSOL, with line search, on the equations of equilibrium.
 !>
-!> Unknowns ( x, mu ): scaled positions, and scaled multipliers of independent rows. Equations: the scaled load out of
+!> Unknowns ( x, mu ): scaled changes of the positions, scaled multipliers of independent rows. Equations: the scaled load out of
 !> balance over the largest load, and the scaled rows. The Jacobian is the full one, also where loads do
 !> work in a closed path, by KINSOL's differences.
 !>
@@ -29,13 +29,14 @@ module static_kinsol
       class(mechanism_t), pointer :: system => null()  !! the system
       logical, allocatable :: is_independent(:)            !! (rows) rows that are solved for
       real(wp) :: load = 1.0_wp                            !! largest load [N.m]
+      real(wp), allocatable :: start(:)                    !! (n_q bodies) positions that the unknowns are changes from [any]
    end type problem_t
 
 contains
 
    !> Equations of equilibrium for the library.
    integer(c_int) function equations(unknowns, values, user_data) bind(c) result(status)
-      type(n_vector), intent(inout) :: unknowns   !! scaled positions and multipliers
+      type(n_vector), intent(inout) :: unknowns   !! scaled changes of positions, and multipliers
       type(n_vector), intent(inout) :: values     !! what should be zero
       type(c_ptr), value :: user_data             !! the problem
 
@@ -47,12 +48,22 @@ contains
       x => fn_vgetarraypointer(unknowns)
       f => fn_vgetarraypointer(values)
       n = size(problem%system%linkage%mass)
-      call look_at(problem%system, x(1:n)*position_scale(problem%system))
+      call look_at(problem%system, moved(problem, x(1:n)))
       call set_multipliers(problem, x(n + 1:))
       f(1:n) = unbalanced_load(problem%system)/problem%load
       f(n + 1:) = pack(problem%system%linkage%rows%phi*problem%system%linkage%solution%row_weight, problem%is_independent)
       status = 0_c_int
    end function equations
+
+   !> Positions after scaled changes from those of the start.
+   function moved(problem, x) result(q)
+      type(problem_t), intent(in) :: problem   !! the problem
+      real(wp), intent(in) :: x(:)             !! (n_v bodies) changes over their scales [1]
+      real(wp) :: q(size(problem%start))       !! (n_q bodies) positions [any]
+
+      q = problem%start
+      call problem%system%linkage%coordinates%add_change(problem%system%linkage%bodies%n, x*position_scale(problem%system), q)
+   end function moved
 
    !> The multipliers of a system from scaled ones of independent rows.
    subroutine set_multipliers(problem, mu)
@@ -70,7 +81,7 @@ contains
       real(wp), intent(in) :: load                             !! largest load [N.m]
       real(wp), intent(in) :: tolerance                        !! greatest value of an equation allowed [1]
       integer, intent(in) :: most                              !! iterations allowed
-      real(wp), intent(inout) :: q(:)                          !! (3 bodies) positions, polished if solved [m, m, rad]
+      real(wp), intent(inout) :: q(:)                          !! (n_q bodies) positions, polished if solved [any]
       logical, intent(out) :: is_solved                        !! the iteration ended by the tolerance, or by round-off
 
       type(n_vector), pointer :: scale, unknowns
@@ -87,7 +98,8 @@ contains
       problem%load = load
       allocate (problem%is_independent(system%linkage%rows%n), source=.true.)
       problem%is_independent(dependent) = .false.
-      x = [q/position_scale(system), &
+      problem%start = q
+      x = [0.0_wp*position_scale(system), &
            pack(system%linkage%solution%lambda/system%linkage%solution%row_weight/load, problem%is_independent)]
       allocate (ones(size(x)), source=1.0_wp)
       n = size(x, kind=sunindextype)
@@ -108,7 +120,7 @@ contains
       is_solved = status >= 0 .or. status == kin_linesearch_nonconv  ! stopped by round-off
       if (is_solved) then
          solution => fn_vgetarraypointer(unknowns)
-         q = solution(1:size(q))*position_scale(system)
+         q = moved(problem, solution(1:size(system%linkage%mass)))
       end if
       call fkinfree(memory)
       status = int(fsunlinsolfree(solver))

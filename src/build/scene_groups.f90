@@ -248,6 +248,7 @@ contains
       one%lubrication = scene%lubrication
       one%analysis = scene%analysis
       one%settings%dynamic = scene%settings%dynamic
+      one%settings%is_spatial = scene%settings%is_spatial
       do k = 1, n_joint_kinds
          one%joints(k)%info = scene%joints(k)%info
       end do

@@ -298,3 +298,155 @@ def test_axes_opposed(gudgeon):
                                                       ).replace("name      i       j       axis_i", "name      i       j       axis_i   axis_j")
     done = call(gudgeon, "run", written(scratch(), text), "--out", scratch() / "out", expect=(4, 5, 6, 7))
     assert "'main' is closed the wrong way round" in done.stderr
+
+
+DRIVEN = """deck = 1
+[scene]
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[bodies]
+name   mass[kg]  ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2]  x[mm]
+crank  0.15      1e-3        1e-3        1e-3         76.2
+rod    0.30      2e-4        2e-4        2e-4         304.8
+slider 0.15      1e-4        1e-4        1e-4         457.2
+[points]
+name   body    xi[mm]
+main   ground  0
+heel   crank   -76.2
+throw  crank   76.2
+big    rod     -152.4
+small  rod     152.4
+pin    slider  0
+[joint.revolute]
+name  i     j     axis_i
+main  main  heel  "0 1 0"
+[joint.spherical]
+name     i      j
+big_end  throw  big
+[joint.universal]
+name     i      j    axis_i   axis_j
+gudgeon  small  pin  "0 1 0"  "0 0 1"
+[joint.translational]
+name   i     j    axis_i
+guide  main  pin  "1 0 0"
+[driver.speed]
+name   joint  speed[rad/s]
+motor  main   150
+[analysis.kinematic]
+end = 2 turns of motor
+[analysis.dynamic]
+end = 2 turns of motor
+tolerance = 1e-11
+[output]
+every = 1 ms
+"""
+
+
+def test_kinematic_analysis(gudgeon):
+    """A driven mechanism without integration: the slider's closed form, and the motion and the moment of the dynamic analysis."""
+    dynamic = run_text(gudgeon, DRIVEN.replace("[analysis.kinematic]\nend = 2 turns of motor\n", ""))
+    kinematic = run_text(gudgeon, DRIVEN)
+    t = kinematic.time
+    x = 0.1524 * np.cos(150 * t) + np.sqrt(0.3048**2 - (0.1524 * np.sin(150 * t)) ** 2)
+    near(channel(kinematic, "slider.position")[:, 0], x, 1e-12, "slider")
+    near(channel(kinematic, "motor.coordinate"), 150 * t, 1e-9, "turns are counted")
+    n = min(len(t), len(dynamic.time))
+    near(channel(dynamic, "slider.position")[:n], channel(kinematic, "slider.position")[:n], 1e-9, "position")
+    near(channel(dynamic, "slider.acceleration")[:n], channel(kinematic, "slider.acceleration")[:n], 1e-4, "acceleration")
+    near(channel(dynamic, "motor.moment")[:n], channel(kinematic, "motor.moment")[:n], 1e-5, "moment")
+
+
+def test_static_analysis(gudgeon):
+    """A body hangs from a spring with its eye above its centre of mass, whatever its tensor: the stretch is closed form."""
+    hanging = """deck = 1
+[scene]
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[bodies]
+name  mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] z[m] axis      angle[deg]
+ball  2        0.1         0.2         0.3         -1   "1 2 3"   20
+[points]
+name  body    xi[m] eta[m] zeta[m]
+roof  ground  0     0      0
+eye   ball    0.03  0.04   0.12
+[force.spring]
+name   i     j    stiffness[N/m] damping[N.s/m] free_length[m]
+cord   roof  eye  1000           1              0.5
+[analysis.static]
+[output]
+every = 1 s
+"""
+    directory = scratch()
+    call(gudgeon, "run", written(directory, hanging), "--out", directory / "out", "--quiet", "--write", "channels")
+    run = Run(directory / "out")
+    near(channel(run, "ball.position")[0], (0.0, 0.0, -(0.5 + 2 * 9.81 / 1000 + 0.13)), 1e-9, "hangs below its eye")
+
+
+def test_groups_apart(gudgeon):
+    """Bodies that nothing joins move the same, integrated apart or together."""
+    text = """deck = 1
+[scene]
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[bodies]
+name  mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] ixy[kg.m^2] x[m] wx[rad/s] wy[rad/s] wz[rad/s] sequence angle1[deg] angle2[deg] angle3[deg]
+a     1        1           2           2.5         0.3         0    0.1       5         0.1       zxz      10          20          30
+b     1        1           2           2.5         0           3    0.1       5         0.1       none     -           -           -
+c     1        0.1         0.1         0.1         0           6    0         0         0         xyz      10          20          30
+[points]
+name  body    xi[m] eta[m] zeta[m]
+g     ground  6     0      1
+p     c       0.1   0      0.2
+q     c       0     0      0.3
+[force.spring]
+name  i  j  stiffness[N/m] damping[N.s/m] free_length[m]
+s     g  p  100            1              0.5
+[force.point]
+name  point  fx[N]               fy[N] fz[N] frame
+f     q      {1 N*sin(3 rad/s*t)} 0     2     body
+[force.torque]
+name  body  mx[N.m]  frame
+t     a     0.5      body
+[analysis.dynamic]
+end = 1 s
+tolerance = 1e-11
+[output]
+every = 0.1 s
+"""
+    apart = run_text(gudgeon, text)
+    together = run_text(gudgeon, text, groups="together")
+    for name in ("a", "b", "c"):
+        for quantity in ("position", "spin", "orientation"):
+            near(channel(apart, f"{name}.{quantity}"), channel(together, f"{name}.{quantity}"), 1e-8, f"{name}.{quantity}")
+
+
+def test_torsion_spring_counts_turns(gudgeon):
+    """A wheel on a weak torsional spring turns many times and back, as a harmonic oscillator, about any axis."""
+    run = run_text(gudgeon, """deck = 1
+[scene]
+space = spatial
+[bodies]
+name  mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2]
+wheel 1        0.1         0.1         0.1
+[points]
+name  body
+g     ground
+p     wheel
+[joint.revolute]
+name  i  j  axis_i
+pin   g  p  "1 1 0"
+[force.torsion_spring]
+name    i       j      axis_i   stiffness[N.m/rad]
+spring  ground  wheel  "1 1 0"  0.1
+[initial.speed]
+name  joint  speed[rad/s]
+go    pin    20
+[analysis.dynamic]
+end = 7 s
+tolerance = 1e-10
+[output]
+every = 0.1 s
+""")
+    with_turns = run.item("forces/angle", "spring")
+    near(with_turns, 20 * np.sin(run.time), 1e-7, "angle")
+    assert max(with_turns) > 6 * np.pi
