@@ -34,7 +34,8 @@ def start_accelerations(gudgeon, deck, solver):
     text = changed(text, "output", every="1 us", channels="*.acceleration *.angular_acceleration", figures=None)
     call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
     bodies = Run(directory / "out").group("bodies")
-    return np.concatenate([bodies["acceleration"], bodies["angular_acceleration"][..., None]], axis=-1)
+    turning = bodies["angular_acceleration"]
+    return np.concatenate([bodies["acceleration"], turning.reshape(*turning.shape[:2], -1)], axis=-1)
 
 
 @pytest.mark.parametrize("deck", DYNAMIC, ids=[deck.stem for deck in DYNAMIC])

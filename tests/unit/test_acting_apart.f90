@@ -11,6 +11,7 @@ module test_acting_apart
    use kinds, only: pi, wp
    use motion, only: loads_t
    use normal_law, only: n_law_parameter, normal_law_t
+   use planar_kinds, only: is_planar_clearance
    use read_channel, only: read_loose
    use recorder, only: event_t, summary_t
    use surfaces, only: surfaces_t
@@ -54,6 +55,7 @@ contains
       integer :: body, k, kind
 
       do kind = 1, n_clearance_kinds
+         if (.not. is_planar_clearance(kind)) cycle
          call make_bench(kind, 1, 0, 1, bench)
          associate (set => bench%set)
             do k = 1, size(bench%touching)
