@@ -99,12 +99,11 @@ contains
    real(wp) function load_scale(system)
       class(mechanism_t), intent(in) :: system   !! the system, rows and loads evaluated, lambda set
 
-      real(wp) :: rest(size(system%linkage%mass)), weights(size(system%linkage%mass)), loads(size(system%linkage%mass))
+      real(wp) :: rest(size(system%linkage%mass)), loads(size(system%linkage%mass))
 
       rest = unbalanced_load(system)
-      weights = reshape(system%loading%weight(:, 1:), [size(weights)])*position_scale(system)
       loads = reshape(system%loading%g(:, 1:), [size(loads)])*position_scale(system)
-      load_scale = max(norm2(weights), norm2(loads), norm2(loads - rest))
+      load_scale = max(norm2(system%loading%weight(:, 1:))*system%linkage%scales%length, norm2(loads), norm2(loads - rest))
    end function load_scale
 
    !> The balance at a position, with the multipliers that fit it best. No stiffness yet.
