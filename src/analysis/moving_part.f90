@@ -122,7 +122,10 @@ contains
             call describe_failure(system, method, part%status, error)
             return
          end if
-         if (system%loading%counts_turns) call system%follow_turns(method%t, method%step%y1)
+         if (system%loading%counts_turns) then
+            call system%linkage%set_motion(method%t, method%step%y1)
+            call system%loading%follow_turns(system%linkage%motion)
+         end if
          call look_at_step(part, tally)
          if (part%is_lost) then
             call describe_failure(system, method, constraints_lost, error)

@@ -241,25 +241,12 @@ contains
 
       self%events%n_happened = 0
       self%step%t0 = self%t
-      call copy(size(self%step%y1), self%step%y1, self%step%y0)
-      call copy(size(self%step%f1), self%step%f1, self%step%f0)
-      call copy(size(self%events%g1), self%events%g1, self%events%g0)
-      call copy(size(self%events%rate1), self%events%rate1, self%events%rate0)
+      self%step%y0(:) = self%step%y1  ! no shape is looked at
+      self%step%f0(:) = self%step%f1
+      self%events%g0(:) = self%events%g1
+      self%events%rate0(:) = self%events%rate1
       self%step%has_inner = .false.
    end subroutine begin_step
-
-   !> A row of numbers into another that has room for it: an assignment would ask for its size and place anew.
-   pure subroutine copy(n, from, to)
-      integer, intent(in) :: n           !! how many
-      real(wp), intent(in) :: from(n)    !! (n) the numbers [any]
-      real(wp), intent(inout) :: to(n)   !! (n) the same [any]
-
-      integer :: i
-
-      do i = 1, n
-         to(i) = from(i)
-      end do
-   end subroutine copy
 
    !> Event functions less their thresholds, and their rates, at a state, for a search.
    subroutine look_at_events(self, system, t, y, g, rate)

@@ -2,7 +2,7 @@
 module loading
    use force_set, only: force_slot_t
    use kinds, only: wp
-   use motion, only: loads_t
+   use motion, only: loads_t, motion_t
    implicit none (type, external)
    private
    public :: loading_t, start_loads
@@ -17,9 +17,23 @@ module loading
       type(loads_t) :: loads                         !! applied and contact loads
       real(wp), allocatable :: g(:, :)               !! (n_v, 0:bodies) loads on the rates [N or N.m]
       real(wp) :: power = 0.0_wp                     !! power of applied loads [W]
+   contains
+      procedure :: follow_turns => loading_follow_turns
    end type loading_t
 
 contains
+
+   !> A step has ended: what counts turns goes on from there. To be called where `counts_turns`.
+   subroutine loading_follow_turns(self, motion)
+      class(loading_t), intent(inout) :: self   !! the force elements
+      type(motion_t), intent(in) :: motion      !! positions at the end of the step
+
+      integer :: k
+
+      do k = 1, size(self%forces)
+         call self%forces(k)%set%follow(motion)
+      end do
+   end subroutine loading_follow_turns
 
    !> Loads of gravity.
    pure subroutine start_loads(n, weight, force, moment)

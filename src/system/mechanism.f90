@@ -69,7 +69,6 @@ module mechanism
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: event_noise => mechanism_event_noise, set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
-      procedure :: follow_turns => mechanism_follow_turns
       procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset, in_state
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
       procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
@@ -307,14 +306,6 @@ module mechanism
          real(wp), intent(in) :: y(self%n)               !! (n) state [any]
          real(wp), intent(in), optional :: jump(self%n)  !! (n) jump of its derivative [any]
       end subroutine mechanism_follow_pace
-
-      !> A step has ended at a state: what counts turns goes on from there. To be called where `loading%counts_turns`.
-      module subroutine mechanism_follow_turns(self, t, y)
-         implicit none (type, external)
-         class(mechanism_t), intent(inout) :: self  !! the system; its motion is that of the state
-         real(wp), intent(in) :: t                  !! time [s]
-         real(wp), intent(in) :: y(:)               !! (n) state [any]
-      end subroutine mechanism_follow_turns
 
       !> Distance in time of differences along the motion that give rates.
       pure module real(wp) function time_of_difference(self, t)

@@ -142,16 +142,6 @@ contains
       end do
    end subroutine transition_events
 
-   !> A step has ended at a state.
-   module procedure mechanism_follow_turns
-      integer :: k
-
-      call self%linkage%set_motion(t, y)
-      do k = 1, size(self%loading%forces)
-         call self%loading%forces(k)%set%follow(self%linkage%motion)
-      end do
-   end procedure mechanism_follow_turns
-
    !> Round-off of the event functions at the present motion. Constraints hand the round-off of the angles on.
    module procedure mechanism_event_noise
       real(wp) :: rate_noise(self%loose%n_contact), shared
