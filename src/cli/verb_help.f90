@@ -10,7 +10,7 @@ module verb_help
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
-      cell_reference, cell_vector, cell_words, column_t, kind_info_t, no_bound
+      cell_reference, cell_vector, cell_words, column_t, in_space, kind_info_t, no_bound
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use man_page, only: write_man_page
@@ -210,14 +210,17 @@ contains
       type(kind_info_t), intent(in) :: info  !! the kind
       logical, intent(in) :: is_markdown     !! as a part of the manual
 
+      character(:), allocatable :: where_known
       integer :: k
 
+      where_known = ""
+      if (info%space == in_space) where_known = "In space: "
       if (is_markdown) then
          call say("## "//info%name)
          call say("")
-         call say(info%help//".")
+         call say(where_known//info%help//".")
       else
-         call say(info%name//": "//info%help)
+         call say(info%name//": "//where_known//info%help)
       end if
       if (info%source /= "") call say("Source: "//info%source//".")
       if (info%n_row > 0) call say("Constraint rows per item: "//to_text(info%n_row)//".")
