@@ -15,11 +15,10 @@ module force_torsion_spring
    use bodies, only: points_t
    use force_set, only: force_set_t
    use item, only: item_t
-   use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_angle, dim_angular_damping, &
-      dim_angular_stiffness, dim_moment, in_plane, kind_info_t
+   use kind_info, only: add_channel, add_reference, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
-   use spring_law, only: spring_law_t
+   use spring_law, only: add_turning_law, spring_law_t
    implicit none (type, external)
    private
    public :: force_torsion_spring_t
@@ -56,14 +55,7 @@ contains
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "i", "bodies", "first body")
       call add_reference(info, "j", "bodies", "second body")
-      call add_number(info, "stiffness", dim_angular_stiffness, "stiffness", default="0 N.m/rad", lower=0.0_wp)
-      call add_number(info, "damping", dim_angular_damping, "coefficient of the damper", default="0 N.m.s/rad", lower=0.0_wp)
-      call add_number(info, "free_angle", dim_angle, "angle of j relative to i at which the stiffness gives no moment", &
-                      default="0 rad")
-      call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
-      call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
-      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
-                          default="0 N.m", variable="x", argument=[dim_angle])
+      call add_turning_law(info)
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the body of i, counter-clockwise positive", of_moment)
       call add_channel(info, "angle", "rad", "none", 1, "angle of j relative to i, counter-clockwise, turns counted", of_angle)
       call add_channel(info, "angular_rate", "rad/s", "none", 1, "rate of the angle", of_angular_rate)

@@ -10,11 +10,13 @@
 module spring_law
    use expression, only: expression_t
    use item, only: item_t, place_of
+   use kind_info, only: add_expression, add_number, dim_angle, dim_angular_damping, dim_angular_stiffness, dim_moment, &
+      kind_info_t
    use kinds, only: wp
    use quadrature, only: integral_of
    implicit none (type, external)
    private
-   public :: spring_law_t
+   public :: add_turning_law, spring_law_t
 
    !> The law of one spring. Unit of f: N, or N.m; unit of l: m, or rad.
    type :: spring_law_t
@@ -33,6 +35,20 @@ module spring_law
    end type spring_law_t
 
 contains
+
+   !> Columns of the law of a torsional spring, of the plane and of space.
+   subroutine add_turning_law(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind, columns are added
+
+      call add_number(info, "stiffness", dim_angular_stiffness, "stiffness", default="0 N.m/rad", lower=0.0_wp)
+      call add_number(info, "damping", dim_angular_damping, "coefficient of the damper", default="0 N.m.s/rad", lower=0.0_wp)
+      call add_number(info, "free_angle", dim_angle, "angle of j relative to i at which the stiffness gives no moment", &
+                      default="0 rad")
+      call add_number(info, "preload", dim_moment, "moment on the body of i at the free angle", default="0 N.m")
+      call add_expression(info, "actuator", dim_moment, "moment on the body of i as a function of time", default="0 N.m")
+      call add_expression(info, "law", dim_moment, "moment as a function of the angle x from the free one, beside the stiffness", &
+                          default="0 N.m", variable="x", argument=[dim_angle])
+   end subroutine add_turning_law
 
    !> Take a row of a table.
    subroutine spring_law_prepare(self, item, free)
