@@ -4,7 +4,6 @@ module start_state
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
-   use guided_motion, only: guided_coordinates
    use item, only: place_of
    use kinds, only: wp
    use memory_purpose, only: memory_is_for

@@ -1,8 +1,8 @@
 !> Which bodies of a scene are left out of the unknowns, wholly or but for one coordinate, and how they move.
 !>
 !> Bodies whose motion is a known function of time leave the unknowns, with the rows that fix them; a body that one joint leaves a
-!> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations.
-!> Planar: both are kernels of the plane.
+!> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations. The plane and space
+!> have kernels of their own (`planar_reduction`, `spatial_reduction`).
 module build_known
    use find_guided, only: find_guided_bodies, guide_t
    use find_known, only: find_known_bodies, link_t
@@ -12,10 +12,16 @@ module build_known
    use kind_info, only: leaves_way
    use kinds, only: wp
    use linkage, only: linkage_t
+   use planar_guided, only: planar_guided_t
+   use planar_known, only: planar_known_t
+   use planar_reduction, only: planar_guide, planar_link
+   use reduced_bodies, only: guided_bodies_t, held_t, known_bodies_t
    use rows, only: side_place
    use scene, only: analysis_dynamic, scene_t
    use scene_size, only: is_large
-   use ties, only: tie_of, tie_t
+   use spatial_guided, only: spatial_guided_t
+   use spatial_known, only: spatial_known_t
+   use spatial_reduction, only: spatial_guide, spatial_link
    implicit none (type, external)
    private
    public :: choice_t, choose_bodies, list_carried, reduction_t, set_guided, set_known, start_angles
@@ -61,7 +67,7 @@ contains
       end do
       allocate (reduction%links(0), reduction%guides(0))
       allocate (reduction%is_driven(scene%bodies%n), source=.false.)
-      if (scene%analysis /= analysis_dynamic .or. scene%settings%is_spatial) return
+      if (scene%analysis /= analysis_dynamic) return
       call find_known_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
       if (scene%settings%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
@@ -95,38 +101,34 @@ contains
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
       type(linkage_t), intent(inout) :: linkage               !! known bodies are set; joints are there
 
-      real(wp) :: angle(0:scene%bodies%n)
-      type(tie_t) :: tie
-      integer :: body(2), item, k, n, point(2), side, slot
+      class(known_bodies_t), allocatable :: known
+      integer :: item(size(links)), k, slot(size(links))
 
-      n = size(links)
-      angle = start_angles(scene)
-      linkage%reduced%known%n = n
-      allocate (linkage%reduced%known%item(n))
-      do k = 1, n
-         associate (link => links(k), known => linkage%reduced%known%item(k))
-            tie = tie_of(scene, scene%joints(link%kind)%info, scene%joints(link%kind)%items(link%item))
-            point = tie%point
-            body = tie%body
-            side = merge(1, 2, body(1) == link%body)
-            known%body = body(side)
-            known%base = body(3 - side)
-            known%s_body = scene%points%s(1:2, point(side))
-            known%s_base = scene%points%s(1:2, point(3 - side))
-            known%side = side
-            call find_fixing(scene, choices, linkage, link%kind, link%item, slot, item)
-            call take_rows(linkage%joints(slot)%set, item, known%row)
-            if (link%driver == 0) then
-               known%offset = angle(known%body) - angle(known%base)
-            else
-               call find_fixing(scene, choices, linkage, link%driver, link%driving, known%slot, known%item)
-               call take_rows(linkage%joints(known%slot)%set, known%item, known%row(3:3))
-               known%sign = merge(1.0_wp, -1.0_wp, side == 2)
-            end if
+      if (scene%settings%is_spatial) then
+         allocate (spatial_known_t :: known)
+      else
+         allocate (planar_known_t :: known)
+      end if
+      known%n = size(links)
+      allocate (known%held(known%n))
+      do k = 1, known%n
+         associate (link => links(k), held => known%held(k))
+            call find_fixing(scene, choices, linkage, link%kind, link%item, slot(k), item(k))
+            call take_held(linkage%joints(slot(k))%set, item(k), link%body, held)
+            if (link%driver == 0) cycle
+            call find_fixing(scene, choices, linkage, link%driver, link%driving, held%slot, held%item)
+            call take_rows(linkage%joints(held%slot)%set, held%item, held%row(linkage%coordinates%n_v:))
          end associate
       end do
+      select type (known)
+      type is (planar_known_t)
+         known%item = [(planar_link(linkage%joints(slot(k))%set, item(k), known%held(k), start_angles(scene)), k=1, known%n)]
+      type is (spatial_known_t)
+         known%item = [(spatial_link(linkage%joints(slot(k))%set, item(k), known%held(k)), k=1, known%n)]
+      end select
       allocate (linkage%reduced%is_known(linkage%bodies%n), source=.false.)
-      linkage%reduced%is_known(linkage%reduced%known%item%body) = .true.
+      linkage%reduced%is_known(links%body) = .true.
+      call move_alloc(known, linkage%reduced%known)
       do k = 1, linkage%bodies%n
          if (.not. linkage%reduced%is_known(k)) linkage%inverse_mass(:, k) = 1.0_wp/linkage%mass(:, k)
       end do
@@ -135,78 +137,71 @@ contains
    !> How the guided bodies move, and which rows hold them.
    subroutine set_guided(scene, guides, choices, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
-      type(guide_t), intent(in) :: guides(:)                  !! (guided bodies) how they are held
+      type(guide_t), intent(in) :: guides(:)                  !! (guided bodies) how they are held, those that turn first
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
       type(linkage_t), intent(inout) :: linkage               !! guided bodies are set; joints and known bodies are there
 
-      real(wp) :: angle(0:scene%bodies%n)
-      type(tie_t) :: tie
-      integer :: item, k, n, point(2), slot
+      class(guided_bodies_t), allocatable :: guided
+      integer :: item(size(guides)), k, slot(size(guides))
 
-      n = size(guides)
-      angle = start_angles(scene)
-      linkage%reduced%guided%n = n
-      linkage%reduced%guided%n_turning = count([(scene%joints(guides(k)%kind)%info%leaves /= leaves_way, k=1, n)])
-      allocate (linkage%reduced%guided%item(n))
-      do k = 1, n
-         associate (guide => guides(k), guided => linkage%reduced%guided%item(k))
-            tie = tie_of(scene, scene%joints(guide%kind)%info, scene%joints(guide%kind)%items(guide%item))
-            point = tie%point
-            guided%side = merge(1, 2, tie%body(1) == guide%body)
-            if (guided%side == 1) point = point([2, 1])
-            guided%body = guide%body
-            guided%base = scene%points%body(point(1))
-            guided%mass = scene%bodies%mass(guided%body)
-            guided%s_base = scene%points%s(1:2, point(1))
-            call find_fixing(scene, choices, linkage, guide%kind, guide%item, slot, item)
-            associate (set => linkage%joints(slot)%set, s_body => scene%points%s(1:2, point(2)))
-               call take_rows(set, item, guided%row)
-               if (scene%joints(guide%kind)%info%leaves == leaves_way) then
-                  guided%offset = angle(guided%body) - angle(guided%base)
-                  guided%turned = [cos(guided%offset), sin(guided%offset)]
-                  guided%arm = set%way_of(item)
-                  if (guided%side == 1) guided%arm = turn(guided%turned, guided%arm)
-                  guided%s_base = guided%s_base - turn(guided%turned, s_body)
-                  guided%ease = 1.0_wp/guided%mass
-               else
-                  guided%arm = -s_body
-                  guided%ease = 1.0_wp/(scene%bodies%inertia(guided%body) + guided%mass*dot_product(s_body, s_body))
-               end if
-            end associate
-         end associate
+      if (scene%settings%is_spatial) then
+         allocate (spatial_guided_t :: guided)
+      else
+         allocate (planar_guided_t :: guided)
+      end if
+      guided%n = size(guides)
+      guided%n_turning = count([(scene%joints(guides(k)%kind)%info%leaves /= leaves_way, k=1, guided%n)])
+      allocate (guided%held(guided%n))
+      do k = 1, guided%n
+         call find_fixing(scene, choices, linkage, guides(k)%kind, guides(k)%item, slot(k), item(k))
+         call take_held(linkage%joints(slot(k))%set, item(k), guides(k)%body, guided%held(k))
       end do
+      select type (guided)
+      type is (planar_guided_t)
+         guided%item = [(planar_guide(linkage%joints(slot(k))%set, item(k), guided%held(k), k > guided%n_turning, &
+                                      start_angles(scene), linkage%mass(:, guided%held(k)%body)), k=1, guided%n)]
+      type is (spatial_guided_t)
+         guided%item = [(spatial_guide(linkage%joints(slot(k))%set, item(k), guided%held(k), k > guided%n_turning, &
+                                       linkage%mass(:, guided%held(k)%body)), k=1, guided%n)]
+      end select
+      call move_alloc(guided, linkage%reduced%guided)
    end subroutine set_guided
+
+   !> A body and what a joint ties it to, with the rows of the joint.
+   subroutine take_held(set, item, body, held)
+      class(joint_set_t), intent(in) :: set     !! the joint's set
+      integer, intent(in) :: item               !! its item
+      integer, intent(in) :: body               !! the body
+      type(held_t), intent(inout) :: held       !! how it is held
+
+      held%side = merge(1, 2, set%body(1, item) == body)
+      held%body = body
+      held%base = set%body(3 - held%side, item)
+      call take_rows(set, item, held%row(:set%n_row_item))
+   end subroutine take_held
 
    !> What acts on known bodies besides the rows that fix them, and the bodies that move with them.
    subroutine list_carried(linkage)
       type(linkage_t), intent(inout) :: linkage   !! the bodies and their rows, sides listed
 
-      integer :: i, k, n, row
+      integer :: i, k, n, n_held, row
 
-      associate (guided => linkage%reduced%guided%item, rows => linkage%rows)
-         linkage%reduced%driven = [linkage%reduced%known%item%body, pack(guided%body, guided%base > 0)]
+      n_held = linkage%coordinates%n_v - 1
+      associate (held => linkage%reduced%guided%held, rows => linkage%rows)
+         linkage%reduced%driven = [linkage%reduced%known%held%body, pack(held%body, held%base > 0)]
          n = size(rows%known, 2)
-         allocate (linkage%reduced%carried(3, n + 2*count(guided%base > 0)), source=0)
+         allocate (linkage%reduced%carried(3, n + n_held*count(held%base > 0)), source=0)
          linkage%reduced%carried(:, :n) = rows%known
-         do k = 1, size(guided)
-            if (guided(k)%base == 0) cycle
-            do i = 1, 2
-               row = guided(k)%row(i)
+         do k = 1, size(held)
+            if (held(k)%base == 0) cycle
+            do i = 1, n_held
+               row = held(k)%row(i)
                n = n + 1
-               linkage%reduced%carried(:, n) = [row, side_place(rows%n_v, row, 3 - guided(k)%side), guided(k)%base]
+               linkage%reduced%carried(:, n) = [row, side_place(rows%n_v, row, 3 - held(k)%side), held(k)%base]
             end do
          end do
       end associate
    end subroutine list_carried
-
-   !> A plane vector turned by an angle.
-   pure function turn(cosine_sine, s) result(turned)
-      real(wp), intent(in) :: cosine_sine(2)  !! (2) cosine and sine of the angle [1]
-      real(wp), intent(in) :: s(2)            !! (2) the vector [any]
-      real(wp) :: turned(2)                   !! (2) the same turned [any]
-
-      turned = [cosine_sine(1)*s(1) - cosine_sine(2)*s(2), cosine_sine(2)*s(1) + cosine_sine(1)*s(2)]
-   end function turn
 
    !> Rows of an item, as many as there is room for.
    subroutine take_rows(set, item, row)

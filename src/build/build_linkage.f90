@@ -160,7 +160,7 @@ contains
          call linkage%ideal(k)%set%declare_rows(linkage%rows)
       end do
       is_reduced = linkage%reduced%is_known
-      is_reduced(linkage%reduced%guided%item%body) = .true.
+      is_reduced(linkage%reduced%guided%held%body) = .true.
       call list_sides(is_reduced, linkage%rows)
       call list_carried(linkage)
       call linkage%make_room

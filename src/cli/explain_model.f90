@@ -34,11 +34,11 @@ contains
          if (scene%settings%is_spatial) words = words//" (Euler parameters among them), "//to_text(size(linkage%mass))//" rates"
          call say(words, 2)
          do k = 1, linkage%reduced%known%n
-            call say("'"//names(linkage%reduced%known%item(k)%body)%s//"' moves as a known function of time", 2)
+            call say("'"//names(linkage%reduced%known%held(k)%body)%s//"' moves as a known function of time", 2)
          end do
          do k = 1, linkage%reduced%guided%n
-            call say("'"//names(linkage%reduced%guided%item(k)%body)%s//"' keeps one coordinate, that of '"// &
-                     linkage%row_name(linkage%reduced%guided%item(k)%row(1))//"'", 2)
+            call say("'"//names(linkage%reduced%guided%held(k)%body)%s//"' keeps one coordinate, that of '"// &
+                     linkage%row_name(linkage%reduced%guided%held(k)%row(1))//"'", 2)
          end do
       end associate
       if (system%linkage%rows%n > system%linkage%rows%n_solve) then

@@ -7,11 +7,9 @@
 module linkage
    use bodies, only: bodies_t
    use coordinates, only: coordinates_t
-   use guided_motion, only: find_guided_multipliers, guided_coordinates, guided_response, move_guided, set_guided_acceleration
    use joint_set, only: joint_slot_t
    use rows, only: rows_t
    use kinds, only: wp
-   use known_motion, only: find_multipliers, move_known
    use motion, only: motion_t
    use reduced, only: reduced_t
    use row_kernels, only: right_hand_side, take_known
@@ -89,10 +87,10 @@ contains
       real(wp), intent(in) :: y(self%n_position + self%n_rate)  !! (positions + rates) the first of a state [any]
 
       self%motion%t = t
-      if (self%reduced%known%n > 0) call move_known(self%reduced%known, self%joints, t, self%motion)
+      if (self%reduced%known%n > 0) call self%reduced%known%move(self%joints, t, self%motion)
       associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
          if (n > 0) call self%coordinates%move(n, self%rows%unknown, y, y(nq + 1:), self%motion)
-         if (guided%n > 0) call move_guided(guided, y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:), self%motion)
+         if (guided%n > 0) call guided%move(y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:), self%motion)
       end associate
    end subroutine linkage_move
 
@@ -115,7 +113,7 @@ contains
       integer :: k
 
       call self%coordinates%move(self%bodies%n, [(k, k=1, self%bodies%n)], q, v, self%motion)
-      self%reduced%known%t = -huge(1.0_wp)
+      if (allocated(self%reduced%known)) self%reduced%known%t = -huge(1.0_wp)
    end subroutine linkage_place_bodies
 
    !> The state that coordinates and rates of all bodies are. Joints of guided bodies are fulfilled.
@@ -135,7 +133,7 @@ contains
             y(nq + n_v*(k - 1) + 1:nq + n_v*k) = v(n_v*(body - 1) + 1:n_v*body)
          end do
          if (guided%n == 0) return
-         call guided_coordinates(guided, self%motion, y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:))
+         call guided%read_coordinates(self%motion, y(nq - guided%n + 1:nq), y(nq + self%n_rate - guided%n + 1:))
       end associate
    end subroutine linkage_take_state
 
@@ -157,7 +155,7 @@ contains
 
       associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
          if (n > 0) call self%coordinates%accelerate(n, self%rows%unknown, ydot(nq + 1:), self%motion)
-         if (guided%n > 0) call set_guided_acceleration(guided, ydot(nq + self%n_rate - guided%n + 1:), self%motion)
+         if (guided%n > 0) call guided%set_acceleration(ydot(nq + self%n_rate - guided%n + 1:), self%motion)
       end associate
    end subroutine linkage_set_acceleration
 
@@ -199,7 +197,7 @@ contains
 
       status = 0
       if (with_guided .and. self%reduced%guided%n > 0) then
-         call guided_response(self%reduced%guided, g, must_agree, self%motion%alpha, self%solution%a)
+         call self%reduced%guided%response(g, must_agree, self%motion, self%solution%a)
       end if
       if (self%rows%n_unknown == 0) return
       call self%solution%find(self%inverse_mass, self%rows, g, must_agree, status)
@@ -258,14 +256,13 @@ contains
       end do
       associate (known => self%reduced%known, guided => self%reduced%guided, solution => self%solution)
          do k = 1, known%n
-            call copy(known%item(k)%body)
+            call copy(known%held(k)%body)
          end do
          do k = 1, guided%n
-            call copy(guided%item(k)%body)
+            call copy(guided%held(k)%body)
          end do
-         call find_guided_multipliers(guided, self%rows, self%bodies%n, self%mass, g, solution%a, solution%lambda)
-         call find_multipliers(known, self%rows, self%reduced%carried, self%bodies%n, self%mass, g, solution%a, self%rest, &
-                               solution%lambda)
+         call guided%find_multipliers(self%rows, self%mass, g, solution%a, solution%lambda)
+         call known%find_multipliers(self%rows, self%reduced%carried, self%mass, g, solution%a, self%rest, solution%lambda)
       end associate
 
    contains

@@ -1,6 +1,5 @@
 !> The right-hand side: loads, rows, accelerations, and what is integrated besides.
 submodule(mechanism) mechanism_evaluation
-   use guided_motion, only: guided_rates, set_guided_acceleration
    use loading, only: start_loads
    use motion, only: loads_t, motion_t
    implicit none (type, external)
@@ -42,9 +41,9 @@ contains
          end if
          if (guided%n > 0) then
             associate (last => nq + linkage%n_rate - guided%n)
-               call guided_rates(guided%n, guided%n_turning, guided%item, linkage%bodies%n, self%loading%g, y(last + 1:), &
+               call guided%rates(linkage%coordinates%n_v, linkage%bodies%n, self%loading%g, y(last + 1:), &
                                  ydot(nq - guided%n + 1:), ydot(last + 1:), status)
-               if (with_powers) call set_guided_acceleration(guided, ydot(last + 1:), linkage%motion)
+               if (with_powers) call guided%set_acceleration(ydot(last + 1:), linkage%motion)
             end associate
          end if
       end associate

@@ -3,7 +3,6 @@ submodule(mechanism) mechanism_powers
    use clearance_set, only: loss_contact, loss_friction
    use contact_places, only: lost_damper, n_loss, place_of_film_loss, place_of_joint_loss, place_of_loss, work_drive, work_load, &
       work_stabilisation
-   use known_motion, only: power_of_known
    implicit none (type, external)
 
 contains
@@ -17,9 +16,8 @@ contains
       associate (linkage => self%linkage, rows => self%linkage%rows, motion => self%linkage%motion, &
                  driven => self%linkage%reduced%driven)
          if (linkage%reduced%known%n > 0) then
-            power(work_drive) = power_of_known(size(driven), driven, size(rows%known, 2), rows%known, linkage%bodies%n, rows%n, &
-                                               linkage%mass, self%loading%g, rows%jac, linkage%solution%lambda, motion%v, &
-                                               motion%omega, motion%a, motion%alpha)
+            power(work_drive) = linkage%reduced%known%power(driven, rows, linkage%mass, self%loading%g, &
+                                                             linkage%solution%lambda, motion)
          end if
          do k = 1, rows%n_solve
             power(work_drive) = power(work_drive) + linkage%solution%lambda(k)*rows%phi_t(k)

@@ -94,7 +94,7 @@ contains
             rate = 0.0_wp
             if (linkage%rows%n_unknown > 0) rate = coordinates%greatest_rate(linkage%rows%n_unknown, y(nq + 1:), length)
             do k = 1, known%n
-               rate = max(rate, coordinates%rate_of(linkage%motion, known%item(k)%body, length))
+               rate = max(rate, coordinates%rate_of(linkage%motion, known%held(k)%body, length))
             end do
             do k = last + 1, last + guided%n_turning
                rate = max(rate, abs(y(k)))
@@ -158,7 +158,7 @@ contains
       if (status /= 0) return
       associate (linkage => self%linkage, coordinates => self%linkage%coordinates, scales => self%linkage%scales)
          do k = 1, linkage%reduced%known%n
-            call coordinates%find_acceleration(linkage%motion, linkage%reduced%known%item(k)%body, acceleration)
+            call coordinates%find_acceleration(linkage%motion, linkage%reduced%known%held(k)%body, acceleration)
             scales%pace = max(scales%pace, sqrt(coordinates%greatest_rate(1, acceleration, scales%length)))
          end do
       end associate

@@ -203,6 +203,27 @@ def test_slider_crank_in_three_models(gudgeon):
         near(of[name][:, 0], of["planar"][:, 0], 1e-9, f"{name}: onsets")
 
 
+def slider_crank_in_space():
+    """The deck of section 4.4 with its table of bodies, axes and gravity in space; nothing of the motion depends on ixx and iyy."""
+    text = deck("slider_crank_dry.deck").replace("= planar", "= spatial").replace("gravity  = 0 0 m/s^2", "gravity = 0 0 0 m/s^2")
+    text = re.sub(r"(?m)^name +mass.*$", "name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[mm]", text)
+    text = re.sub(r"(?m)^(crank|rod|slider) +(0\.\d+) +(\S+) +(\d+) +0 +0$", r"\1 \2 \3 \3 \3 \4", text)
+    text = re.sub(r"(?m)^name +i +j +axis +#.*$", "name i j axis_i", text)
+    return re.sub(r"(?m)^guide +main +pin +x$", 'guide main pin "1 0 0"', text)
+
+
+def test_planar_deck_in_space(gudgeon):
+    """Section 4.4: onsets of the first five impacts are those of the plane; the same bodies leave the unknowns."""
+    settings = {"end": "3 ms", "tolerance": "1e-11", "method": "dop853"}
+    text = slider_crank_in_space()
+    plane, space = (first_impacts(run_text(gudgeon, t, **settings), 5) for t in (deck("slider_crank_dry.deck"), text))
+    near(space[:, 0], plane[:, 0], 1e-9, "onsets")
+    near(space[:, 1] / plane[:, 1], np.ones(5), 1e-6, "speeds")
+    explained = call(gudgeon, "explain", written(scratch(), text)).stdout
+    assert "'crank' moves as a known function of time" in explained
+    assert "2 coordinates unknown, 0 rows solved" in explained
+
+
 def test_full_stiffness_at_each_base(gudgeon):
     """The book's stiffness: shorter and harder by the known factors."""
     half = first_impacts(run_text(gudgeon, deck("slider_crank_6_6_bushing.deck"), end="0.6 ms", tolerance="1e-10"), 1)[0]

@@ -1,28 +1,21 @@
 !> Bodies whose motion is a known function of time, against the same deck with all bodies among the unknowns.
-!>
-!> At any state of the other bodies, and with the known ones where their drivers want them, both systems of equations must
-!> give the same accelerations, reactions, driving moments and powers: nothing but which rows are solved for differs.
+!> See `reduction_comparison`.
 module test_known_bodies
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use augmented, only: augmented_t
-   use catalogue, only: catalogue_t
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t
-   use fixed_random, only: random_t
-   use kinds, only: i8, two_pi, wp
-   use mechanism_energy, only: energy_of, energy_t
-   use mechanism_report, only: build_catalogue, report_state
+   use kinds, only: two_pi, wp
    use mechanism, only: mechanism_t
+   use mechanism_energy, only: energy_of, energy_t
    use recorder, only: summary_t
+   use reduction_comparison, only: both_systems, compare_at, compare_often, complete_state, with_word, words
    use scene_fixture, only: nl, slider_crank, start_text, system_of_text
    use solver_registry, only: n_solver_kinds, new_solver
-   use text, only: replace, to_text
+   use text, only: replace
    implicit none (type, external)
    private
    public :: run_test_known_bodies
-
-   character(*), parameter :: words(2) = ["full  ", "fewest"]  !! words of `coordinates`
 
    !> Two driven links in series, the second joint with its body i as the moving one; a plate welded to the second link,
    !> a free hand on the plate, a spring, gravity.
@@ -58,128 +51,6 @@ contains
       call suite%test("works", test_works)
    end subroutine run_test_known_bodies
 
-   !> A deck with its driven bodies among the unknowns, or not.
-   function with_word(deck, word) result(text)
-      character(*), intent(in) :: deck     !! the deck without that key, [analysis.dynamic] at its end
-      character(*), intent(in) :: word     !! full or fewest
-      character(:), allocatable :: text    !! with it
-
-      text = replace(deck, "coordinates = full"//nl, "")//nl//"coordinates = "//trim(word)
-   end function with_word
-
-   !> Both systems of a deck.
-   subroutine both_systems(deck, n_known, full, small, start, error)
-      character(*), intent(in) :: deck                        !! the deck
-      integer, intent(in) :: n_known                          !! bodies that must be known
-      type(mechanism_t), intent(out) :: full              !! with all bodies unknown
-      type(mechanism_t), intent(out) :: small             !! without the known ones
-      real(wp), allocatable, intent(out) :: start(:)          !! (small's n) state at t = 0 of the latter [any]
-      type(error_t), allocatable, intent(inout) :: error      !! first failure
-
-      call system_of_text(with_word(deck, words(1)), full, error)
-      if (allocated(error)) return
-      call start_text(with_word(deck, words(2)), small, start, error)
-      if (allocated(error)) return
-      call check_equal(error, full%linkage%reduced%known%n, 0, "known bodies, unknown")
-      call check_equal(error, small%linkage%reduced%known%n, n_known, "known bodies")
-   end subroutine both_systems
-
-   !> State of all bodies from that of the unknown ones and the time.
-   subroutine complete_state(small, t, y, full)
-      type(mechanism_t), intent(inout) :: small   !! the system without the known bodies
-      real(wp), intent(in) :: t                       !! time [s]
-      real(wp), intent(in) :: y(:)                    !! (small's n) its state [any]
-      real(wp), intent(out) :: full(:)                !! (full's n) state of all bodies, works as those of y [any]
-
-      integer :: k, n
-
-      n = small%linkage%bodies%n
-      call small%linkage%set_motion(t, y)
-      do k = 1, n
-         full(3*k - 2:3*k) = [small%linkage%motion%r(1:2, k), small%linkage%motion%angle(k)]
-         full(3*n + 3*k - 2:3*n + 3*k) = [small%linkage%motion%v(1:2, k), small%linkage%motion%omega(3, k)]
-      end do
-      full(6*n + 1:) = y(2*small%n_position + 1:)
-   end subroutine complete_state
-
-   !> All that both systems report at a time, the unknown bodies somewhat out of place, as if nothing held them exactly.
-   subroutine compare_at(full, small, t, y, error)
-      type(mechanism_t), intent(inout) :: full        !! with all bodies unknown
-      type(mechanism_t), intent(inout) :: small       !! without the known ones
-      real(wp), intent(in) :: t                           !! time [s]
-      real(wp), intent(in) :: y(:)                        !! (small's n) a state [any]
-      type(error_t), allocatable, intent(inout) :: error  !! first failure
-
-      type(catalogue_t) :: of_full, of_small
-      real(wp) :: rate_full(full%n), rate_small(small%n), y_full(full%n)
-      integer :: k, other, status
-
-      if (allocated(error)) return
-      call complete_state(small, t, y, y_full)
-      call build_catalogue(full, of_full)
-      call build_catalogue(small, of_small)
-      rate_full = 0.0_wp
-      rate_small = 0.0_wp
-      call report_state(small, t, y, rate_small, 0.0_wp, of_small, status)
-      call check_equal(error, status, 0, "status without the known bodies")
-      call report_state(full, t, y_full, rate_full, 0.0_wp, of_full, status)
-      call check_equal(error, status, 0, "status")
-      call check_equal(error, size(of_small%groups), size(of_full%groups), "groups")
-      if (allocated(error)) return
-      do k = 1, size(of_full%groups)
-         associate (room => of_full%groups(k)%room, name => of_full%groups(k)%channel%name)
-            other = of_small%find_group(room, name)
-            call check_true(error, other > 0, name//" is reported by both")
-            if (allocated(error)) return
-            call compare(of_small%groups(other)%data, of_full%groups(k)%data, of_full%rooms(room)%name//" "//name)
-         end associate
-      end do
-      k = 6*full%linkage%bodies%n
-      call check_close(error, rate_small(2*small%n_position + 1:), rate_full(k + 1:), 1.0e-10_wp*maxval(abs(rate_full(k + 1:))), &
-                       "powers at t = "//to_text(t))
-
-   contains
-
-      !> Compare a channel of all items.
-      subroutine compare(actual, expected, name)
-         real(wp), intent(in) :: actual(:, :)     !! (components, items) values [any]
-         real(wp), intent(in) :: expected(:, :)   !! (components, items) values [any]
-         character(*), intent(in) :: name         !! the channel
-
-         real(wp), allocatable :: a(:), e(:)
-
-         call check_true(error, all(ieee_is_nan(actual) .eqv. ieee_is_nan(expected)), "the same items have "//name)
-         a = pack(actual, .not. ieee_is_nan(actual))
-         e = pack(expected, .not. ieee_is_nan(expected))
-         call check_close(error, a, e, 1.0e-10_wp*max(1.0e-3_wp, maxval(abs(e))), name//" at t = "//to_text(t))
-      end subroutine compare
-
-   end subroutine compare_at
-
-   !> Random states about a start at random times.
-   subroutine compare_often(deck, n_known, t_end, error)
-      character(*), intent(in) :: deck                    !! the deck
-      integer, intent(in) :: n_known                      !! bodies that must be known
-      real(wp), intent(in) :: t_end                       !! greatest time [s]
-      type(error_t), allocatable, intent(inout) :: error  !! first failure
-
-      type(mechanism_t) :: full, small
-      type(random_t) :: random
-      real(wp), allocatable :: start(:), y(:)
-      integer :: k, n
-
-      call both_systems(deck, n_known, full, small, start, error)
-      if (allocated(error)) return
-      random%state = 81_i8
-      n = small%n_position
-      do k = 1, 10
-         y = start
-         y(1:n) = y(1:n) + random%vector(n, -0.01_wp, 0.01_wp)
-         y(n + 1:2*n) = y(n + 1:2*n) + random%vector(n, -3.0_wp, 3.0_wp)
-         call compare_at(full, small, random%between(0.0_wp, t_end), y, error)
-      end do
-   end subroutine compare_often
-
    !> A crank at constant speed.
    subroutine test_slider_crank(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
@@ -212,7 +83,7 @@ contains
          call compare_at(full, small, 0.0_wp, y, error)
          if (allocated(error)) return
          call check_true(error, maxval(abs(small%loose%losses)) > 0.0_wp, "the contact loses energy")
-         call check_true(error, abs(small%linkage%solution%lambda(small%linkage%reduced%known%item(1)%row(3))) > 0.1_wp, &
+         call check_true(error, abs(small%linkage%solution%lambda(small%linkage%reduced%known%held(1)%row(3))) > 0.1_wp, &
                          "the driver carries it")
       end do
    end subroutine test_contact_on_a_known_body
@@ -329,7 +200,7 @@ contains
              one%linkage%motion%alpha(3, 2)]
          call check_close(error, ydot_two(7:12), a, 1.0e-9_wp, "accelerations with two drivers, "//solver%name(), relative=.true.)
          call one%linkage%find_reactions(0.3_wp, one%loading%g)
-         associate (moment => one%linkage%solution%lambda(one%linkage%reduced%known%item(1)%row(3)), &
+         associate (moment => one%linkage%solution%lambda(one%linkage%reduced%known%held(1)%row(3)), &
                     shares => two%linkage%solution%lambda(size(two%linkage%solution%lambda) - 1:))
             call check_close(error, shares, 0.5_wp*[moment, moment], 1.0e-6_wp, "halves of the moment, "//solver%name(), &
                              relative=.true.)

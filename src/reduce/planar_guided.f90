@@ -1,4 +1,4 @@
-!> Bodies that one ideal joint ties to the ground or to a body of known motion, and nothing else: one coordinate describes each.
+!> Guided bodies of the plane: see `reduced_bodies`.
 !>
 !> The coordinate x is the angle of the body for a revolute joint, its way along the axis for a translational one:
 !>
@@ -10,27 +10,19 @@
 !>
 !> turning:  (I + m |d|^2) x'' = M + R90 d . (F - m a_0),         sliding:  m x'' = u . (F - m a_0).
 !>
-!> The two rows of the joint leave the equations; their multipliers come back by inverse dynamics, the least-squares solution of
-!> Phi_q^T lambda = g - M a in the metric of the masses, which is exact: the right-hand side has no part along the freedom.
-!>
-!> Signs: as the rows of the joints; the reaction on a body is -Phi_q^T lambda.
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14), in the coordinate of the joint. Limits: the axis is fixed in the base.
-module guided_motion
+module planar_guided
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use rows, only: rows_t
    use kinds, only: wp
    use motion, only: motion_t
+   use reduced_bodies, only: guided_bodies_t, held_t
+   use rows, only: rows_t
    implicit none (type, external)
    private
-   public :: find_guided_multipliers, guided_coordinates, guided_rates, guided_response, guided_t, move_guided
-   public :: set_guided_acceleration
+   public :: planar_guide_t, planar_guided_t
 
    !> One guided body.
-   type :: guided_body_t
-      integer :: body = 0                  !! the body
-      integer :: base = 0                  !! what it is tied to, 0: the ground
-      integer :: row(2) = 0                !! (2) rows of the joint
-      integer :: side = 0                  !! side of the body in them, 1: i, 2: j
+   type :: planar_guide_t
       real(wp) :: arm(2) = 0.0_wp          !! (2) d in the frame of the body; sliding: u in that of the base [m or 1]
       real(wp) :: s_base(2) = 0.0_wp       !! (2) P, sliding: centre of mass at x = 0; frame of the base [m]
       real(wp) :: turned(2) = 0.0_wp       !! (2) sliding: cosine and sine of the next [1]
@@ -40,38 +32,45 @@ module guided_motion
       ! of the motion that is set
       real(wp) :: along(2) = 0.0_wp        !! (2) change of the centre of mass per coordinate, world frame [m or 1]
       real(wp) :: a_0(2) = 0.0_wp          !! (2) acceleration of the centre of mass at x'' = 0 [m/s^2]
-   end type guided_body_t
+   end type planar_guide_t
 
-   !> The guided bodies: those that turn, then those that slide.
-   type :: guided_t
-      integer :: n = 0                                !! number of guided bodies
-      integer :: n_turning = 0                        !! those of them that turn, the first ones
-      type(guided_body_t), allocatable :: item(:)     !! (n) the bodies
-   end type guided_t
+   !> All of them.
+   type, extends(guided_bodies_t) :: planar_guided_t
+      type(planar_guide_t), allocatable :: item(:)   !! (n) the bodies
+   contains
+      procedure :: move => planar_move
+      procedure :: rates => planar_rates
+      procedure :: response => planar_response
+      procedure :: set_acceleration => planar_set_acceleration
+      procedure :: read_coordinates => planar_read_coordinates
+      procedure :: find_multipliers => planar_find_multipliers
+   end type planar_guided_t
 
 contains
 
    include "../math/sine_cosine.inc"
 
    !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.
-   pure subroutine move_guided(guided, x, x_dot, motion)
-      type(guided_t), intent(inout) :: guided    !! the bodies
-      real(wp), intent(in) :: x(guided%n)        !! (n) coordinates [rad or m]
-      real(wp), intent(in) :: x_dot(guided%n)    !! (n) their rates [rad/s or m/s]
-      type(motion_t), intent(inout) :: motion    !! the motion of the guided bodies is set
+   pure subroutine planar_move(self, x, x_dot, motion)
+      class(planar_guided_t), intent(inout) :: self   !! the bodies
+      real(wp), intent(in) :: x(self%n)               !! (n) coordinates [rad or m]
+      real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
+      type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
 
-      associate (n => guided%n_turning, n_body => ubound(motion%angle, 1))
-         call place_turning(n, guided%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
+      associate (n => self%n_turning, n_body => ubound(motion%angle, 1))
+         call place_turning(n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
                             motion%omega, motion%angle)
-         call place_sliding(guided%n - n, guided%item(n + 1:), x(n + 1:), x_dot(n + 1:), n_body, motion%a, motion%alpha, &
-                            motion%r, motion%rot, motion%v, motion%omega, motion%angle)
+         if (n == self%n) return
+         call place_sliding(n, self%n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, &
+                            motion%v, motion%omega, motion%angle)
       end associate
-   end subroutine move_guided
+   end subroutine planar_move
 
    !> The bodies that turn, on plain arrays.
-   pure subroutine place_turning(n, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
+   pure subroutine place_turning(n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
       integer, intent(in) :: n                              !! number of bodies that turn
-      type(guided_body_t), intent(inout) :: item(n)         !! (n) these bodies, moved
+      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
+      type(planar_guide_t), intent(inout) :: item(n)         !! (n) these bodies, moved
       real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad]
       real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [rad/s]
       integer, intent(in) :: n_body                         !! number of bodies
@@ -87,7 +86,7 @@ contains
       integer :: a, b, k
 
       do k = 1, n
-         b = item(k)%body
+         b = held(k)%body
          w = x_dot(k)
          call sine_cosine(x(k), s, c)
          d(1) = c*item(k)%arm(1) - s*item(k)%arm(2)
@@ -106,9 +105,9 @@ contains
          v(2, b) = w*d(1)
          item(k)%a_0(1) = -w*w*d(1)
          item(k)%a_0(2) = -w*w*d(2)
-         if (item(k)%base == 0) cycle
+         if (held(k)%base == 0) cycle
          ! what the motion of the base adds
-         a = item(k)%base
+         a = held(k)%base
          w = omega(3, a)
          e = alpha(3, a)
          p(1) = rot(1, 1, a)*item(k)%s_base(1) + rot(1, 2, a)*item(k)%s_base(2)
@@ -123,9 +122,11 @@ contains
    end subroutine place_turning
 
    !> The bodies that slide, on plain arrays.
-   pure subroutine place_sliding(n, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
-      integer, intent(in) :: n                              !! number of bodies that slide
-      type(guided_body_t), intent(inout) :: item(n)         !! (n) these bodies, moved
+   pure subroutine place_sliding(n_turning, n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, angle)
+      integer, intent(in) :: n_turning                      !! number of bodies that turn, the first ones
+      integer, intent(in) :: n                              !! number of guided bodies
+      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
+      type(planar_guide_t), intent(inout) :: item(n)         !! (n) the bodies, those that slide are moved
       real(wp), intent(in) :: x(n)                          !! (n) coordinates [m]
       real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [m/s]
       integer, intent(in) :: n_body                         !! number of bodies
@@ -140,11 +141,11 @@ contains
       real(wp) :: d(2), e, p(2), q(2), w
       integer :: a, b, k
 
-      do k = 1, n
-         b = item(k)%body
+      do k = n_turning + 1, n
+         b = held(k)%body
          p(1) = item(k)%s_base(1) + x(k)*item(k)%arm(1)
          p(2) = item(k)%s_base(2) + x(k)*item(k)%arm(2)
-         if (item(k)%base == 0) then
+         if (held(k)%base == 0) then
             angle(b) = item(k)%offset
             rot(1, 1, b) = item(k)%turned(1)
             rot(2, 1, b) = item(k)%turned(2)
@@ -158,7 +159,7 @@ contains
             v(2, b) = x_dot(k)*item(k)%arm(2)
             cycle
          end if
-         a = item(k)%base
+         a = held(k)%base
          w = omega(3, a)
          e = alpha(3, a)
          d(1) = rot(1, 1, a)*item(k)%arm(1) + rot(1, 2, a)*item(k)%arm(2)
@@ -183,10 +184,25 @@ contains
    end subroutine place_sliding
 
    !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
-   pure subroutine guided_rates(n, n_turning, item, n_body, g, x_dot, rate, x_ddot, status)
+   pure subroutine planar_rates(self, n_v, n_body, g, x_dot, rate, x_ddot, status)
+      class(planar_guided_t), intent(in) :: self       !! the bodies, moved
+      integer, intent(in) :: n_v                       !! rates of a body
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(in) :: g(n_v, 0:n_body)         !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in) :: x_dot(self%n)            !! (n) rates of the coordinates [rad/s or m/s]
+      real(wp), intent(inout) :: rate(self%n)          !! (n) the same, derivatives of the coordinates [rad/s or m/s]
+      real(wp), intent(inout) :: x_ddot(self%n)        !! (n) second derivatives [rad/s^2 or m/s^2]
+      integer, intent(out) :: status                   !! 0: all finite
+
+      call find_rates(self%n, self%n_turning, self%held, self%item, n_body, g, x_dot, rate, x_ddot, status)
+   end subroutine planar_rates
+
+   !> The same on plain arrays.
+   pure subroutine find_rates(n, n_turning, held, item, n_body, g, x_dot, rate, x_ddot, status)
       integer, intent(in) :: n                         !! number of guided bodies
       integer, intent(in) :: n_turning                 !! those that turn
-      type(guided_body_t), intent(in) :: item(n)       !! (n) the bodies, moved
+      type(held_t), intent(in) :: held(n)              !! (n) how they are held
+      type(planar_guide_t), intent(in) :: item(n)      !! (n) the bodies, moved
       integer, intent(in) :: n_body                    !! number of bodies
       real(wp), intent(in) :: g(3, 0:n_body)           !! (3, 0:bodies) applied loads [N, N, N.m]
       real(wp), intent(in) :: x_dot(n)                 !! (n) rates of the coordinates [rad/s or m/s]
@@ -200,7 +216,7 @@ contains
       sum = 0.0_wp
       !GCC$ novector
       do k = 1, n
-         b = item(k)%body
+         b = held(k)%body
          rate(k) = x_dot(k)
          load = item(k)%along(1)*(g(1, b) - item(k)%mass*item(k)%a_0(1)) + item(k)%along(2)*(g(2, b) - item(k)%mass*item(k)%a_0(2))
          if (k <= n_turning) load = load + g(3, b)
@@ -208,45 +224,46 @@ contains
          sum = sum + abs(x_ddot(k))
       end do
       status = merge(0, 1, ieee_is_finite(sum))
-   end subroutine guided_rates
+   end subroutine find_rates
 
    !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
    !> add to them.
-   pure subroutine guided_response(guided, g, with_own, alpha, a)
-      type(guided_t), intent(in) :: guided             !! the bodies, moved
-      real(wp), intent(in) :: g(:, 0:)                 !! (3, 0:bodies) loads [N, N, N.m]
+   pure subroutine planar_response(self, g, with_own, motion, a)
+      class(planar_guided_t), intent(in) :: self       !! the bodies, moved
+      real(wp), intent(in), contiguous :: g(:, 0:)     !! (3, 0:bodies) loads [N, N, N.m]
       logical, intent(in) :: with_own                  !! with the accelerations by the motion
-      real(wp), intent(in) :: alpha(:, 0:)             !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
-      real(wp), intent(inout) :: a(:, 0:)              !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      type(motion_t), intent(in) :: motion             !! accelerations of the bases
+      real(wp), intent(inout), contiguous :: a(:, 0:)  !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
 
       real(wp) :: a_0(2), x_ddot
       integer :: b, k
 
-      do k = 1, guided%n
-         b = guided%item(k)%body
-         a_0 = merge(guided%item(k)%a_0, 0.0_wp, with_own)
-         x_ddot = dot_product(guided%item(k)%along, g(1:2, b) - guided%item(k)%mass*a_0)
-         if (k <= guided%n_turning) x_ddot = x_ddot + g(3, b)
-         x_ddot = guided%item(k)%ease*x_ddot
-         a(1:2, b) = a_0 + x_ddot*guided%item(k)%along
-         a(3, b) = merge(x_ddot, merge(alpha(3, guided%item(k)%base), 0.0_wp, with_own), k <= guided%n_turning)
+      do k = 1, self%n
+         b = self%held(k)%body
+         a_0 = merge(self%item(k)%a_0, 0.0_wp, with_own)
+         x_ddot = dot_product(self%item(k)%along, g(1:2, b) - self%item(k)%mass*a_0)
+         if (k <= self%n_turning) x_ddot = x_ddot + g(3, b)
+         x_ddot = self%item(k)%ease*x_ddot
+         a(1:2, b) = a_0 + x_ddot*self%item(k)%along
+         a(3, b) = merge(x_ddot, merge(motion%alpha(3, self%held(k)%base), 0.0_wp, with_own), k <= self%n_turning)
       end do
-   end subroutine guided_response
+   end subroutine planar_response
 
    !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
-   pure subroutine set_guided_acceleration(guided, x_ddot, motion)
-      type(guided_t), intent(in) :: guided             !! the bodies, moved
-      real(wp), intent(in) :: x_ddot(guided%n)         !! (n) second derivatives [rad/s^2 or m/s^2]
-      type(motion_t), intent(inout) :: motion          !! accelerations of the guided bodies are set
+   pure subroutine planar_set_acceleration(self, x_ddot, motion)
+      class(planar_guided_t), intent(in) :: self      !! the bodies, moved
+      real(wp), intent(in) :: x_ddot(self%n)          !! (n) second derivatives [rad/s^2 or m/s^2]
+      type(motion_t), intent(inout) :: motion         !! accelerations of the guided bodies are set
 
-      call accelerate(guided%n, guided%n_turning, guided%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
-   end subroutine set_guided_acceleration
+      call accelerate(self%n, self%n_turning, self%held, self%item, x_ddot, ubound(motion%angle, 1), motion%a, motion%alpha)
+   end subroutine planar_set_acceleration
 
    !> The same on plain arrays.
-   pure subroutine accelerate(n, n_turning, item, x_ddot, n_body, a, alpha)
+   pure subroutine accelerate(n, n_turning, held, item, x_ddot, n_body, a, alpha)
       integer, intent(in) :: n                         !! number of guided bodies
       integer, intent(in) :: n_turning                 !! those that turn
-      type(guided_body_t), intent(in) :: item(n)       !! (n) the bodies, moved
+      type(held_t), intent(in) :: held(n)              !! (n) how they are held
+      type(planar_guide_t), intent(in) :: item(n)      !! (n) the bodies, moved
       real(wp), intent(in) :: x_ddot(n)                !! (n) second derivatives [rad/s^2 or m/s^2]
       integer, intent(in) :: n_body                    !! number of bodies
       real(wp), intent(inout) :: a(3, 0:n_body)        !! (3, 0:bodies) accelerations [m/s^2]
@@ -255,68 +272,69 @@ contains
       integer :: b, k
 
       do k = 1, n
-         b = item(k)%body
+         b = held(k)%body
          a(1, b) = item(k)%a_0(1) + x_ddot(k)*item(k)%along(1)
          a(2, b) = item(k)%a_0(2) + x_ddot(k)*item(k)%along(2)
          if (k <= n_turning) then
             alpha(3, b) = x_ddot(k)
          else
-            alpha(3, b) = alpha(3, item(k)%base)
+            alpha(3, b) = alpha(3, held(k)%base)
          end if
       end do
    end subroutine accelerate
 
    !> Coordinates and rates from a motion of all bodies that fulfils the joints.
-   pure subroutine guided_coordinates(guided, motion, x, x_dot)
-      type(guided_t), intent(in) :: guided        !! the bodies
-      type(motion_t), intent(in) :: motion        !! positions and velocities
-      real(wp), intent(out) :: x(guided%n)        !! (n) coordinates [rad or m]
-      real(wp), intent(out) :: x_dot(guided%n)    !! (n) their rates [rad/s or m/s]
+   pure subroutine planar_read_coordinates(self, motion, x, x_dot)
+      class(planar_guided_t), intent(in) :: self      !! the bodies
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+      real(wp), intent(out) :: x(self%n)              !! (n) coordinates [rad or m]
+      real(wp), intent(out) :: x_dot(self%n)          !! (n) their rates [rad/s or m/s]
 
       real(wp) :: from_base(2), start(2), u(2)
       integer :: a, b, k
 
-      do k = 1, guided%n
-         a = guided%item(k)%base
-         b = guided%item(k)%body
-         if (k <= guided%n_turning) then
+      do k = 1, self%n
+         a = self%held(k)%base
+         b = self%held(k)%body
+         if (k <= self%n_turning) then
             x(k) = motion%angle(b)
             x_dot(k) = motion%omega(3, b)
             cycle
          end if
-         u = matmul(motion%rot(1:2, 1:2, a), guided%item(k)%arm)
-         start = matmul(motion%rot(1:2, 1:2, a), guided%item(k)%s_base)
+         u = matmul(motion%rot(1:2, 1:2, a), self%item(k)%arm)
+         start = matmul(motion%rot(1:2, 1:2, a), self%item(k)%s_base)
          from_base = motion%r(1:2, b) - motion%r(1:2, a)
          x(k) = dot_product(u, from_base - start)
          x_dot(k) = dot_product(u, motion%v(1:2, b) - motion%v(1:2, a) - motion%omega(3, a)*[-from_base(2), from_base(1)])
       end do
-   end subroutine guided_coordinates
+   end subroutine planar_read_coordinates
 
    !> Multipliers of the rows of the guided bodies' joints. All rows are evaluated.
-   pure subroutine find_guided_multipliers(guided, rows, n_body, mass, g, a, lambda)
-      type(guided_t), intent(in) :: guided        !! the bodies
-      type(rows_t), intent(in) :: rows            !! all rows
-      integer, intent(in) :: n_body               !! number of bodies
-      real(wp), intent(in) :: mass(3, n_body)     !! (3, bodies) masses [kg, kg, kg.m^2]
-      real(wp), intent(in) :: g(3, 0:n_body)      !! (3, 0:bodies) applied loads [N, N, N.m]
-      real(wp), intent(in) :: a(3, 0:n_body)      !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
-      real(wp), intent(inout) :: lambda(rows%n)   !! (rows) multipliers; those of the joints' rows are set [N or N.m]
+   subroutine planar_find_multipliers(self, rows, mass, g, a, lambda)
+      class(planar_guided_t), intent(in) :: self          !! the bodies
+      type(rows_t), intent(in) :: rows                    !! all rows
+      real(wp), intent(in), contiguous :: mass(:, :)      !! (3, bodies) masses [kg, kg, kg.m^2]
+      real(wp), intent(in), contiguous :: g(:, 0:)        !! (3, 0:bodies) applied loads [N, N, N.m]
+      real(wp), intent(in), contiguous :: a(:, 0:)        !! (3, 0:bodies) accelerations [m/s^2, m/s^2, rad/s^2]
+      real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints' rows are set [N or N.m]
 
       real(wp) :: determinant, p(3), q(3), rest(3), s(3), x(2)
       integer :: b, k, place
 
-      do k = 1, guided%n
-         b = guided%item(k)%body
-         place = 3*(guided%item(k)%side - 1)
-         p = rows%jac(place + 1:place + 3, guided%item(k)%row(1))
-         q = rows%jac(place + 1:place + 3, guided%item(k)%row(2))
-         rest = g(:, b)/mass(:, b) - a(:, b)
-         x = [dot_product(p, rest), dot_product(q, rest)]
-         s = [dot_product(p, p/mass(:, b)), dot_product(p, q/mass(:, b)), dot_product(q, q/mass(:, b))]
-         determinant = s(1)*s(3) - s(2)**2
-         lambda(guided%item(k)%row(1)) = (s(3)*x(1) - s(2)*x(2))/determinant
-         lambda(guided%item(k)%row(2)) = (s(1)*x(2) - s(2)*x(1))/determinant
+      do k = 1, self%n
+         associate (held => self%held(k))
+            b = held%body
+            place = 3*(held%side - 1)
+            p = rows%jac(place + 1:place + 3, held%row(1))
+            q = rows%jac(place + 1:place + 3, held%row(2))
+            rest = g(:, b)/mass(:, b) - a(:, b)
+            x = [dot_product(p, rest), dot_product(q, rest)]
+            s = [dot_product(p, p/mass(:, b)), dot_product(p, q/mass(:, b)), dot_product(q, q/mass(:, b))]
+            determinant = s(1)*s(3) - s(2)**2
+            lambda(held%row(1)) = (s(3)*x(1) - s(2)*x(2))/determinant
+            lambda(held%row(2)) = (s(1)*x(2) - s(2)*x(1))/determinant
+         end associate
       end do
-   end subroutine find_guided_multipliers
+   end subroutine planar_find_multipliers
 
-end module guided_motion
+end module planar_guided

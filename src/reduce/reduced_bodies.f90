@@ -1,0 +1,210 @@
+!> The contracts of bodies that are left out of the unknowns: those whose motion is a known function of time, and those with one
+!> coordinate.
+!>
+!> A known body is tied to the ground or to a known body by a driven joint that leaves a turn, or by a rigid one. Its coordinates
+!> leave the unknowns, and the rows that fix it, as many as it has rates, leave the equations. Their multipliers come back by
+!> inverse dynamics, body by body from the last to the first:
+!>
+!> Phi_b^T lambda = g_b - M_b a_b - ( Phi^T lambda of all other rows )_b.
+!>
+!> A guided body is tied to the ground or to a known body by one joint that leaves a turn or a way along an axis, and by nothing
+!> else: one coordinate describes it. The rows of the joint leave the equations; their multipliers are the least-squares solution of
+!> Phi_q^T lambda = g - M a in the metric of the masses, which is exact: the right-hand side has no part along the freedom.
+!>
+!> Signs: as the rows of the joints; the reaction on a body is -Phi_q^T lambda.
+!> Source: Flores et al. (2008), eqs. (2.1), (2.14), in the coordinates of the joints. Limits: those of the space, which has the
+!> kernels.
+module reduced_bodies
+   use coordinates, only: most_rates
+   use joint_set, only: joint_slot_t
+   use kinds, only: wp
+   use motion, only: motion_t
+   use rows, only: coordinate_place, place_in_row, rows_t
+   implicit none (type, external)
+   private
+   public :: guided_bodies_t, held_t, known_bodies_t
+
+   !> How a body is held.
+   type :: held_t
+      integer :: body = 0             !! the body
+      integer :: base = 0             !! what it is tied to, 0: the ground
+      integer :: side = 0             !! side of the body in the rows that hold it, 1: i, 2: j
+      integer :: row(most_rates) = 0  !! rows that hold it, as many as there are
+      integer :: slot = 0             !! set of its driver, 0: none
+      integer :: item = 0             !! item of the driver
+   end type held_t
+
+   !> Bodies of known motion, each after the body that it is tied to.
+   type, abstract :: known_bodies_t
+      integer :: n = 0                          !! number of known bodies
+      type(held_t), allocatable :: held(:)      !! (n) how they are held
+      real(wp) :: t = -huge(1.0_wp)             !! time of the motion that is set [s]
+      logical :: is_finite = .true.             !! whether that motion is finite numbers
+   contains
+      procedure(known_move_interface), deferred :: move
+      procedure(known_power_interface), deferred, nopass :: power
+      procedure(fixing_interface), deferred, nopass :: solve_fixing
+      procedure :: find_multipliers => known_find_multipliers
+   end type known_bodies_t
+
+   !> Bodies with one coordinate: those that turn, then those that slide.
+   type, abstract :: guided_bodies_t
+      integer :: n = 0                          !! number of guided bodies
+      integer :: n_turning = 0                  !! those of them that turn, the first ones
+      type(held_t), allocatable :: held(:)      !! (n) how they are held
+   contains
+      procedure(guided_move_interface), deferred :: move
+      procedure(guided_rates_interface), deferred :: rates
+      procedure(guided_response_interface), deferred :: response
+      procedure(guided_acceleration_interface), deferred :: set_acceleration
+      procedure(guided_coordinates_interface), deferred :: read_coordinates
+      procedure(guided_multipliers_interface), deferred :: find_multipliers
+   end type guided_bodies_t
+
+   abstract interface
+      !> Positions, velocities and accelerations of the known bodies at a time; nothing to do if that is their present time.
+      subroutine known_move_interface(self, joints, t, motion)
+         import :: joint_slot_t, known_bodies_t, motion_t, wp
+         implicit none (type, external)
+         class(known_bodies_t), intent(inout) :: self             !! the bodies
+         type(joint_slot_t), intent(in), contiguous :: joints(:)  !! (sets) joints and drivers
+         real(wp), intent(in) :: t                                !! time [s]
+         type(motion_t), intent(inout) :: motion                  !! the motion of the known bodies is set
+      end subroutine known_move_interface
+
+      !> Power that the drivers of known bodies give to the mechanism, with the bodies that they guide counted among them. The rows
+      !> that fix these bodies are fulfilled, so that it is lambda^T Phi_t = -lambda^T Phi_q v: what accelerates the bodies and what
+      !> the solved rows take from them, times their speed.
+      pure real(wp) function known_power_interface(driven, rows, mass, g, lambda, motion) result(power)
+         import :: motion_t, rows_t, wp
+         implicit none (type, external)
+         integer, intent(in), contiguous :: driven(:)        !! the known bodies, and those that they guide
+         type(rows_t), intent(in) :: rows                    !! the solved rows, evaluated
+         real(wp), intent(in), contiguous :: mass(:, :)      !! (n_v, bodies) masses [kg or kg.m^2]
+         real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) applied loads [N or N.m]
+         real(wp), intent(in), contiguous :: lambda(:)       !! (rows) multipliers of the solved rows [N or N.m]
+         type(motion_t), intent(in) :: motion                !! motion, with accelerations
+      end function known_power_interface
+
+      !> Solution of the equations of the multipliers that fix a body.
+      subroutine fixing_interface(matrix, x)
+         import :: wp
+         implicit none (type, external)
+         real(wp), intent(inout) :: matrix(:, :)   !! (n_v, n_v) gradients of the rows as columns, destroyed [1 or m]
+         real(wp), intent(inout) :: x(:)           !! (n_v) what they have to carry, then the multipliers [N or N.m]
+      end subroutine fixing_interface
+
+      !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too. No allocation.
+      pure subroutine guided_move_interface(self, x, x_dot, motion)
+         import :: guided_bodies_t, motion_t, wp
+         implicit none (type, external)
+         class(guided_bodies_t), intent(inout) :: self   !! the bodies
+         real(wp), intent(in) :: x(self%n)               !! (n) coordinates [rad or m]
+         real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
+         type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
+      end subroutine guided_move_interface
+
+      !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
+      pure subroutine guided_rates_interface(self, n_v, n_body, g, x_dot, rate, x_ddot, status)
+         import :: guided_bodies_t, wp
+         implicit none (type, external)
+         class(guided_bodies_t), intent(in) :: self          !! the bodies, moved
+         integer, intent(in) :: n_v                          !! rates of a body
+         integer, intent(in) :: n_body                       !! number of bodies
+         real(wp), intent(in) :: g(n_v, 0:n_body)            !! (n_v, 0:bodies) applied loads [N or N.m]
+         real(wp), intent(in) :: x_dot(self%n)               !! (n) rates of the coordinates [rad/s or m/s]
+         real(wp), intent(inout) :: rate(self%n)             !! (n) the same, derivatives of the coordinates [rad/s or m/s]
+         real(wp), intent(inout) :: x_ddot(self%n)           !! (n) second derivatives [rad/s^2 or m/s^2]
+         integer, intent(out) :: status                      !! 0: all finite
+      end subroutine guided_rates_interface
+
+      !> Accelerations of the guided bodies under loads, with those that they have by their motion or without: then what the loads
+      !> add to them.
+      pure subroutine guided_response_interface(self, g, with_own, motion, a)
+         import :: guided_bodies_t, motion_t, wp
+         implicit none (type, external)
+         class(guided_bodies_t), intent(in) :: self          !! the bodies, moved
+         real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) loads [N or N.m]
+         logical, intent(in) :: with_own                     !! with the accelerations by the motion
+         type(motion_t), intent(in) :: motion                !! accelerations of the bases
+         real(wp), intent(inout), contiguous :: a(:, 0:)     !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+      end subroutine guided_response_interface
+
+      !> Accelerations of the guided bodies from the second derivatives of their coordinates, at the motion that is set.
+      pure subroutine guided_acceleration_interface(self, x_ddot, motion)
+         import :: guided_bodies_t, motion_t, wp
+         implicit none (type, external)
+         class(guided_bodies_t), intent(in) :: self      !! the bodies, moved
+         real(wp), intent(in) :: x_ddot(self%n)          !! (n) second derivatives [rad/s^2 or m/s^2]
+         type(motion_t), intent(inout) :: motion         !! accelerations of the guided bodies are set
+      end subroutine guided_acceleration_interface
+
+      !> Coordinates and rates from a motion of all bodies that fulfils the joints.
+      pure subroutine guided_coordinates_interface(self, motion, x, x_dot)
+         import :: guided_bodies_t, motion_t, wp
+         implicit none (type, external)
+         class(guided_bodies_t), intent(in) :: self      !! the bodies
+         type(motion_t), intent(in) :: motion            !! positions and velocities
+         real(wp), intent(out) :: x(self%n)              !! (n) coordinates [rad or m]
+         real(wp), intent(out) :: x_dot(self%n)          !! (n) their rates [rad/s or m/s]
+      end subroutine guided_coordinates_interface
+
+      !> Multipliers of the rows of the guided bodies' joints. All rows are evaluated.
+      subroutine guided_multipliers_interface(self, rows, mass, g, a, lambda)
+         import :: guided_bodies_t, rows_t, wp
+         implicit none (type, external)
+         class(guided_bodies_t), intent(in) :: self          !! the bodies
+         type(rows_t), intent(in) :: rows                    !! all rows
+         real(wp), intent(in), contiguous :: mass(:, :)      !! (n_v, bodies) masses [kg or kg.m^2]
+         real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) applied loads [N or N.m]
+         real(wp), intent(in), contiguous :: a(:, 0:)        !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+         real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints are set [N or N.m]
+      end subroutine guided_multipliers_interface
+   end interface
+
+contains
+
+   !> Multipliers of the rows that fix the known bodies. Those of all other rows are there; all rows are evaluated.
+   subroutine known_find_multipliers(self, rows, carried, mass, g, a, rest, lambda)
+      class(known_bodies_t), intent(in) :: self             !! the bodies
+      type(rows_t), intent(in) :: rows                      !! all rows
+      integer, intent(in) :: carried(:, :)                  !! (3, sides) known bodies in other rows: row, place, body
+      real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
+      real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
+      real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+      real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
+      real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+
+      real(wp) :: matrix(most_rates, most_rates), x(most_rates)
+      integer :: b, i, k, n, place, row
+
+      n = rows%n_v
+      do k = 1, self%n
+         b = self%held(k)%body
+         rest(:, b) = g(:, b) - mass(:, b)*a(:, b)
+      end do
+      do k = 1, size(carried, 2)
+         row = carried(1, k)
+         place = place_in_row(n, row, carried(2, k))
+         b = carried(3, k)
+         rest(:, b) = rest(:, b) - rows%jac(place + 1:place + n, row)*lambda(row)
+      end do
+      do k = self%n, 1, -1
+         associate (held => self%held(k))
+            place = coordinate_place(n, held%side)
+            do i = 1, n
+               matrix(:n, i) = rows%jac(place + 1:place + n, held%row(i))
+            end do
+            x(:n) = rest(:, held%body)
+            call self%solve_fixing(matrix(:n, :n), x(:n))
+            place = coordinate_place(n, 3 - held%side)
+            do i = 1, n
+               row = held%row(i)
+               lambda(row) = x(i)
+               rest(:, held%base) = rest(:, held%base) - rows%jac(place + 1:place + n, row)*x(i)
+            end do
+         end associate
+      end do
+   end subroutine known_find_multipliers
+
+end module reduced_bodies

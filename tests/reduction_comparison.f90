@@ -1,0 +1,153 @@
+!> Systems with known and guided bodies, against the same deck with all bodies among the unknowns.
+!>
+!> At any state of the other bodies, and with the known ones where their drivers want them, both systems of equations must
+!> give the same accelerations, reactions, driving moments and powers: nothing but which rows are solved for differs.
+module reduction_comparison
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use catalogue, only: catalogue_t
+   use check, only: check_close, check_equal, check_true
+   use errors, only: error_t
+   use fixed_random, only: random_t
+   use kinds, only: i8, wp
+   use mechanism, only: mechanism_t
+   use mechanism_report, only: build_catalogue, report_state
+   use scene_fixture, only: nl, start_text, system_of_text
+   use text, only: replace, to_text
+   implicit none (type, external)
+   private
+   public :: both_systems, compare_at, compare_often, complete_state, with_word, words
+
+   character(*), parameter :: words(2) = ["full  ", "fewest"]  !! words of `coordinates`
+
+contains
+
+   !> A deck with its driven bodies among the unknowns, or not.
+   function with_word(deck, word) result(text)
+      character(*), intent(in) :: deck     !! the deck without that key, [analysis.dynamic] at its end
+      character(*), intent(in) :: word     !! full or fewest
+      character(:), allocatable :: text    !! with it
+
+      text = replace(deck, "coordinates = full"//nl, "")//nl//"coordinates = "//trim(word)
+   end function with_word
+
+   !> Both systems of a deck.
+   subroutine both_systems(deck, n_known, full, small, start, error)
+      character(*), intent(in) :: deck                        !! the deck
+      integer, intent(in) :: n_known                          !! bodies that must be known
+      type(mechanism_t), intent(out) :: full              !! with all bodies unknown
+      type(mechanism_t), intent(out) :: small             !! without the known ones
+      real(wp), allocatable, intent(out) :: start(:)          !! (small's n) state at t = 0 of the latter [any]
+      type(error_t), allocatable, intent(inout) :: error      !! first failure
+
+      call system_of_text(with_word(deck, words(1)), full, error)
+      if (allocated(error)) return
+      call start_text(with_word(deck, words(2)), small, start, error)
+      if (allocated(error)) return
+      call check_equal(error, full%linkage%reduced%known%n, 0, "known bodies, unknown")
+      call check_equal(error, small%linkage%reduced%known%n, n_known, "known bodies")
+   end subroutine both_systems
+
+   !> State of all bodies from that of the unknown ones and the time.
+   subroutine complete_state(small, t, y, full)
+      type(mechanism_t), intent(inout) :: small   !! the system without the known bodies
+      real(wp), intent(in) :: t                       !! time [s]
+      real(wp), intent(in) :: y(:)                    !! (small's n) its state [any]
+      real(wp), intent(out) :: full(:)                !! (full's n) state of all bodies, works as those of y [any]
+
+      integer :: k, n
+
+      n = small%linkage%bodies%n
+      call small%linkage%set_motion(t, y)
+      do k = 1, n
+         associate (coordinates => small%linkage%coordinates, n_q => small%linkage%coordinates%n_q, &
+                    n_v => small%linkage%coordinates%n_v)
+            call coordinates%read_motion(small%linkage%motion, k, full(n_q*(k - 1) + 1:n_q*k), &
+                                         full(n_q*n + n_v*(k - 1) + 1:n_q*n + n_v*k))
+         end associate
+      end do
+      associate (coordinates => small%linkage%coordinates, linkage => small%linkage)
+         full((coordinates%n_q + coordinates%n_v)*n + 1:) = y(linkage%n_position + linkage%n_rate + 1:)
+      end associate
+   end subroutine complete_state
+
+   !> All that both systems report at a time, the unknown bodies somewhat out of place, as if nothing held them exactly.
+   subroutine compare_at(full, small, t, y, error)
+      type(mechanism_t), intent(inout) :: full        !! with all bodies unknown
+      type(mechanism_t), intent(inout) :: small       !! without the known ones
+      real(wp), intent(in) :: t                           !! time [s]
+      real(wp), intent(in) :: y(:)                        !! (small's n) a state [any]
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+
+      type(catalogue_t) :: of_full, of_small
+      real(wp) :: rate_full(full%n), rate_small(small%n), y_full(full%n)
+      integer :: k, other, status
+
+      if (allocated(error)) return
+      call complete_state(small, t, y, y_full)
+      call build_catalogue(full, of_full)
+      call build_catalogue(small, of_small)
+      rate_full = 0.0_wp
+      rate_small = 0.0_wp
+      call report_state(small, t, y, rate_small, 0.0_wp, of_small, status)
+      call check_equal(error, status, 0, "status without the known bodies")
+      call report_state(full, t, y_full, rate_full, 0.0_wp, of_full, status)
+      call check_equal(error, status, 0, "status")
+      call check_equal(error, size(of_small%groups), size(of_full%groups), "groups")
+      if (allocated(error)) return
+      do k = 1, size(of_full%groups)
+         associate (room => of_full%groups(k)%room, name => of_full%groups(k)%channel%name)
+            other = of_small%find_group(room, name)
+            call check_true(error, other > 0, name//" is reported by both")
+            if (allocated(error)) return
+            call compare(of_small%groups(other)%data, of_full%groups(k)%data, of_full%rooms(room)%name//" "//name)
+         end associate
+      end do
+      associate (of_small => rate_small(small%linkage%n_position + small%linkage%n_rate + 1:), &
+                 of_full => rate_full(full%linkage%n_position + full%linkage%n_rate + 1:))
+         call check_close(error, of_small, of_full, 1.0e-10_wp*maxval(abs(of_full)), "powers at t = "//to_text(t))
+      end associate
+
+   contains
+
+      !> Compare a channel of all items.
+      subroutine compare(actual, expected, name)
+         real(wp), intent(in) :: actual(:, :)     !! (components, items) values [any]
+         real(wp), intent(in) :: expected(:, :)   !! (components, items) values [any]
+         character(*), intent(in) :: name         !! the channel
+
+         real(wp), allocatable :: a(:), e(:)
+
+         call check_true(error, all(ieee_is_nan(actual) .eqv. ieee_is_nan(expected)), "the same items have "//name)
+         a = pack(actual, .not. ieee_is_nan(actual))
+         e = pack(expected, .not. ieee_is_nan(expected))
+         call check_close(error, a, e, 1.0e-10_wp*max(1.0e-3_wp, maxval(abs(e))), name//" at t = "//to_text(t))
+      end subroutine compare
+
+   end subroutine compare_at
+
+   !> Random states about a start at random times.
+   subroutine compare_often(deck, n_known, t_end, error)
+      character(*), intent(in) :: deck                    !! the deck
+      integer, intent(in) :: n_known                      !! bodies that must be known
+      real(wp), intent(in) :: t_end                       !! greatest time [s]
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+
+      type(mechanism_t) :: full, small
+      type(random_t) :: random
+      real(wp), allocatable :: start(:), y(:)
+      integer :: k, n, n_rate
+
+      call both_systems(deck, n_known, full, small, start, error)
+      if (allocated(error)) return
+      random%state = 81_i8
+      n = small%linkage%n_position
+      n_rate = small%linkage%n_rate
+      do k = 1, 10
+         y = start
+         y(1:n) = y(1:n) + random%vector(n, -0.01_wp, 0.01_wp)
+         y(n + 1:n + n_rate) = y(n + 1:n + n_rate) + random%vector(n_rate, -3.0_wp, 3.0_wp)
+         call compare_at(full, small, random%between(0.0_wp, t_end), y, error)
+      end do
+   end subroutine compare_often
+
+end module reduction_comparison
