@@ -1,8 +1,8 @@
 !> Which bodies of a scene are left out of the unknowns, wholly or but for one coordinate, and how they move.
 !>
 !> Bodies whose motion is a known function of time leave the unknowns, with the rows that fix them; a body that one joint leaves a
-!> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations. The plane and space
-!> have kernels of their own (`planar_reduction`, `spatial_reduction`).
+!> single freedom against these or the ground keeps one coordinate, and the rows of its joint leave the equations. The plane and
+!> space have kernels of their own (`planar_reduction`, `spatial_reduction`).
 module build_known
    use find_guided, only: find_guided_bodies, guide_t
    use find_known, only: find_known_bodies, link_t

@@ -1,7 +1,7 @@
 !> What the kernels of known and guided bodies of space take of joints.
 !>
-!> With F the frame of a joint in a body (axis z), the rotation of a body against its base is F_base R_z(x) F_body^T, x the turn of the
-!> body about z: that of j against i, with its sign changed where the body is i.
+!> With F the frame of a joint in a body (axis z), the rotation of a body against its base is F_base R_z(x) F_body^T, x the turn of
+!> the body about z: that of j against i, with its sign changed where the body is i.
 module spatial_reduction
    use joint_set, only: joint_set_t
    use kinds, only: wp

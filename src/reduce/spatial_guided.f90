@@ -7,8 +7,8 @@
 !> sliding:  A = A_base Q,     r = r_P + x u,  v = v_C + x' u,     a = a_0 + x'' u,       alpha = alpha_0 = alpha_base,
 !>           a_0 = a_C + 2 x' w_base x u,
 !>
-!> with P fixed in the base, d from P to the centre of mass, fixed in the body, C the point of the base that is at the centre of mass
-!> now. The component of Newton's and Euler's equations along the freedom has no reaction in it:
+!> with P fixed in the base, d from P to the centre of mass, fixed in the body, C the point of the base that is at the centre of
+!> mass now. The component of Newton's and Euler's equations along the freedom has no reaction in it:
 !>
 !> turning:  (u . J u + m |u x d|^2) x'' = u . (M - w x J w - J alpha_0) + (u x d) . (F - m a_0),
 !> sliding:  m x'' = u . (F - m a_0).
