@@ -4,7 +4,6 @@ submodule(point_contacts) point_queries
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use normal_law, only: n_law_parameter, normal_law_t
-   use planar_contacts, only: lie_in_plane
    implicit none (type, external)
 
 contains
@@ -52,20 +51,6 @@ contains
       force = f(1)
       force_rate = slope_delta(1)*rate + slope_rate(1)*self%penetration_acceleration(k, motion, contact)
    end procedure point_watch
-
-   !> How a contact lies, whether it touches or not.
-   module procedure point_lie
-      type(point_contact_t) :: contact
-      real(wp) :: speed_i, speed_j, turn
-      integer :: item
-
-      item = self%item_of(k)
-      call self%measure(k, .true., motion, contact)
-      call self%turning(k, motion, contact, turn, speed_i, speed_j)
-      call lie_in_plane(contact, motion%omega(3, self%items%body(1, item)), motion%omega(3, self%items%body(2, item)), turn, &
-                        speed_i, speed_j, &
-                        tangent)
-   end procedure point_lie
 
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
@@ -169,7 +154,10 @@ contains
       if (self%grip%memory == memory_none) then
          call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)
       else  ! of the last evaluation: it is no function of the motion alone
-         f_t = merge(self%grip%tangent(first + 1:first + n)%f_t, 0.0_wp, self%contact(first + 1:first + n)%is_touching)
+         do c = 1, n
+            if (.not. self%contact(first + c)%is_touching) cycle
+            call take_friction(self%grip%n_tangent, self%grip%tangent(first + c), contacts(c), f_t(c))
+         end do
       end if
    end subroutine find_forces
 
