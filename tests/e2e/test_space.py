@@ -56,7 +56,7 @@ METHODS = [{}, {"method": "dop853"}, {"method": "adams", "tolerance": "1e-11"}, 
 def test_tumbling_body(gudgeon, settings):
     """Euler's equations: Jacobi's elliptic functions."""
     run = run_text(gudgeon, deck("hard/tumbling_body.deck"), **settings)
-    limit = 1e-8 if not settings or settings["method"] == "dop853" else 1e-4
+    limit = {"{}": 2e-9, "{'method': 'dop853'}": 1e-9}.get(str(settings), 1e-4)  # passing an unstable turn, round-off grows
     spin = channel(run, "body.spin")
     for t, expected in ((0.5, (-2.755093076653706, 14.74515046172723, 1.592747925340059)),
                         (1.0, (-4.175541761862209, -14.40745817259049, 2.412132459398762)),
@@ -71,7 +71,7 @@ def test_tumbling_body(gudgeon, settings):
 def test_heavy_top(gudgeon, settings):
     """Nutation of a top that is released with a spin: an independent integration of its two angles."""
     run = run_text(gudgeon, deck("hard/heavy_top.deck"), **settings)
-    limit = 1e-8 if not settings or settings["method"] == "dop853" else 1e-4
+    limit = 1e-9 if not settings or settings["method"] == "dop853" else 1e-4
     r = channel(run, "top.position")
     theta = np.arccos(r[:, 2] / 0.5)
     phi = np.arctan2(r[:, 1], r[:, 0])

@@ -155,40 +155,6 @@ def test_universal_by_two_angles(gudgeon):
     assert np.max(np.abs(history(run, "position") - place)) < 1e-8
 
 
-def governor():
-    """A05 from three coordinates, both rods alike: turn of the shaft, angle of a rod below the horizontal, height of the slider."""
-    reach, mass, spin = 0.97169811320754717, 5.3, 2 * np.pi
-    rod = (5e-6, 0.0957579)                       # along the rod, across it
-    shaft, slider = 5e-6, 0.005
-
-    def slope(_, y):
-        _, beta, z, w, u, v = y
-        c, s = np.cos(beta), np.sin(beta)
-        out = 0.05 + reach * c
-        about = shaft + slider + 2 * (mass * out**2 + rod[0] * s * s + rod[1] * c * c)
-        by_angle = 2 * (-2 * mass * out * reach * s + 2 * (rod[0] - rod[1]) * s * c)
-        swing = 2 * (mass * reach**2 + rod[1])
-        mid = np.array([0.05 + 0.5 * c, 1 - 0.5 * s])
-        d = mid - [0.05, z]
-        length = np.hypot(*d)
-        by_beta, by_z = d @ [-0.5 * s, -0.5 * c] / length, -d[1] / length
-        force = 8e5 * (length - 0.5) + 4e4 * (by_beta * u + by_z * v)
-        return [w, u, v, -by_angle * u * w / about, (by_angle * w * w / 2 + 2 * mass * 9.81 * reach * c - 2 * force * by_beta) / swing,
-                -9.81 - 2 * force * by_z / 3]
-
-    start = [0, np.pi / 6, 0.5, spin, 0, 0]
-    return solve_ivp(slope, (0, 10), start, method="LSODA", rtol=1e-11, atol=1e-12, t_eval=np.linspace(0, 10, 201))
-
-
-def test_governor(gudgeon):
-    """A05 from its three coordinates alone, integrated elsewhere."""
-    text = changed((ROOT / "inputs/hard/a05_flyball.deck").read_text(), "analysis.dynamic", tolerance="1e-9")
-    run = made(gudgeon, "a05_flyball", text)
-    expected = governor()
-    assert np.max(np.abs(run.item("bodies/position", "slider")[:, 2] - expected.y[2])) < 1e-6
-    assert np.max(np.abs(run.item("bodies/angular_velocity", "shaft")[:, 2] - expected.y[3])) < 1e-5
-
-
 def test_reaction_along_the_joint(gudgeon):
     """The same reaction along the axes of the joint: of a tilted pin the part along it, and the moments across it."""
     run = made(gudgeon, "revolute_2")
