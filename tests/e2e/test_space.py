@@ -4,7 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from support import ROOT, Run, call, changed, plain, scratch, written
+from support import ROOT, Run, call, changed, plain, plain_deck, scratch, written
+from translated import in_space
 
 DECKS = ROOT / "inputs"
 
@@ -201,6 +202,15 @@ def test_slider_crank_in_three_models(gudgeon):
     for name in ("ball", "bushing"):
         near(of[name][:3] / of["planar"][:3], np.ones((3, 4)), 1e-6, name)
         near(of[name][:, 0], of["planar"][:, 0], 1e-9, f"{name}: onsets")
+
+
+def test_plane_in_space(gudgeon):
+    """The slider-crank of section 4.4, translated: pin in a bushing, onsets and forces of the first five impacts."""
+    text = plain_deck()
+    settings = {"end": "2 ms", "tolerance": "1e-11"}
+    planar, spatial = (first_impacts(run_text(gudgeon, t, **settings), 5) for t in (text, in_space(text)))
+    near(spatial[:, 0], planar[:, 0], 1e-9, "onsets")
+    near(spatial / planar, np.ones((5, 4)), 1e-6, "impacts")
 
 
 def test_full_stiffness_at_each_base(gudgeon):
