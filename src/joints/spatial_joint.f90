@@ -20,7 +20,8 @@ module spatial_joint
    use kinds, only: wp
    use motion, only: motion_t
    use rows, only: rows_t
-   use spatial_rows, only: angle_between, axis_of, dot_of_axes, dot_with_span, put_row, put_vector_rows, scalar_t
+   use spatial_rows, only: angle_between, axis_of, dot_with_span, put_across_rows, put_row, put_vector_rows, &
+      scalar_t
    implicit none (type, external)
    private
    public :: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, beside, element_t, set_joint_frames
@@ -184,28 +185,27 @@ contains
       type(scalar_t) :: x
       integer :: e, k, row
 
-      if (size(self%axes%elements) == 0) return
-      if (self%axes%elements(1)%what == is_point) then
-         call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, motion%omega, &
-                              self%first_row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
-      end if
-      do k = 1, self%n
-         row = self%first_row + (k - 1)*self%n_row_item
-         do e = 1, size(self%axes%elements)
-            associate (element => self%axes%elements(e), body => self%body(:, k))
-               select case (element%what)
-               case (is_point)
-                  row = row + 3
-                  cycle
-               case (is_across)
-                  x = dot_of_axes(motion, body, self%axes%frame_i(:, element%of_i, k), self%axes%frame_j(:, element%of_j, k))
-               case default
-                  x = dot_with_span(motion, body, self%axes%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
-               end select
+      row = self%first_row
+      do e = 1, size(self%axes%elements)
+         associate (element => self%axes%elements(e), axes => self%axes)
+            select case (element%what)
+            case (is_point)
+               call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, &
+                                    motion%omega, row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
+               row = row + 3
+            case (is_across)
+               call put_across_rows(self%n, self%body, element%of_i, axes%frame_i, element%of_j, axes%frame_j, &
+                                    ubound(motion%angle, 1), motion%rot, motion%omega, row, self%n_row_item, rows%n, rows%phi, &
+                                    rows%phi_t, rows%jac, rows%gam)
                row = row + 1
-               call put_row(rows, row, motion, body, x, 0.0_wp, 0.0_wp, 0.0_wp)
-            end associate
-         end do
+            case default
+               do k = 1, self%n
+                  x = dot_with_span(motion, self%body(:, k), axes%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
+                  call put_row(rows, row + 1 + (k - 1)*self%n_row_item, motion, self%body(:, k), x, 0.0_wp, 0.0_wp, 0.0_wp)
+               end do
+               row = row + 1
+            end select
+         end associate
       end do
    end subroutine spatial_fill_rows
 
