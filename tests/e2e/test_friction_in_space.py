@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from support import ROOT, Run, call, changed, plain, scratch, written
-from test_space import slider_crank_in_space
+from translated import in_space
 
 N, STIFFNESS, RADIUS = 2.0, 2e6, 10e-3          # normal force of both bases [N], stiffness of both [N/m], of the pin [m]
 ARM = RADIUS - 0.5 * N / STIFFNESS              # of the friction force [m]
@@ -161,7 +161,8 @@ def test_bristles_along_and_about_an_axis(gudgeon, kind):
 def test_slider_crank_as_in_the_plane(gudgeon, kind, columns, cells):
     """Section 4.4 with friction that remembers: the first impacts are those of the plane, reversals of sliding among them."""
     onsets = []
-    for text in ((ROOT / "inputs" / "slider_crank_dry.deck").read_text(), slider_crank_in_space()):
+    deck = (ROOT / "inputs" / "slider_crank_dry.deck").read_text()
+    for text in (deck, in_space(deck)):
         text = text.replace("{law}   ambrosio", "{law}   rub")
         text = text.replace("[friction.ambrosio]", f"[friction.{kind}]\nname {columns}\nrub {cells}\n\n[friction.ambrosio]")
         directory = scratch()
