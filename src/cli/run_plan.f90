@@ -15,6 +15,7 @@ module run_plan
    use output_plan, only: output_plan_t, show_json, show_nothing
    use row_plan, only: contact_rows_text, has_contact_rows
    use scene, only: analysis_dynamic, analysis_names
+   use scene_drawing, only: drawing_of_scene
    use scene_echo, only: echo_scene
    use start_state, only: redundancy_text
    use statistics, only: statistics_plan_t
@@ -57,6 +58,8 @@ contains
       plan%with%histories = options%write /= "numbers"
       plan%with%texts = options%write == "all"
       plan%with%figures = options%write == "all"
+      plan%with%motion = loaded%scene%settings%output%word("motion") /= "off" .and. options%write == "all"
+      if (plan%with%motion) call drawing_of_scene(loaded%scene, plan%drawing)
       if (loaded%sweep%is_present .and. options%write == "all") then
          call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
                           " cases; this is the deck's own case ('gudgeon sweep' runs them)")
