@@ -11,8 +11,8 @@ module body_outline
    private
    public :: distinct_points, outline, same_place
 
-   real(wp), parameter :: block_length = 0.09_wp   !! of a body that is one point, of the size of the scene [1]
-   real(wp), parameter :: block_height = 0.055_wp  !! the same, across [1]
+   real(wp), parameter :: block_length = 0.13_wp   !! of a body that is one point, of the size of the scene [1]
+   real(wp), parameter :: block_height = 0.075_wp  !! the same, across [1]
    real(wp), parameter :: same_place = 1.0e-6_wp   !! distance of two points that are drawn as one, of the size of the scene [1]
 
 contains

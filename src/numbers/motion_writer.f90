@@ -67,7 +67,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/"//motion_name
-      self%drawing = plan%drawing
+      self%drawing = plan%looks%drawing
       call self%reader%bind(catalogue)
       status = enter_file(self%path)
       if (status /= 0) then

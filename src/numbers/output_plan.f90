@@ -3,6 +3,7 @@ module output_plan
    use accuracy_results, only: accuracy_t
    use drawing, only: drawing_t
    use exponent, only: horizon_t
+   use frames, only: frame_plan_t
    use statistics, only: statistics_plan_t
    use text, only: text_t
    implicit none (type, external)
@@ -43,6 +44,12 @@ module output_plan
       logical :: warnings = .true.          !! print warnings on the standard error
    end type written_t
 
+   !> What the mechanism looks like, and when, if someone wants to see it.
+   type :: looks_t
+      type(drawing_t) :: drawing    !! outlines and joints
+      type(frame_plan_t) :: frames  !! instants that figures want
+   end type looks_t
+
    !> The plan. Strings and lists that are not allocated count as empty.
    type :: output_plan_t
       character(:), allocatable :: directory           !! of the run, which exists and is ours
@@ -55,7 +62,7 @@ module output_plan
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       type(accuracy_t) :: accuracy                     !! what is known of the errors, if an accuracy was asked for
-      type(drawing_t) :: drawing                       !! what the scene looks like, if that is wanted
+      type(looks_t) :: looks                           !! what drawings of the mechanism need
       type(horizon_t) :: horizon                       !! how long digits mean anything; without times: it was not asked for
       type(written_t) :: with                          !! what is written
       character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts

@@ -15,6 +15,7 @@ module run_recorder
    use figures, only: make_figures
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
+   use frames, only: frame_keeper_t
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
@@ -47,7 +48,8 @@ module run_recorder
       type(hdf5_writer_t), private :: hdf5                    !! run.h5
       type(motion_writer_t), private :: motion                !! the motion for other programs
       type(text_writer_t), private :: texts                   !! time histories and events.dat
-      type(pose_reader_t), private :: reader                  !! what drawings read of the catalogue
+      type(pose_reader_t), private :: reader                  !! what the motion for other programs reads
+      type(frame_keeper_t), private :: keeper                 !! pictures of the motion, for figures
       type(progress_t), private :: display                    !! how far the run is
       type(statistics_t), private :: statistics               !! what is gathered for the statistics
       type(extremes_t), private :: extremes                   !! what the channels go through
@@ -96,6 +98,7 @@ contains
       call self%extremes%start(list_scalars(self%selection))
       if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
+      if (.not. self%plan%is_twin()) call self%keeper%start(self%plan%looks%frames, catalogue)
       if (self%plan%with%motion) then
          call self%reader%bind(catalogue)
          call self%motion%start(self%plan, catalogue, error)
@@ -177,7 +180,7 @@ contains
 
       wants = self%selection%has_group(group)
       if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
-      wants = wants .or. self%reader%reads(group)
+      wants = wants .or. self%reader%reads(group) .or. self%keeper%reads(group)
       if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
       if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
       do k = 1, size(self%figures)
@@ -205,6 +208,7 @@ contains
       type(error_t), allocatable :: second
 
       call keep_row(self, t, row_instant, catalogue, error)
+      if (self%keeper%is_wanted) call self%keeper%sample(t, catalogue)
       call self%motion%sample(t, catalogue, second)
       if (allocated(second)) self%is_broken = .true.
       call join_errors(error, second)
@@ -221,6 +225,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       call keep_row(self, t, kind, catalogue, error)
+      if (self%keeper%is_wanted) call self%keeper%follow(t, catalogue)
       call self%extremes%note(t, catalogue)
       call self%statistics%note_extremes(t, catalogue)
    end subroutine further_row_run
@@ -343,7 +348,7 @@ contains
                                   file_heading(self%plan), tables(k))
          end do
          call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, self%fields, &
-                           outcome%pictures, missing, second)
+                           self%plan%looks%drawing, self%keeper, outcome%pictures, missing, second)
          call append_all(outcome%warnings, missing)
          call join_errors(error, second)
       end if

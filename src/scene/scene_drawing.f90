@@ -19,7 +19,7 @@ module scene_drawing
    use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
-   public :: drawing_of_scene
+   public :: drawing_of_scene, own_point
 
 contains
 
@@ -38,7 +38,7 @@ contains
       drawing%body = scene%points%body
       allocate (drawing%s(3, scene%points%n))
       do k = 1, scene%points%n
-         drawing%s(:, k) = own_frame(scene, scene%points%body(k), scene%points%s(:, k))
+         drawing%s(:, k) = own_point(scene, k)
       end do
       has_part = .false.
       call add_shapes(scene, drawing, has_part)
@@ -50,16 +50,15 @@ contains
       call add_marks(scene, scene%forces, .true., drawing)
    end subroutine drawing_of_scene
 
-   !> What the program has in the frame of principal axes, in the body's own frame.
-   pure function own_frame(scene, body, s) result(own)
+   !> A point of the deck in its body's own frame.
+   pure function own_point(scene, point) result(own)
       type(scene_t), intent(in) :: scene  !! the scene
-      integer, intent(in) :: body         !! the body
-      real(wp), intent(in) :: s(3)        !! (3) a place in its frame [m]
-      real(wp) :: own(3)                  !! (3) the same [m]
+      integer, intent(in) :: point        !! the point
+      real(wp) :: own(3)                  !! (3) where it is [m]
 
-      own = s
-      if (scene%settings%is_spatial) own = matmul(scene%bodies%spatial%own(:, :, body), s)
-   end function own_frame
+      own = scene%points%s(:, point)
+      if (scene%settings%is_spatial) own = matmul(scene%bodies%spatial%own(:, :, scene%points%body(point)), own)
+   end function own_point
 
    !> The rows of [shapes].
    subroutine add_shapes(scene, drawing, has_part)
