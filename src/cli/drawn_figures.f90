@@ -15,7 +15,7 @@ module drawn_figures
    use scene_drawing, only: own_point
    use spelling, only: nearest_word
    use text, only: join, text_t, to_text
-   use time_plan, only: seconds, time_plan_t
+   use time_plan, only: instant, last_instant, seconds, time_plan_t
    implicit none (type, external)
    private
    public :: check_drawn_figures, plan_drawn_figures
@@ -119,6 +119,7 @@ contains
          call find_point(figure%motion%point, scene, location, wanted, mistakes)
       end select
       wanted%from = from
+      wanted%times = min(wanted%times, instant(times, last_instant(times)))
       if (size(wanted%times)*(scene%bodies%n + 1) > most_places) then
          call mistakes%add(location, to_text(size(wanted%times))//" pictures of "//to_text(scene%bodies%n)// &
                            " bodies are too many for '"//figure%word//"'", "too many", "write fewer: n=2, or one instant")

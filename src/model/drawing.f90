@@ -9,7 +9,7 @@ module drawing
    private
    public :: add_mark, add_part, add_stroke, drawing_t, mark_t, part_t, round_part, start_part, stroke_t
    public :: in_both, in_files, in_pictures
-   public :: mark_bearing, mark_guide, mark_link, mark_pin, mark_slide, mark_spring
+   public :: mark_bearing, mark_guide, mark_link, mark_pin, mark_plane, mark_slide, mark_spring
 
    integer, parameter :: in_both = 0      !! a stroke for files and pictures
    integer, parameter :: in_files = 1     !! a stroke for files only
@@ -21,6 +21,7 @@ module drawing
    integer, parameter :: mark_spring = 4   !! a spring between two points
    integer, parameter :: mark_bearing = 5  !! a loose joint: a journal or ball in a bearing or socket
    integer, parameter :: mark_guide = 6    !! another loose joint
+   integer, parameter :: mark_plane = 7    !! a plane that a body may touch
 
    integer, parameter :: n_round = 48  !! sides of what is drawn for a circle
 
@@ -44,7 +45,7 @@ module drawing
       character(:), allocatable :: name     !! of the joint or element
       integer :: body(2) = 0                !! (2) bodies i and j, 0: ground
       real(wp) :: s(3, 2) = 0.0_wp          !! (3, 2) their points, own frames [m]
-      real(wp) :: axis(3) = 0.0_wp          !! (3) of a slide, in the own frame of i; zero: none [1]
+      real(wp) :: axis(3) = 0.0_wp          !! (3) of a slide, along a plane, in the own frame of i; zero: none [1]
       real(wp) :: radius = 0.0_wp           !! of a bearing: of its hole; 0: not known [m]
       real(wp) :: clearance = 0.0_wp        !! of a bearing: radial clearance [m]
    end type mark_t

@@ -52,7 +52,7 @@ module animation_script
       "' stroke='#404040' stroke-width='${0.004*S}'/>`;", &
       "function measure(V){const x=[],y=[];D.frames.forEach(f=>{const take=(b,s)=>{const p=flat(V,world(f,b,s));", &
       "  x.push(p[0]);y.push(p[1])};D.parts.forEach(p=>p.s.forEach(s=>take(p.b,s)));", &
-      "  D.marks.forEach(m=>m.s.forEach((s,k)=>take(m.b[k],s)))});", &
+      "  D.marks.forEach(m=>m.s.forEach((s,k)=>(k||m.k!=7)&&take(m.b[k],s)))});", &
       " const lo=a=>a.reduce((u,v)=>Math.min(u,v),Infinity),hi=a=>a.reduce((u,v)=>Math.max(u,v),-Infinity),m=0.14*S;", &
       " return[lo(x)-m,lo(y)-m,hi(x)-lo(x)+2*m,hi(y)-lo(y)+2*m]}", &
       "function arrow(p,w){const n=Math.hypot(...w);if(n<1e-3*S)return'';const h=Math.min(0.03*S,0.5*n),u=[w[0]/n,w[1]/n];", &
@@ -68,12 +68,17 @@ module animation_script
       "  const o=[k*0.0425*S*n[0]/l,k*0.0425*S*n[1]/l],e=t=>[p[0]+t*u[0]+o[0],p[1]+t*u[1]+o[1]],a=w[0]-0.09*S,b=w[1]+0.09*S;", &
       "  s+=line([e(a),e(b)],'#707070',0.003);for(let t=a;fixed&&t<b;t+=0.02*S){const q=e(t);", &
       "   s+=line([q,[q[0]+0.4*o[0]-0.012*S*u[0],q[1]+0.4*o[1]-0.012*S*u[1]]],'#707070',0.002)}});return s}", &
+      "function plane(p,u,w){const a=w[0]-0.2*S,b=w[1]+0.2*S,e=t=>[p[0]+t*u[0],p[1]+t*u[1]];", &
+      " let s=line([e(a),e(b)],'#707070',0.003);for(let t=a;t<b;t+=0.02*S){const q=e(t);", &
+      "  s+=line([q,[q[0]-0.015*S*(u[0]+u[1]),q[1]-0.015*S*(u[1]-u[0])]],'#707070',0.002)}return s}", &
       "function mark(V,f,m){const p=m.s.map((s,k)=>flat(V,world(f,m.b[k],s)));let s='';const stand=()=>{", &
       "  const k=m.b.indexOf(0);return k<0?'':ground(p[k])};", &
       " if(m.k==1)s+=stand()+disc(p[1],0.014*S,'#fff');if(m.k==3)s+=line(p,'#404040',0.004)+p.map(q=>disc(q,0.014*S,", &
       "'#fff')).join('');", &
       " if(m.k==4)s+=spring(...p);if(m.k==2){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
       "  s+=guide(p[0],flat(V,e.map((v,k)=>v-o[k])),m.w,!m.b[0])}", &
+      " if(m.k==7){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
+      "  const u=flat(V,e.map((v,k)=>v-o[k]));s+=plane(p[0],u,m.w)}", &
       " if(m.k==5){const e=m.l?flat(V,f.e[m.l-1]):[0,0],g=D.magnified;s+=stand()+disc(p[0],0.034*S,'#fff4d6')", &
       "  +disc([p[0][0]+g*e[0],p[0][1]+g*e[1]],0.021*S,'#9fb4c7')}", &
       " if(m.l&&D.force){const w=flat(V,f.f[m.l-1]).map(v=>v*0.25*S/D.force);s+=arrow(p[1],w)}return s}", &

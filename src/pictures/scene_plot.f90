@@ -5,7 +5,7 @@
 module scene_plot
    use catalogue, only: catalogue_t, room_clearances
    use display_units, only: choose_unit, display_unit_t
-   use drawing, only: drawing_t, mark_slide
+   use drawing, only: drawing_t, mark_plane, mark_slide
    use errors, only: error_t
    use figure_words, only: figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
    use frames, only: frame_t, track_t
@@ -78,10 +78,17 @@ contains
       type(track_t), intent(in) :: path             !! path of a point, or none
       type(scene_figure_t), intent(out) :: plot     !! the plan
 
+      real(wp), parameter :: narrowest = 0.7_wp  ! width of a picture over its height [1]
+      real(wp) :: lacking
       integer :: rows
 
       if (figure%kind == figure_mechanism) plot%cells = size(list)
       call lay_out_views(drawing, list, path, plot%cells > 1 .or. figure%kind == figure_animation, plot%views, plot%extents)
+      lacking = narrowest*(plot%extents%greatest(2) - plot%extents%least(2)) - (plot%extents%greatest(1) - plot%extents%least(1))
+      if (lacking > 0.0_wp) then
+         plot%extents%least(1) = plot%extents%least(1) - 0.5_wp*lacking
+         plot%extents%greatest(1) = plot%extents%greatest(1) + 0.5_wp*lacking
+      end if
       plot%unit = choose_unit("m", maxval(plot%extents%greatest - plot%extents%least))
       plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
       call new_symbols(catalogue, drawing, list, plot%symbols)
@@ -103,11 +110,12 @@ contains
       type(frame_t), intent(in) :: list(:)          !! (n) frames
       type(symbols_t), intent(out) :: symbols       !! scales
 
+      real(wp), parameter :: of_way = 0.3_wp  ! size of symbols over the extent of the motion, at least [1]
       real(wp) :: along, axis(3), x(3, 2)
       integer :: f, i, k
 
-      symbols%size = drawing%size
-      symbols%magnified = magnification(drawing)
+      symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
+      symbols%magnified = magnification(drawing, symbols%size)
       symbols%force = largest_force(list)
       allocate (symbols%ways(2, drawing%n_mark), symbols%loose(drawing%n_mark))
       symbols%ways = 0.0_wp
@@ -117,7 +125,7 @@ contains
             do i = 1, size(names)
                if (names(i)%s == mark%name) symbols%loose(k) = i
             end do
-            if (mark%kind /= mark_slide) cycle
+            if (mark%kind /= mark_slide .and. mark%kind /= mark_plane) cycle
             symbols%ways(:, k) = [huge(1.0_wp), -huge(1.0_wp)]
             do f = 1, size(list)
                do i = 1, 2
@@ -130,6 +138,27 @@ contains
          end associate
       end do
    end subroutine new_symbols
+
+   !> The diagonal of the box in which the centres of mass of all bodies are, with the size of the largest outline.
+   pure real(wp) function extent_of_motion(drawing, list) result(length)
+      type(drawing_t), intent(in) :: drawing !! outlines
+      type(frame_t), intent(in) :: list(:)   !! (n) frames
+
+      real(wp) :: greatest(3), least(3), radius
+      integer :: k
+
+      greatest = -huge(1.0_wp)
+      least = huge(1.0_wp)
+      do k = 1, size(list)
+         least = min(least, minval(list(k)%r(:, 1:), dim=2))
+         greatest = max(greatest, maxval(list(k)%r(:, 1:), dim=2))
+      end do
+      radius = 0.0_wp
+      do k = 1, drawing%n_part
+         if (drawing%parts(k)%body > 0) radius = max(radius, maxval(norm2(drawing%parts(k)%s, dim=1)))
+      end do
+      length = norm2(greatest - least) + 2.0_wp*radius
+   end function extent_of_motion
 
    !> All strokes.
    subroutine write_data(figure, drawing, list, path, plot, data, has_style)
@@ -242,10 +271,11 @@ contains
    end subroutine frame_lines
 
    !> The plot command.
-   subroutine plot_lines(script, name, first, has_style)
+   subroutine plot_lines(script, name, first, width, has_style)
       type(buffer_t), intent(inout) :: script       !! the script
       character(*), intent(in) :: name              !! of the figure
       character(*), intent(in) :: first             !! number of the first block
+      integer, intent(in) :: width                  !! of the lines of bodies, in pixels
       logical, intent(in) :: has_style(n_style)     !! which styles occur
 
       character(64) :: how(n_style)
@@ -253,7 +283,7 @@ contains
 
       how(style_ground) = "lines linewidth 1.2 linecolor rgb '#707070'"
       how(style_body) = "filledcurves closed fillcolor rgb '#e4ebf2'"
-      how(style_line) = "lines linewidth 3 linecolor rgb variable"
+      how(style_line) = "lines linewidth "//to_text(width)//" linecolor rgb variable"
       how(style_path) = "lines linewidth 1.6 linecolor rgb '#d1495b'"
       how(style_pin) = "filledcurves closed fillcolor rgb '#ffffff'"
       how(style_symbol) = "lines linewidth 1.6 linecolor rgb '#404040'"
@@ -318,7 +348,7 @@ contains
                              ", "//real_text(plot%unit%factor*at(2), 6)//" front font ',13'")
          end do
       end if
-      call plot_lines(script, figure%name, "0", has_style)
+      call plot_lines(script, figure%name, "0", 3, has_style)
       call script%line("unset output")
    end subroutine still_script
 
@@ -353,6 +383,7 @@ contains
                        " font ""DejaVu Sans,11""")
       call script%line("set output '"//figure%name//".gif'")
       call script%line("set title "//quoted(title)//" font ',12'")
+      call script%line("set tics nomirror")
       call script%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
       call frame_lines(script, plot)
       if (len(legend(plot)) > 0) call script%line("set label "//quoted(legend(plot))//" at graph 0.01, graph 0.97 front")
@@ -364,7 +395,7 @@ contains
       call script%line("'")
       call script%line("do for [f=0:"//to_text(size(list) - 1)//"] {")
       call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.99, graph 0.97 right front")
-      call plot_lines(script, figure%name, "f*"//to_text(n_style), has_style)
+      call plot_lines(script, figure%name, "f*"//to_text(n_style), 2, has_style)
       call script%line("}")
       call script%line("unset output")
    end subroutine moving_script

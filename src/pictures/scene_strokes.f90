@@ -4,7 +4,7 @@
 !> in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the symbol.
 !> The ground is hatched where joints stand on it.
 module scene_strokes
-   use drawing, only: drawing_t, in_files, mark_bearing, mark_guide, mark_link, mark_pin, mark_slide, mark_spring, mark_t
+   use drawing, only: drawing_t, in_files, mark_bearing, mark_link, mark_pin, mark_plane, mark_slide, mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
    use scene_views, only: projected, view_t
@@ -133,6 +133,11 @@ contains
          call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
       case (mark_spring)
          call draw_spring(canvas, symbols, p)
+      case (mark_plane)
+         x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
+         axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
+         call draw_hatch(canvas, symbols, p(:, 1) + (way(1) - 0.2_wp*symbols%size)*axis, &
+                         p(:, 1) + (way(2) + 0.2_wp*symbols%size)*axis)
       case (mark_slide)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
@@ -306,8 +311,9 @@ contains
    end function body_colour
 
    !> Factor by which eccentricities are magnified: the largest clearance fills the gap of the symbol.
-   pure real(wp) function magnification(drawing) result(factor)
+   pure real(wp) function magnification(drawing, size) result(factor)
       type(drawing_t), intent(in) :: drawing  !! the scene
+      real(wp), intent(in) :: size            !! of its symbols [m]
 
       real(wp) :: clearance
       integer :: k
@@ -317,7 +323,7 @@ contains
          if (drawing%marks(k)%kind == mark_bearing) clearance = max(clearance, drawing%marks(k)%clearance)
       end do
       factor = 0.0_wp
-      if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*drawing%size/clearance
+      if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*size/clearance
    end function magnification
 
    !> The greatest force of the joints with clearance in some frames.

@@ -2,7 +2,7 @@
 !>
 !> The views of space stand side by side in one picture, all to one scale, each in a cell of its own.
 module scene_views
-   use drawing, only: drawing_t
+   use drawing, only: drawing_t, mark_plane
    use frames, only: frame_t, track_t
    use kinds, only: wp
    implicit none (type, external)
@@ -125,7 +125,7 @@ contains
          end do
          do k = 1, drawing%n_mark
             associate (mark => drawing%marks(k))
-               do j = 1, 2
+               do j = merge(2, 1, mark%kind == mark_plane), 2
                   call extents%hold(projected(view, list(f)%r(:, mark%body(j)) &
                                               + matmul(list(f)%a(:, :, mark%body(j)), mark%s(:, j))))
                end do

@@ -7,7 +7,7 @@
 !> link, of a force a spring. Rows that name joints (drivers) are not drawn.
 module scene_drawing
    use drawing, only: add_mark, add_part, add_stroke, drawing_t, in_files, mark_bearing, mark_guide, mark_link, mark_pin, &
-      mark_slide, mark_spring, mark_t, part_t, round_part, start_part
+      mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
    use body_outline, only: distinct_points, outline, same_place
    use item, only: find_place, item_t
    use kind_info, only: kind_info_t, leaves_more, leaves_way
@@ -104,7 +104,7 @@ contains
                   call round_part(part, body, drawing%s(:, point), reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], &
                                                                            [3, 2]), abs(tables(k)%items(i)%values(place)%number))
                   call add_part(drawing, part)
-                  has_part(body) = .true.
+                  if (norm2(drawing%s(:, point)) < same_place*drawing%size) has_part(body) = .true.
                end associate
             end do
          end do
@@ -223,6 +223,7 @@ contains
                   if (tie%point(end) > 0) mark%s(:, end) = drawing%s(:, tie%point(end))
                end do
                mark%axis = axis_of(item)
+               if (find_place(item, "plane") > 0) mark%axis = [mark%axis(2), -mark%axis(1), 0.0_wp]  ! along the plane
                mark%kind = kind_of_mark(scene, info, item, tie, are_forces, same_place*drawing%size)
                if (mark%kind == mark_bearing) then
                   mark%radius = item%number("bearing_radius")
@@ -274,6 +275,10 @@ contains
          kind = mark_spring
       else if (find_place(item, "bearing_radius") > 0) then
          kind = merge(mark_pin, mark_bearing, is_ideal)
+      else if (find_place(item, "slider") > 0) then
+         kind = mark_slide
+      else if (find_place(item, "plane") > 0) then
+         kind = mark_plane
       else if (find_place(item, "law") > 0) then
          kind = mark_guide
       else if (is_round) then

@@ -210,7 +210,8 @@ contains
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
       call add_word(info, "motion", "the moving mechanism in a file for other programs: vtkhdf (motion.vtkhdf, which ParaView " &
                     //"plays), one step for each output instant", default="off", choices="off vtkhdf")
-      call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel), film(JOINT)", default="")
+      call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel), film(JOINT), mechanism, " &
+                     //"strip(n=8), coupler(POINT), animation(last=...)", default="")
    end function output_info
 
 end module section_info
