@@ -204,7 +204,8 @@ contains
          end associate
       end do
       if (status >= 0) call flush_file(self, status)
-      if (status < 0) then
+      if (status < 0) then  ! the file stays as it was flushed last: to close it would write of an end that it has not
+         self%file = -1
          call fail(self, "cannot write to", "the disk may be full", error)
          return
       end if
@@ -221,7 +222,7 @@ contains
       call system_clock(self%flushed_at)
    end subroutine flush_file
 
-   !> Close the file after a failure, and say what is safe.
+   !> Close the file after a failure, unless it is left alone, and say what is safe.
    subroutine fail(self, action, why, error)
       type(motion_writer_t), intent(inout) :: self       !! the file
       character(*), intent(in) :: action                 !! what failed
@@ -235,7 +236,7 @@ contains
       reason = why
       if (is_memory_short()) reason = "there is no more memory (ulimit -v)"
       if (self%file >= 0) call write_status(self%file, status_failed, status)
-      call close_all(self, status)
+      if (self%file >= 0) call close_all(self, status)
       call set_error(error, exit_file, action//" "//self%path//": "//reason//"; saved and readable: "//to_text(self%written)// &
                      " steps. Make room, write elsewhere with --out DIRECTORY, or leave the file out (motion = off).")
    end subroutine fail

@@ -1,6 +1,8 @@
 """motion.vtkhdf: what VTKHDF 2.0 prescribes, places against closed forms, runs that are killed, full disks, shapes."""
 
 import os
+import re
+import resource
 import signal
 import subprocess
 
@@ -194,6 +196,23 @@ def test_a_run_killed_at_any_write(gudgeon, tmp_path):
         for key in ("time", "Points", *DATA):
             np.testing.assert_array_equal(found[key], whole[key][:n], err_msg=f"{key}, killed at write {at}")
     assert lengths == sorted(lengths) and lengths[0] == 0 and lengths[-1] == 601
+
+
+@pytest.mark.parametrize("kilobytes", [100, 600, 2000])
+def test_a_file_that_may_not_grow(gudgeon, tmp_path, kilobytes):
+    """`ulimit -f`: exit code 9 with a message, and the steps that it says can be read."""
+    deck = with_motion("slider_crank_dry.deck").replace("channels  ", "figures = gudgeon.orbit\nchannels  ")
+    deck = written(tmp_path, "\n".join(line for line in deck.splitlines() if not line.startswith("figures  ")))
+    limit = 1024 * kilobytes
+    done = subprocess.run(
+        [gudgeon, "run", deck, "--out", tmp_path / "run", "--quiet"], capture_output=True, text=True, timeout=60,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
+    assert done.returncode == 9, done
+    told = re.search(r"motion.vtkhdf.*?saved and readable: (\d+) steps", done.stderr)
+    assert told, done.stderr
+    if int(told.group(1)) > 0:
+        assert len(steps_of(tmp_path / "run" / "motion.vtkhdf")["time"]) == int(told.group(1))
 
 
 def test_no_file_without_the_word(gudgeon, tmp_path):
