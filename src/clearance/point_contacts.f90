@@ -27,7 +27,7 @@ module point_contacts
    private
    public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
    public :: take_friction  ! for its submodule
-   public :: of_eccentricity, of_force, of_moment, of_state
+   public :: of_contact_point, of_eccentricity, of_force, of_moment, of_state
 
    ! channels
    integer, parameter :: of_force = 1             !! force on j
@@ -36,8 +36,9 @@ module point_contacts
    integer, parameter :: of_normal_force = 4      !! of a contact
    integer, parameter :: of_friction_force = 5    !! of a contact
    integer, parameter :: of_state = 6             !! of a contact
-   integer, parameter :: of_eccentricity = 7      !! a geometry's own
-   integer, parameter :: of_moment = 8            !! a geometry's own
+   integer, parameter :: of_contact_point = 7     !! of a contact
+   integer, parameter :: of_eccentricity = 8      !! a geometry's own
+   integer, parameter :: of_moment = 9            !! a geometry's own
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t
@@ -156,6 +157,7 @@ contains
       call add_channel(info, "normal_force", "N", "none", 1, "normal contact force", of_normal_force)
       call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along, of_friction_force)
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed", of_state)
+      call add_channel(info, "contact_point", "m", "world", 2, "where the force on the "//who//" acts, or would", of_contact_point)
    end subroutine add_contact_channels
 
    !> Room for what an evaluation finds.

@@ -60,13 +60,16 @@ contains
       logical :: has_contacts
 
       n = self%n_contact_item
-      has_contacts = readings%has(of_force, of_state) .or. readings%has(of_moment, of_moment)
+      has_contacts = readings%has(of_force, of_contact_point) .or. readings%has(of_moment, of_moment)
       do item = 1, self%n
          first = (item - 1)*n
          if (has_contacts) call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
          do m = 1, readings%n
             associate (values => groups(readings%group(m))%data)
-               if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
+               if (readings%code(m) == of_contact_point) then
+                  call report_points(motion%r(:, self%items%body(2, item)), n, contacts, &
+                                     values(:, self%before%contacts + first + 1:self%before%contacts + first + n))
+               else if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
                   call report_contacts(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, &
                                        values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
                else if (readings%code(m) == of_force) then
@@ -107,6 +110,20 @@ contains
          end select
       end do
    end subroutine report_contacts
+
+   !> Where the forces on j act.
+   pure subroutine report_points(r_j, n, contacts, values)
+      real(wp), intent(in) :: r_j(3)                        !! (3) centre of mass of j, world frame [m]
+      integer, intent(in) :: n                              !! contacts
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
+      real(wp), intent(inout) :: values(:, :)               !! (2 or 3, n) the points, world frame [m]
+
+      integer :: c
+
+      do c = 1, n
+         values(:, c) = r_j(:size(values, 1)) + contacts(c)%arm_j(:size(values, 1))
+      end do
+   end subroutine report_points
 
    !> Force of all contacts of an item on j.
    pure subroutine report_force(self, n, contacts, f_n, f_t, force)
