@@ -13,6 +13,7 @@ def in_space(text):
         name, mass, inertia, x, y, angle = match.groups()
         return f'{name} {mass} {inertia} {inertia} {inertia} {x} {y} "0 0 1" {angle}'
 
+    text = re.sub(r"(?ms)^\[shapes\].*?(?=^\[|\Z)", "", text)  # polygons of the plane
     head, rest = text.split("[bodies]", 1)
     table, rest = rest.split("\n\n", 1)
     table = re.sub(r"(?m)^(\S+) +(\S+) +(\S+) +(\S+) +(\S+) +(\S+)$", body, table)
