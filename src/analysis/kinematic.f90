@@ -22,6 +22,7 @@ module kinematic
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, summary_t
    use text, only: append_text, real_text
+   use step_follower, only: follow_motion, must_follow
    use time_plan, only: instant, last_instant, time_plan_t
    implicit none (type, external)
    private
@@ -155,6 +156,7 @@ contains
          call try(system, newton, next, outcome)
          if (outcome == solved) then
             state = next
+            if (must_follow(system)) call follow_motion(system)
             summary%count%steps = summary%count%steps + 1_i8
             summary%time_end = state%t
             h = min(2.0_wp*h, t - state%t)

@@ -17,6 +17,7 @@ module moving_part
    use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended
    use run_tally, only: run_tally_t
    use slip_watch, only: decide_next, note_jumps
+   use step_follower, only: follow_motion, must_follow
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
    private
@@ -113,7 +114,6 @@ contains
       real(wp), intent(in), optional :: until             !! a time that the step must not pass [s]
 
       real(wp) :: t_stop
-      integer :: k
 
       associate (system => part%system, method => part%method)
          call part%instants%stop_after(method, t_stop)
@@ -123,12 +123,9 @@ contains
             call describe_failure(system, method, part%status, error)
             return
          end if
-         if (system%loading%counts_turns .or. system%friction%grips%have_ways) then
+         if (must_follow(system)) then
             call system%linkage%set_motion(method%t, method%step%y1)
-            call system%loading%follow_turns(system%linkage%motion)
-            do k = 1, size(system%loose%sets)
-               call system%loose%sets(k)%set%follow_sliding(system%linkage%motion)
-            end do
+            call follow_motion(system)
          end if
          call look_at_step(part, tally)
          if (part%is_lost) then

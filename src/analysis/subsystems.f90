@@ -6,6 +6,7 @@ module subsystems
    use integrator, only: integrator_t
    use integrator_registry, only: find_integrator
    use force_registry, only: n_force_kinds
+   use joint_registry, only: n_joint_kinds
    use item, only: place_of
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -84,7 +85,8 @@ contains
             reason = "a condition that ends the run looks at all of them"
          else if (dynamic%number("maximum_steps") > 0.0_wp .or. dynamic%number("maximum_evaluations") > 0.0_wp) then
             reason = "their steps or evaluations are counted together"
-         else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)])) then
+         else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)]) .or. &
+                  any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, k=1, n_joint_kinds)])) then
             reason = "turns are counted from step to step"
          end if
       end associate

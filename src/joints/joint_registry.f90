@@ -19,6 +19,7 @@ module joint_registry
    use spatial_driver_angle, only: spatial_driver_angle_t
    use spatial_driver_position, only: spatial_driver_position_t
    use spatial_driver_speed, only: spatial_driver_speed_t
+   use spatial_gear, only: spatial_gear_t
    use spatial_initial_speed, only: spatial_initial_speed_t
    use spatial_planar, only: spatial_planar_t
    use spatial_revolute, only: spatial_revolute_t
@@ -32,7 +33,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 27  !! number of kinds
+   integer, parameter :: n_joint_kinds = 28  !! number of kinds
 
 contains
 
@@ -70,6 +71,7 @@ contains
       case (25); allocate (spatial_rigid_t :: set)
       case (26); allocate (spatial_driver_position_t :: set)
       case (27); allocate (spatial_initial_speed_t :: set)
+      case (28); allocate (spatial_gear_t :: set)
       end select
    end subroutine new_joint_set
 

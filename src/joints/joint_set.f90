@@ -53,6 +53,7 @@ module joint_set
       procedure :: set_start => joint_set_start
       procedure :: take_joint => joint_take_joint
       procedure :: is_turned_over => joint_is_turned_over
+      procedure :: follow => joint_follow
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: way_of => joint_way_of
@@ -179,6 +180,12 @@ contains
       class(joint_set_t), intent(in) :: joint    !! a set of one item, the joint, prepared and with its start
       type(motion_t), intent(in) :: motion       !! bodies where the deck puts them
    end subroutine joint_take_joint
+
+   !> A step has ended: what counts turns goes on from there. Nothing, unless the kind says otherwise (`counts_turns`).
+   subroutine joint_follow(self, motion)
+      class(joint_set_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion       !! positions at the end of the step
+   end subroutine joint_follow
 
    !> Whether an item is closed in a way that nobody means, which its rows cannot tell from the right one: not, unless the kind
    !> says otherwise.

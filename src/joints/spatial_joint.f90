@@ -143,7 +143,8 @@ contains
       allocate (self%axes%frame_i(3, 3, self%n), self%axes%frame_j(3, 3, self%n), source=0.0_wp)
       allocate (self%axes%from_start(self%n), source=.false.)
       self%axes%axis_i(3, :) = 1.0_wp
-      if (.not. any([(elements(k)%what /= is_point, k=1, size(elements))])) return
+      if (self%n == 0) return
+      if (find_place(items(1), "axis_i") == 0) return
       do k = 1, self%n
          self%axes%axis_i(:, k) = items(k)%direction("axis_i")
          if (find_place(items(k), "axis_j") > 0) self%axes%axis_j(:, k) = items(k)%direction("axis_j")

@@ -21,8 +21,8 @@ module spatial_rows
    use rows, only: rows_t
    implicit none (type, external)
    private
-   public :: angle_between, axis_of, dot_with_span, length_of_span, put_across_rows, put_row, put_vector_rows, &
-      scalar_t, wrapped
+   public :: angle_between, angle_of, axis_of, dot_of_axes, dot_with_span, length_of_span, put_across_rows, put_row, &
+      put_vector_rows, scalar_t, seen_from_other, wrapped
 
    !> A scalar of two bodies, and what moves it.
    type :: scalar_t
@@ -146,18 +146,37 @@ contains
       real(wp), intent(in) :: frame_j(3, 3)  !! (3, 3) those in j [1]
       type(scalar_t) :: x                    !! the angle [rad]
 
-      type(scalar_t) :: c, s
+      x = angle_of(dot_of_axes(motion, body, frame_i(:, 1), frame_j(:, 1)), &
+                   dot_of_axes(motion, body, frame_i(:, 2), frame_j(:, 1)))
+   end function angle_between
+
+   !> Angle of a direction in the plane of two axes, -pi to pi, from its products with them.
+   pure function angle_of(c, s) result(x)
+      type(scalar_t), intent(in) :: c        !! product with the axis that the angle is counted from [any]
+      type(scalar_t), intent(in) :: s        !! product with the other axis [any]
+      type(scalar_t) :: x                    !! the angle [rad]
+
       real(wp) :: square
 
-      c = dot_of_axes(motion, body, frame_i(:, 1), frame_j(:, 1))
-      s = dot_of_axes(motion, body, frame_i(:, 2), frame_j(:, 1))
       square = max(c%value**2 + s%value**2, tiny(1.0_wp))
       x%value = atan2(s%value, c%value)
       x%rate = (c%value*s%rate - s%value*c%rate)/square
       x%bend = (c%value*s%bend - s%value*c%bend)/square - 2.0_wp*x%rate*(c%value*c%rate + s%value*s%rate)/square
       x%turn_i = (c%value*s%turn_i - s%value*c%turn_i)/square
-      x%turn_j = -x%turn_i
-   end function angle_between
+      x%turn_j = (c%value*s%turn_j - s%value*c%turn_j)/square
+      x%force = (c%value*s%force - s%value*c%force)/square
+   end function angle_of
+
+   !> A scalar of two bodies as of the same two in the other order.
+   pure function seen_from_other(x) result(y)
+      type(scalar_t), intent(in) :: x   !! the scalar, of j and i
+      type(scalar_t) :: y               !! the same, of i and j
+
+      y = x
+      y%force = -x%force
+      y%turn_i = x%turn_j
+      y%turn_j = x%turn_i
+   end function seen_from_other
 
    !> An angle less the whole turns nearest to it.
    elemental real(wp) function wrapped(angle)

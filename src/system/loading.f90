@@ -2,7 +2,7 @@
 module loading
    use force_set, only: force_slot_t
    use kinds, only: wp
-   use motion, only: loads_t, motion_t
+   use motion, only: loads_t
    implicit none (type, external)
    private
    public :: loading_t, start_loads
@@ -12,28 +12,14 @@ module loading
       real(wp) :: gravity(3) = 0.0_wp                !! (3) acceleration of free fall [m/s^2]
       real(wp), allocatable :: weight(:, :)          !! (3, 0:bodies) force of gravity [N]
       type(force_slot_t), allocatable :: forces(:)   !! force elements, one set per kind
-      logical :: counts_turns = .false.              !! whether some of them count turns, see `follow_turns`
+      logical :: counts_turns = .false.              !! whether some of them count turns, see `step_follower`
       ! of the last evaluation
       type(loads_t) :: loads                         !! applied and contact loads
       real(wp), allocatable :: g(:, :)               !! (n_v, 0:bodies) loads on the rates [N or N.m]
       real(wp) :: power = 0.0_wp                     !! power of applied loads [W]
-   contains
-      procedure :: follow_turns => loading_follow_turns
    end type loading_t
 
 contains
-
-   !> A step has ended: what counts turns goes on from there. To be called where `counts_turns`.
-   subroutine loading_follow_turns(self, motion)
-      class(loading_t), intent(inout) :: self   !! the force elements
-      type(motion_t), intent(in) :: motion      !! positions at the end of the step
-
-      integer :: k
-
-      do k = 1, size(self%forces)
-         call self%forces(k)%set%follow(motion)
-      end do
-   end subroutine loading_follow_turns
 
    !> Loads of gravity.
    pure subroutine start_loads(n, weight, force, moment)

@@ -1,0 +1,205 @@
+!> Gears in space: two gears roll on one another, on parallel axes or on axes that meet (bevel gears), wherever their centres move.
+!>
+!> Phi = R_i phi_i + R_j phi_j - (the same where the deck puts the bodies)                            (1 row)
+!>
+!> phi_i is the angle about z_i, in the body of i, of the direction to where the gears touch, phi_j the same in j about z_j. On
+!> parallel axes the direction is along the line of centres, d from i and -d from j; on others it is that of the other gear's axis: z_j
+!> from i, z_i from j. Phi' = 0 says that the pitch circles have the same velocity where they touch. Angles are taken next to those at
+!> the end of the last step, so that turns are counted.
+!>
+!> Signs: parallel axes may point the same way or not. Axes that meet both point away from where they meet, or both towards it; else
+!> one radius is negative, as that of a ring gear is. A positive multiplier is a force.
+!> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4, with the direction to the other gear in
+!> place of a carrier. Limits: other joints hold the gears; less than half a turn in a step; on axes that meet the row makes
+!> couples on both bodies, so that what the bearings carry for the force at the teeth is not among their reactions; no pressure angle,
+!> no play.
+module spatial_gear
+   use item, only: item_t
+   use kind_info, only: add_number, dim_length, kind_info_t
+   use kinds, only: wp
+   use memory, only: get, put
+   use motion, only: cross, motion_t
+   use rows, only: rows_t
+   use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, element_t, set_joint_frames, spatial_joint_t
+   use spatial_rows, only: angle_of, axis_of, dot_of_axes, dot_with_span, put_row, scalar_t, seen_from_other, wrapped
+   implicit none (type, external)
+   private
+   public :: spatial_gear_t
+
+   real(wp), parameter :: parallel = 1.0e-6_wp  !! sine of an angle of axes that is none [1]
+
+   !> All pairs of gears of a spatial scene.
+   type, extends(spatial_joint_t) :: spatial_gear_t
+      real(wp), allocatable, private :: radius(:, :)       !! (2, n) of i and j; of axes that point opposite ways one is turned [m]
+      logical, allocatable, private :: is_parallel(:)      !! (n) whether the axes are parallel
+      real(wp), allocatable, private :: angle(:, :)        !! (2, n) phi_i and phi_j at the end of the last step [rad]
+      real(wp), allocatable, private :: start(:)           !! (n) R_i phi_i + R_j phi_j where the deck puts the bodies [m]
+   contains
+      procedure, nopass :: info => gear_info
+      procedure :: prepare => gear_prepare
+      procedure :: set_start => gear_set_start
+      procedure :: evaluate => gear_evaluate
+      procedure :: follow => gear_follow
+      procedure :: memory_size => gear_memory_size
+      procedure :: save => gear_save
+      procedure :: load => gear_load
+   end type spatial_gear_t
+
+contains
+
+   !> What the kind says of itself.
+   function gear_info() result(info)
+      type(kind_info_t) :: info  !! name, columns, rows and channels
+
+      info%name = "joint.gear"
+      info%help = "two gears that roll on one another, on parallel axes or on axes that meet; other joints hold them"
+      info%source = "Nikravesh (1988), section 4.2.4"
+      info%n_row = 1
+      info%counts_turns = .true.
+      call add_joint_columns(info)
+      call add_axis_columns(info, "axis of the gear")
+      call add_number(info, "radius_i", dim_length, "radius of the pitch circle of the first gear; negative: a ring gear")
+      call add_number(info, "radius_j", dim_length, "radius of the pitch circle of the second gear; negative: a ring gear")
+      call add_spatial_channels(info)
+   end function gear_info
+
+   !> Radii and axes.
+   subroutine gear_prepare(self, items, angle)
+      class(spatial_gear_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)   !! (n) rows of the table
+      real(wp), intent(in) :: angle(0:)      !! (0:bodies) not used [rad]
+
+      integer :: k
+
+      call self%take_axes(items, [element_t ::])
+      allocate (self%radius(2, self%n), self%angle(2, self%n), self%start(self%n), source=0.0_wp)
+      allocate (self%is_parallel(self%n), source=.false.)
+      do k = 1, self%n
+         self%radius(:, k) = [items(k)%number("radius_i"), items(k)%number("radius_j")]
+      end do
+   end subroutine gear_prepare
+
+   !> The gears mesh as the deck puts them.
+   subroutine gear_set_start(self, motion)
+      class(spatial_gear_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion          !! bodies where the deck puts them
+
+      type(scalar_t) :: phi(2)
+      real(wp) :: z_i(3), z_j(3)
+      integer :: k
+
+      call set_joint_frames(self, motion)
+      do k = 1, self%n
+         z_i = axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k))
+         z_j = axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))
+         self%is_parallel(k) = norm2(cross(z_i, z_j)) < parallel
+         if (self%is_parallel(k) .and. dot_product(z_i, z_j) < 0.0_wp) self%radius(2, k) = -self%radius(2, k)
+         self%angle(:, k) = 0.0_wp
+         phi = angles_of(self, k, motion)
+         self%angle(:, k) = phi%value
+         self%start(k) = dot_product(self%radius(:, k), self%angle(:, k))
+      end do
+   end subroutine gear_set_start
+
+   !> Angles of an item, next to those at the end of the last step.
+   pure function angles_of(self, k, motion) result(phi)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(scalar_t) :: phi(2)                   !! (2) phi_i and phi_j [rad]
+
+      type(scalar_t) :: across(2, 2)
+      integer :: a
+
+      associate (body => self%body(:, k), s_i => self%s_i(:, k), s_j => self%s_j(:, k), &
+                 of_i => self%axes%frame_i(:, :, k), of_j => self%axes%frame_j(:, :, k))
+         do a = 1, 2
+            if (self%is_parallel(k)) then
+               across(a, 1) = dot_with_span(motion, body, of_i(:, a), s_i, s_j)
+               across(a, 2) = seen_from_other(dot_with_span(motion, body([2, 1]), of_j(:, a), s_j, s_i))
+            else
+               across(a, 1) = dot_of_axes(motion, body, of_i(:, a), of_j(:, 3))
+               across(a, 2) = seen_from_other(dot_of_axes(motion, body([2, 1]), of_j(:, a), of_i(:, 3)))
+            end if
+         end do
+      end associate
+      do a = 1, 2
+         phi(a) = angle_of(across(1, a), across(2, a))
+         phi(a)%value = self%angle(a, k) + wrapped(phi(a)%value - self%angle(a, k))
+      end do
+   end function angles_of
+
+   !> Fill the rows of all items.
+   subroutine gear_evaluate(self, t, motion, rows)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      type(rows_t), intent(inout) :: rows        !! rows, those of the set are filled
+
+      type(scalar_t) :: phi(2), x
+      integer :: k
+
+      do k = 1, self%n
+         phi = angles_of(self, k, motion)
+         associate (r => self%radius(:, k))
+            x%value = r(1)*phi(1)%value + r(2)*phi(2)%value
+            x%rate = r(1)*phi(1)%rate + r(2)*phi(2)%rate
+            x%bend = r(1)*phi(1)%bend + r(2)*phi(2)%bend
+            x%force = r(1)*phi(1)%force + r(2)*phi(2)%force
+            x%turn_i = r(1)*phi(1)%turn_i + r(2)*phi(2)%turn_i
+            x%turn_j = r(1)*phi(1)%turn_j + r(2)*phi(2)%turn_j
+         end associate
+         call put_row(rows, self%first_row + k, motion, self%body(:, k), x, self%start(k), 0.0_wp, 0.0_wp)
+      end do
+   end subroutine gear_evaluate
+
+   !> A step has ended: angles are counted from there.
+   subroutine gear_follow(self, motion)
+      class(spatial_gear_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion          !! positions at the end of the step
+
+      type(scalar_t) :: phi(2)
+      integer :: k
+
+      do k = 1, self%n
+         phi = angles_of(self, k, motion)
+         self%angle(:, k) = phi%value
+      end do
+   end subroutine gear_follow
+
+   !> Two angles per item.
+   integer function gear_memory_size(self) result(n)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+
+      n = 2*self%n
+   end function gear_memory_size
+
+   !> Write the angles.
+   subroutine gear_save(self, row, place)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      real(wp), intent(inout) :: row(:)          !! (any) checkpoint [any]
+      integer, intent(inout) :: place            !! last place used
+
+      integer :: k
+
+      do k = 1, self%n
+         call put(row, place, self%angle(:, k))
+      end do
+   end subroutine gear_save
+
+   !> Read the angles.
+   subroutine gear_load(self, row, place)
+      class(spatial_gear_t), intent(inout) :: self  !! the set
+      real(wp), intent(in) :: row(:)                !! (any) checkpoint [any]
+      integer, intent(inout) :: place               !! last place used
+
+      integer :: a, k
+
+      do k = 1, self%n
+         do a = 1, 2
+            call get(row, place, self%angle(a, k))
+         end do
+      end do
+   end subroutine gear_load
+
+end module spatial_gear
