@@ -12,7 +12,7 @@ module spatial_distance
    use kinds, only: wp
    use motion, only: motion_t
    use rows, only: rows_t
-   use spatial_joint, only: add_joint_columns, add_spatial_channels
+   use spatial_joint, only: add_joint_columns, add_reaction_channels
    use spatial_rows, only: length_of_span, put_row
    implicit none (type, external)
    private
@@ -38,7 +38,7 @@ contains
       call add_joint_columns(info)
       call add_number(info, "length", dim_length, "length; left out: the distance where the deck puts the bodies at the start", &
                       default="", lower=0.0_wp, open_lower=.true.)
-      call add_spatial_channels(info)
+      call add_reaction_channels(info)
       call add_channel(info, "tension", "N", "none", 1, "force along the link, positive if it pulls the points together", &
                        of_own)
    end function distance_info

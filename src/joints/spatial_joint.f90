@@ -24,7 +24,8 @@ module spatial_joint
       scalar_t
    implicit none (type, external)
    private
-   public :: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, beside, element_t, set_joint_frames
+   public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
+   public :: element_t, set_joint_frames
    public :: add_slide_channels, add_turn_channels, spatial_joint_t
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
@@ -36,7 +37,7 @@ module spatial_joint
    integer, parameter :: of_angular_rate = of_own + 1 !! its rate
    integer, parameter :: of_displacement = of_own + 2 !! along the axis
    integer, parameter :: of_sliding_rate = of_own + 3 !! its rate
-   ! channels of all
+   ! channels of joints with axes
    integer, parameter :: of_own_force = of_own + 4    !! reaction along the axes of the joint
    integer, parameter :: of_own_moment = of_own + 5   !! its moment along them
 
@@ -110,19 +111,26 @@ contains
                          default="")
    end subroutine add_axis_columns
 
-   !> The channels that every joint of space has.
+   !> The channels of a joint that has axes.
    subroutine add_spatial_channels(info)
+      type(kind_info_t), intent(inout) :: info  !! the kind
+
+      call add_reaction_channels(info)
+      call add_channel(info, "joint_force", "N", "joint", 2, "the force along the axes x, y, z of the joint in i", of_own_force)
+      call add_channel(info, "joint_moment", "N.m", "joint", 2, "the moment along the axes x, y, z of the joint in i", &
+                       of_own_moment)
+   end subroutine add_spatial_channels
+
+   !> The channels that every joint of space has.
+   subroutine add_reaction_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
       call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point", of_moment)
-      call add_channel(info, "joint_force", "N", "joint", 2, "the force along the axes x, y, z of the joint in i", of_own_force)
-      call add_channel(info, "joint_moment", "N.m", "joint", 2, "the moment along the axes x, y, z of the joint in i", &
-                       of_own_moment)
       call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
       call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
                        of_violation_rate)
-   end subroutine add_spatial_channels
+   end subroutine add_reaction_channels
 
    !> Elements of the kind, and the axes of its rows; `prepare` calls it.
    subroutine spatial_take_axes(self, items, elements)

@@ -40,7 +40,7 @@ PARTS = (
      "given to MuJoCo's and Exudyn's compiled code. Errors: greatest distance of a centre of mass at the end, over the scene's size; "
      "of the slider-crank and of the pendulum in a loose ball and socket the greatest of ten onsets [s]."),
 )
-MOST_ROWS = 60
+MOST_ROWS = 120
 
 
 def value(text):
