@@ -48,7 +48,7 @@ contains
       case ("m/s^2", "rad/s^2")
          if (extent >= 1.0e4_wp) call scale(1.0e-3_wp, "10³ "//pretty(si))
       case ("N", "N.m", "J", "W")
-         if (extent >= 1.0e7_wp) then
+         if (extent >= 1.0e6_wp) then
             call scale(1.0e-6_wp, "M"//pretty(si))
          else if (extent >= 1.0e4_wp) then
             call scale(1.0e-3_wp, "k"//pretty(si))

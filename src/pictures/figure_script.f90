@@ -111,7 +111,7 @@ contains
       else
          call lines%line("set xlabel "//quoted("time ["//axes%x%symbol//"]"))
          call lines%line("set autoscale xfix")
-         call lines%line("set offsets 0, 0, graph 0.05, graph 0.05")
+         call lines%line("set offsets 0, 0, graph 0.05, "//trim(merge("0         ", "graph 0.05", stands_on_zero(curves))))
       end if
       if (.not. two_panels) then
          call lines%line("set title "//quoted(title)//" font ',17'")
@@ -125,13 +125,25 @@ contains
          span = high - low
          call lines%line(key_below)
          call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
-         call lines%line("set yrange ["//real_text(axes%y%factor*(low - zoom_margin*span), 9)//":"// &
+         call lines%line("set yrange ["//real_text(axes%y%factor*merge(0.0_wp, low - zoom_margin*span, &
+                         stands_on_zero(curves) .and. low < zoom_margin*span), 9)//":"// &
                          real_text(axes%y%factor*(high + zoom_margin*span), 9)//"]")
          call plot_lines(lines, figure, axes, curves, ideal)
          call lines%line("unset multiplot")
       end if
       call lines%line("unset output")
    end subroutine curve_lines
+
+   !> Whether nothing is negative and something is as good as zero: then zero is the lower edge.
+   pure logical function stands_on_zero(curves)
+      type(curve_t), intent(in) :: curves(:)  !! (n) curves of the run
+
+      real(wp), parameter :: near = 0.05_wp  ! of the greatest value [1]
+      real(wp) :: least
+
+      least = minval(curves%y_range(1))
+      stands_on_zero = least >= 0.0_wp .and. least < near*maxval(curves%y_range(2))
+   end function stands_on_zero
 
    !> Whether the ideal curve would be a flat line beside the peaks of the run.
    pure logical function needs_zoom(curves, ideal)

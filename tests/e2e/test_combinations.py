@@ -10,6 +10,7 @@ import os
 import re
 import time
 
+import h5py
 import pytest
 from conftest import DIRECTORY, ROOT, built
 from support import Run, call, changed, scratch, text_of, written
@@ -19,6 +20,7 @@ DECKS = sorted(path for folder in FOLDERS for path in (ROOT / folder).glob("*.de
 PART = 20  # of the motion that is run
 INSTANTS = 25  # of output
 PERIODS = 4  # of the statistics
+PICTURES = (b"\x89PNG", b"GIF89a", b"<!DOCTYPE html>")  # how figures, animations and their pages begin
 CRASH = re.compile(r"Backtrace|runtime error|Program received signal|SIG[A-Z]{3}|internal mistake", re.IGNORECASE)
 ENDED = re.compile(r"from 0 to (\S+) s; output")
 
@@ -45,7 +47,7 @@ def shortened(deck, analysis, end):
     figures = f"{own[-1].strip() if own else ''} {body}.velocity"
     if analysis == "dynamic":
         figures += f" spectrum({body}.velocity.x) section({body}.velocity.x,{body}.velocity.y)"
-    settings = {"output": {"every": every, "from": "0 s", "last": "0 s", "figures": figures}}
+    settings = {"output": {"every": every, "from": "0 s", "last": "0 s", "figures": figures, "motion": "vtkhdf"}}
     if analysis != "static":
         settings[f"analysis.{analysis}"] = {"end": f"{end / PART:.17g} s"}
     if analysis == "dynamic":
@@ -120,7 +122,9 @@ def test_deck(deck, everything, record_property):
             assert summary["status"] == "complete", where
             assert "static" in options or len(summary["figures"]) >= (3 if "dynamic" in options else 1), where
             for name in summary["figures"]:
-                assert (done.run.directory / name).read_bytes().startswith(b"\x89PNG"), (*where, name)
+                assert (done.run.directory / name).read_bytes().startswith(PICTURES), (*where, name)
             assert ("dynamic" in options) == bool(summary.get("statistics")), where
+            with h5py.File(done.run.directory / "motion.vtkhdf") as file:
+                assert file.attrs["status"] == b"complete" and len(file["VTKHDF/Steps/Values"]) > 0, where
     loose = [done for (verb, options), done in said.items() if verb == "explain" and "--ideal" not in options]
     assert bool(re.search(r"(?m)^\s*\[clearance\.", text)) <= all("loose joints" in done.stdout or "ideal" in done.stdout for done in loose)

@@ -87,6 +87,20 @@ def test_loose_joint_is_magnified(gudgeon, tmp_path):
     assert float(re.search(r"longest arrow ([0-9.]+) N", script).group(1)) == float(f"{np.hypot(*force):.3g}")
 
 
+def test_paths_are_thinned_and_keep_peaks(gudgeon, tmp_path):
+    """Of 12,000 rows the page has no more than 4000, in order, with the greatest force of all."""
+    text = changed(DECK.read_text(encoding="utf-8"), "output", every="2 us")
+    folder = run(gudgeon, tmp_path, text, "animation(n=2, last=24ms)")
+    track = (folder / "animation.n.2.last.24ms.html").read_text(encoding="utf-8").split("track:{t:[", 1)[1]
+    times = np.array([float(word) for word in track.split("]", 1)[0].split(",")[:-1]])
+    forces = np.array([float(word) for word in track.split("f:[[", 1)[1].split("]", 1)[0].split(",")[:-1]])
+    with h5py.File(tmp_path / "run" / "run.h5") as file:
+        size = np.linalg.norm(file["clearances/force"][:, 0], axis=1)
+        assert len(size) > 12000
+    assert 2000 <= len(times) == len(forces) <= 4000 and np.all(np.diff(times) >= 0)
+    assert times[0] == 0 and times[-1] > 23.9e-3 and abs(forces.max() - size.max()) < 1e-4 * size.max()
+
+
 def test_space_in_four_views(gudgeon, tmp_path):
     """A spatial scene stands in four views; the last is along z, the second along y."""
     text = (DECK.parent / "four_bar_spatial.deck").read_text(encoding="utf-8")

@@ -44,8 +44,9 @@ def run_deck(gudgeon, directory, text, name, *options):
 
 
 def with_motion(name):
-    """A deck of inputs/ that asks for the file, by its absolute path where it names others."""
+    """A deck of inputs/ that asks for the file, its bodies drawn by their points."""
     text = (ROOT / "inputs" / name).read_text(encoding="utf-8")
+    text = re.sub(r"(?ms)^\[shapes\].*?(?=^\[)", "", text)
     return text.replace("[output]\n", "[output]\nmotion = vtkhdf\n")
 
 

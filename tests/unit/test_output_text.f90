@@ -94,6 +94,7 @@ contains
       call check_unit(error, "m/s", 2.6e-9_wp, "nm/s", 1.0e9_wp)
       call check_unit(error, "J", 3.0e-9_wp, "nJ", 1.0e9_wp)
       call check_unit(error, "N", 20924.979_wp, "kN", 1.0e-3_wp)
+      call check_unit(error, "N", 4.0e6_wp, "MN", 1.0e-6_wp)
       call check_unit(error, "N.m", 300.0_wp, "N·m", 1.0_wp)
       call check_unit(error, "m/s^2", 9.0e3_wp, "m/s²", 1.0_wp)
       call check_unit(error, "m/s^2", 3.0e5_wp, "10³ m/s²", 1.0e-3_wp)

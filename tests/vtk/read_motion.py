@@ -5,6 +5,7 @@ read_motion.py PROGRAM DIRECTORY: runs decks there with the program and exits wi
 """
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -44,8 +45,9 @@ class Motion:
 
 
 def run(program, directory, name, **changes):
-    """A deck of inputs/ with the file asked for; the paths of the file and of run.h5."""
+    """A deck of inputs/ with the file asked for, its bodies drawn by their points; the paths of the file and of run.h5."""
     text = (ROOT / "inputs" / f"{name}.deck").read_text(encoding="utf-8")
+    text = re.sub(r"(?ms)^\[shapes\].*?(?=^\[)", "", text)
     if "motion" not in text.split("[output]", 1)[1]:
         text = text.replace("[output]\n", "[output]\nmotion = vtkhdf\n")
     for old, new in changes.items():
