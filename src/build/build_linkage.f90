@@ -108,7 +108,6 @@ contains
          set%column = column(m) + chosen
          column(m) = column(m) + size(scene%joints(k)%items)
          if (size(chosen) == 0) cycle
-         linkage%counts_turns = linkage%counts_turns .or. scene%joints(k)%info%counts_turns
          set%is_solved = is_solved
          set%first_row = linkage%rows%n
          linkage%rows%n = linkage%rows%n + set%n*set%n_row_item

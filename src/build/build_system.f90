@@ -71,6 +71,9 @@ contains
       end associate
       call system%set_step(huge(1.0_wp))  ! gains and penalties that do not wait for a step
       call add_loads(scene, system%linkage%coordinates%n_v, system%linkage%motion, system%loading)
+      system%loading%counts_turns = system%loading%counts_turns &
+                                    .or. any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, &
+                                               k=1, n_joint_kinds)])
       allocate (system%loose%losses(n_loss, system%loose%n_contact), source=0.0_wp)
       system%n_quadrature = merge(place_of_film_loss(system%loose%n_contact, system%friction%rubbing%n > 0) &
                                   - merge(0, 1, system%loose%has_films), 0, &

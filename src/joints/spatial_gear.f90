@@ -3,16 +3,16 @@
 !> Phi = R_i phi_i + R_j phi_j - (the same where the deck puts the bodies)                            (1 row)
 !>
 !> phi_i is the angle about z_i, in the body of i, of the direction to where the gears touch, phi_j the same in j about z_j. On
-!> parallel axes the direction is along the line of centres, d from i and -d from j; on others it is that of the other gear's axis: z_j
-!> from i, z_i from j. Phi' = 0 says that the pitch circles have the same velocity where they touch. Angles are taken next to those at
-!> the end of the last step, so that turns are counted.
+!> parallel axes the direction is along the line of centres, d from i and -d from j; on others it is that of the other gear's axis:
+!> z_j from i, z_i from j. Phi' = 0 says that the pitch circles have the same velocity where they touch. Angles are taken next to
+!> those at the end of the last step, so that turns are counted.
 !>
-!> Signs: parallel axes may point the same way or not. Axes that meet both point away from where they meet, or both towards it; else
-!> one radius is negative, as that of a ring gear is. A positive multiplier is a force.
-!> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4, with the direction to the other gear in
-!> place of a carrier. Limits: other joints hold the gears; less than half a turn in a step; on axes that meet the row makes
-!> couples on both bodies, so that what the bearings carry for the force at the teeth is not among their reactions; no pressure angle,
-!> no play.
+!> Signs: parallel axes may point the same way or not. Axes that meet both point away from where they meet, or both towards it;
+!> else one radius is negative, as that of a ring gear is.
+!> Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), section 4.2.4, with the direction to the other
+!> gear in place of a carrier. Limits: other joints hold the gears; less than half a turn in a step; on axes that meet the row makes
+!> couples on both bodies, so that what the bearings carry for the force at the teeth is not among their reactions; no pressure
+!> angle, no play.
 module spatial_gear
    use item, only: item_t
    use kind_info, only: add_number, dim_length, kind_info_t

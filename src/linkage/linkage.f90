@@ -37,7 +37,6 @@ module linkage
       real(wp), allocatable :: inverse_mass(:, :)       !! (n_v, 0:bodies) the same inverted, 0 if known [1/kg or 1/(kg.m^2)]
       type(scales_t) :: scales                          !! sizes and rates
       type(joint_slot_t), allocatable :: joints(:)      !! ideal joints and drivers, one set per kind
-      logical :: counts_turns = .false.                 !! some of them count turns, see `step_follower`
       integer :: n_solved_set = 0                       !! sets of them with rows that are solved for, the first ones
       type(joint_slot_t), allocatable :: ideal(:)       !! joints with clearance taken as ideal, one set per kind
       type(reduced_t) :: reduced                        !! bodies that are not unknown

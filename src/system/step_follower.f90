@@ -11,7 +11,7 @@ contains
    pure logical function must_follow(system)
       type(mechanism_t), intent(in) :: system   !! the system
 
-      must_follow = system%loading%counts_turns .or. system%linkage%counts_turns .or. system%friction%grips%have_ways
+      must_follow = system%loading%counts_turns .or. system%friction%grips%have_ways
    end function must_follow
 
    !> A step has ended: take its end as what counts go on from.
