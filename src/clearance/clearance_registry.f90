@@ -1,5 +1,6 @@
 !> The geometries of joints with clearance: two lines each (`use`, `case`).
 module clearance_registry
+   use clearance_block, only: clearance_block_t
    use clearance_bushing, only: clearance_bushing_t
    use clearance_discs, only: clearance_discs_t
    use clearance_plane, only: clearance_plane_t
@@ -12,7 +13,7 @@ module clearance_registry
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 7  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 8  !! number of geometries
 
 contains
 
@@ -29,6 +30,7 @@ contains
       case (5); allocate (clearance_stop_t :: set)
       case (6); allocate (clearance_spherical_t :: set)
       case (7); allocate (clearance_bushing_t :: set)
+      case (8); allocate (clearance_block_t :: set)
       end select
    end subroutine new_clearance_set
 

@@ -12,7 +12,7 @@ module point_contact
    private
    public :: contact_work_t, most_of_item, new_work, point_contact_t
 
-   integer, parameter :: most_of_item = 8     !! contacts of an item, at most
+   integer, parameter :: most_of_item = 16    !! contacts of an item, at most
 
    !> Kinematics of one contact. A geometry of the plane neither sets nor reads what is along z, nor the tangent.
    type :: point_contact_t

@@ -29,6 +29,7 @@ module socket_contacts
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
    use point_contacts, only: of_eccentricity, of_moment, point_contacts_t
+   use space_tangents, only: set_sliding
    implicit none (type, external)
    private
    public :: direction_of, measure_one, station_of  ! for its submodule
@@ -134,7 +135,7 @@ contains
       type(point_contact_t), intent(inout) :: contact  !! its kinematics
 
       type(station_t) :: at
-      real(wp) :: distance, normal(3), reach(3), slip(3), speed
+      real(wp) :: distance, normal(3), reach(3)
       integer :: i, item, j
 
       item = (k - 1)/self%n_contact_item + 1
@@ -156,13 +157,7 @@ contains
          contact%arm_i = motion%r(:, j) + contact%arm_j - motion%r(:, i)
       end associate
       if (.not. with_sliding) return
-      slip = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
-      slip = slip - dot_product(slip, contact%normal)/dot_product(contact%normal, contact%normal)*contact%normal
-      speed = norm2(slip)
-      contact%v_t = speed
-      contact%v_t_work = speed
-      contact%tangent = 0.0_wp
-      if (speed > 0.0_wp) contact%tangent = slip/speed
+      call set_sliding(motion, i, j, contact)
    end subroutine measure_one
 
    !> Where a ball or base is.
