@@ -74,7 +74,7 @@ contains
       class(film_watch_t), intent(out) :: self   !! the watch
       type(mechanism_t), intent(in) :: system    !! the system
 
-      integer :: i, k
+      integer :: first, i, k
 
       if (.not. system%loose%has_films) return
       allocate (self%joint(system%loose%n_contact), self%delta(system%loose%n_contact), self%rate(system%loose%n_contact))
@@ -82,7 +82,8 @@ contains
          associate (set => system%loose%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
-               associate (joint => self%joint(place_of(set, i)), films => set%laws%films)
+               first = place_of(set, i)
+               associate (joint => self%joint(first), films => set%laws%films)
                   joint%is_watched = films%acts
                   if (films%is_alone) joint%film_at_end = set%items%clearance(i)*(1.0_wp - films%eps_max(i))
                   joint%limit(limit_machined) = machined
@@ -195,14 +196,15 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
       character(:), allocatable :: words
-      integer :: i, k, limit
+      integer :: first, i, k, limit
 
       if (.not. allocated(self%joint)) return
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
-               associate (joint => self%joint(place_of(set, i)))
+               first = place_of(set, i)
+               associate (joint => self%joint(first))
                   call warn_of_lean(set%names(i)%s, set%laws%films%law%name, joint%lean, warnings)
                   if (set%laws%films%place(i)%is_heated) call append_text(warnings, "joint '"//set%names(i)%s// &
                      "': heat = balance is for a static analysis; in this run the film keeps the temperature of its lubricant")
@@ -229,14 +231,15 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
       real(wp) :: decay
-      integer :: i, k
+      integer :: first, i, k
 
       if (.not. allocated(self%joint)) return
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
-               associate (joint => self%joint(place_of(set, i)), &
+               first = place_of(set, i)
+               associate (joint => self%joint(first), &
                           inverse => system%linkage%inverse_mass(1, set%items%body(1, i)) &
                                      + system%linkage%inverse_mass(1, set%items%body(2, i)))
                   if (.not. joint%is_watched .or. .not. joint%step > 0.0_wp) cycle
