@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers vtk-test browser-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -86,6 +86,17 @@ bench-peers:
 	$(inner)release binary
 	@tests/bench/peers/set_up.sh $(abspath $(BUILD))/bench/peers
 	@$(PYTHON) -B tests/bench/peers/peers.py --build $(abspath $(BUILD)) $(PEERS)
+
+# motion.vtkhdf read by VTK itself, from PyPI in a virtual environment
+vtk-test:
+	$(inner)release binary
+	@tests/vtk/set_up.sh $(abspath $(BUILD))/vtk
+	@$(BUILD)/vtk/venv/bin/python -B tests/vtk/read_motion.py $(BUILD)/gudgeon $(BUILD)/vtk/run
+
+# the pages of animations opened by Chromium, without a window
+browser-test:
+	$(inner)release binary
+	@$(PYTHON) -B tests/browser/open_pages.py $(BUILD)/gudgeon $(BUILD)/browser
 
 stability:
 	@scripts/setup
@@ -144,6 +155,8 @@ help:
 	@echo "make test       set up, build both, run every test    make check    Fortran tests only: TESTS='module[.name] ...'"
 	@echo "make bench      the timers of tests/bench             make lint     format and style; make format mends the format"
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
+	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
+	@echo "make browser-test  the pages of animations opened by Chromium: no error, another picture after a step"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"

@@ -113,6 +113,7 @@ contains
       real(wp), intent(in), optional :: until             !! a time that the step must not pass [s]
 
       real(wp) :: t_stop
+      integer :: k
 
       associate (system => part%system, method => part%method)
          call part%instants%stop_after(method, t_stop)
@@ -122,9 +123,12 @@ contains
             call describe_failure(system, method, part%status, error)
             return
          end if
-         if (system%loading%counts_turns) then
+         if (system%loading%counts_turns .or. system%friction%grips%have_ways) then
             call system%linkage%set_motion(method%t, method%step%y1)
             call system%loading%follow_turns(system%linkage%motion)
+            do k = 1, size(system%loose%sets)
+               call system%loose%sets(k)%set%follow_sliding(system%linkage%motion)
+            end do
          end if
          call look_at_step(part, tally)
          if (part%is_lost) then

@@ -29,15 +29,51 @@ contains
       logical, intent(out) :: has_row                  !! something changed: `row` tells of it
       type(event_t), intent(out) :: row                !! what happened
 
+      real(wp) :: way(3)
       integer :: before
 
       before = system%loose%sets(slot)%set%grip%slip(k)
+      way = system%loose%sets(slot)%set%grip%tangent(k)%way
       call system%decide_slip(t, y, slot, k)
-      has_row = system%loose%sets(slot)%set%grip%slip(k) /= before
+      associate (grip => system%loose%sets(slot)%set%grip)
+         has_row = grip%slip(k) /= before .or. (before /= sticks .and. dot_product(way, grip%tangent(k)%way) < 0.0_wp)
+         if (grip%slip(k) == sticks) call unsettle(system)
+      end associate
       if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", before == sticks), row)
    end subroutine handle_slip
 
-   !> Decide about the first contact that has begun and is not decided. The row tells of it if it sticks.
+   !> A contact holds what it joins: others that slide with no speed to speak of may have to hold their part of the load, and
+   !> are not decided any more.
+   subroutine unsettle(system)
+      type(mechanism_t), intent(inout) :: system   !! the system; states of its contacts are changed
+
+      integer :: k, slot
+
+      do slot = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(slot)%set)
+            if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
+            do k = 1, set%n_contact
+               if (slides_slowly(system, slot, k)) call set%slip_as(k, is_undecided)
+            end do
+         end associate
+      end do
+   end subroutine unsettle
+
+   !> Whether a contact slides with no speed to speak of.
+   pure logical function slides_slowly(system, slot, k) result(is_slow)
+      type(mechanism_t), intent(in) :: system   !! the system, its contacts laid
+      integer, intent(in) :: slot               !! set of the contact
+      integer, intent(in) :: k                  !! contact of the set
+
+      is_slow = .false.
+      associate (set => system%loose%sets(slot)%set, scales => system%linkage%scales)
+         if (set%grip%memory /= memory_slip) return
+         if (.not. set%contact(k)%is_touching .or. abs(set%grip%slip(k)) /= 1) return
+         is_slow = norm2(set%grip%tangent(k)%v) < 0.5_wp*at_rest*scales%pace*scales%length
+      end associate
+   end function slides_slowly
+
+   !> Decide about the first contact that has begun, or was unsettled, and is not decided. The row tells of it if it sticks.
    subroutine decide_next(system, t, y, is_found, has_row, row)
       type(mechanism_t), intent(inout) :: system   !! the system, its motion that of the state
       real(wp), intent(in) :: t                        !! time [s]
@@ -58,7 +94,12 @@ contains
                is_found = .true.
                call system%decide_slip(t, y, slot, k)
                has_row = set%grip%slip(k) == sticks
-               if (has_row) call tell(system, t, slot, k, state_name(state_free), row)
+               if (.not. has_row) return
+               if (set%contact(k)%onset < t) then
+                  call tell(system, t, slot, k, word_slip, row)
+               else
+                  call tell(system, t, slot, k, state_name(state_free), row)
+               end if
                return
             end do
          end associate
@@ -113,13 +154,7 @@ contains
       do k = 1, system%loose%n_contact
          number = system%loose%functions%place(slip_function, k)
          call system%find_contact(number, slot, contact)
-         associate (set => system%loose%sets(slot)%set)
-            is_slow = .false.
-            if (set%grip%memory == memory_slip .and. set%contact(contact)%is_touching) then
-               is_slow = abs(set%grip%slip(contact)) == 1 .and. &
-                         abs(set%grip%tangent(contact)%v) < 0.5_wp*at_rest*system%linkage%scales%pace*system%linkage%scales%length
-            end if
-         end associate
+         is_slow = slides_slowly(system, slot, contact)
          if (.not. is_slow .and. (method%events%g(number) > 0.0_wp .or. .not. method%events%g1(number) > 0.0_wp)) cycle
          method%events%n_happened = method%events%n_happened + 1
          method%events%happened(method%events%n_happened) = number

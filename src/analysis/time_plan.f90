@@ -11,7 +11,7 @@ module time_plan
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: instant, last_instant, new_time_plan, time_plan_t
+   public :: instant, last_instant, new_time_plan, seconds, time_plan_t
 
    real(wp), parameter :: intervals = 1000.0_wp  !! output intervals of a motion if the deck gives none [1]
 

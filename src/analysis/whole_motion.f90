@@ -285,7 +285,9 @@ contains
                associate (target => whole%loose%sets(place%slot(m))%set, c => place%contact(m))
                   call target%adopt(c, set, i)
                   if (set%grip%memory == memory_bristle) then
-                     y(whole%bristle_place(place%slot(m), c)) = own(system%bristle_place(k, i))
+                     from = system%bristle_place(k, i)
+                     to = whole%bristle_place(place%slot(m), c)
+                     y(to + 1:to + set%grip%n_component) = own(from + 1:from + set%grip%n_component)
                   end if
                   if (.not. system%ledger%is_kept) cycle
                   from = system%in_state(place_of_loss(m, 1))

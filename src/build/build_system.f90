@@ -116,21 +116,25 @@ contains
    subroutine count_grips(system)
       type(mechanism_t), intent(inout) :: system  !! the system, all else counted
 
-      integer :: k, n_bristle, n_slip
+      integer :: k, n_bristle, n_force, n_slip
 
       n_bristle = 0
+      n_force = 0
       n_slip = 0
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             call set%place_bristles(n_bristle)
-            if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%n_contact
-            if (set%grip%memory == memory_slip) n_slip = n_slip + set%n_contact
+            if (set%grip%memory == memory_bristle) n_bristle = n_bristle + set%grip%n_component*set%n_contact
+            if (set%grip%memory /= memory_slip) cycle
+            n_slip = n_slip + set%n_contact
+            n_force = n_force + set%grip%n_tangent*set%n_contact
          end associate
       end do
       system%friction%rubbing%first_bristle = n_bristle
       n_bristle = n_bristle + system%friction%rubbing%n_bristle
       system%n = system%n + n_bristle
-      call new_grip_forces(n_slip, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, system%friction%grips)
+      call new_grip_forces(n_slip, n_force, n_bristle, system%linkage%solution%a, system%linkage%rows%n, system%n, &
+                           system%friction%grips)
    end subroutine count_grips
 
    !> Gravity, and force elements: one set per kind that has rows.

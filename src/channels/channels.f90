@@ -14,6 +14,7 @@ module channels
 
    !> The chosen numbers of a group.
    type :: chosen_t
+      logical :: is_used = .false.        !! some of them are chosen
       logical, allocatable :: mask(:, :)  !! (components, items)
    end type chosen_t
 
@@ -253,7 +254,10 @@ contains
       integer :: k
 
       do k = 1, size(scalars)
-         self%groups(scalars(k)%group)%mask(scalars(k)%component, scalars(k)%item) = .true.
+         associate (group => self%groups(scalars(k)%group))
+            group%mask(scalars(k)%component, scalars(k)%item) = .true.
+            group%is_used = .true.
+         end associate
       end do
    end subroutine choose_scalars
 
@@ -274,7 +278,7 @@ contains
       class(selection_t), intent(in) :: self  !! the selection
       integer, intent(in) :: group            !! number of the group
 
-      selection_has_group = any(self%groups(group)%mask)
+      selection_has_group = self%groups(group)%is_used
    end function selection_has_group
 
    !> Whether a selection holds some channel of an item.

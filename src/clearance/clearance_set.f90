@@ -12,9 +12,9 @@ module clearance_set
    use contact_grip, only: new_grip, tangent_t
    use contact_states, only: contact_states_t
    use floors, only: gentle
-   use friction_law, only: friction_law_t
+   use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
-   use kind_info, only: kind_info_t
+   use kind_info, only: in_space, kind_info_t
    use kinds, only: pi, wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
@@ -80,6 +80,7 @@ module clearance_set
       procedure :: fit_law => clearance_fit_law
       procedure :: note_swing => clearance_note_swing
       procedure :: lay => clearance_lay
+      procedure :: follow_sliding => clearance_follow_sliding
       procedure :: contact_time => clearance_contact_time
    end type clearance_set_t
 
@@ -205,6 +206,7 @@ contains
       class(normal_law_t), intent(in) :: law                          !! normal law
       class(friction_law_t), allocatable, intent(in) :: friction      !! friction law, unallocated: none
 
+      type(kind_info_t) :: info
       integer :: k
 
       self%n = size(items)
@@ -218,7 +220,8 @@ contains
       allocate (self%laws%normal, source=law)
       if (allocated(friction)) then
          if (friction%is_active()) allocate (self%laws%friction, source=friction)
-         if (friction%is_active()) call new_grip(self%n_contact, friction, self%grip)
+         info = self%info()
+         if (friction%is_active()) call new_grip(self%n_contact, info%space == in_space, friction, self%grip)
       end if
       do k = 1, self%n
          self%names(k)%s = items(k)%name
@@ -335,6 +338,25 @@ contains
       call self%lie(k, motion, tangent)
       self%grip%tangent(k) = tangent
    end subroutine clearance_lay
+
+   !> Let the ways of contacts in space that may stick follow their sliding, at the end of a step.
+   subroutine clearance_follow_sliding(self, motion)
+      class(clearance_set_t), intent(inout) :: self  !! the set
+      type(motion_t), intent(in) :: motion           !! positions and velocities
+
+      integer :: k
+
+      if (self%grip%memory /= memory_slip .or. self%grip%n_tangent == 1 .or. self%n_touching == 0) return
+      do k = 1, self%n_contact
+         if (.not. self%contact(k)%is_touching) cycle
+         call self%lay(k, motion)
+         associate (tangent => self%grip%tangent(k))
+            tangent%way = tangent%t(:, 1)
+            if (self%grip%slip(k) /= 1) cycle
+            call self%slip_toward(k, [max(tangent%v(1), self%grip%still(k)), tangent%v(2)])
+         end associate
+      end do
+   end subroutine clearance_follow_sliding
 
    !> Duration of an elastic impact of the two bodies, if they were free.
    pure real(wp) function clearance_contact_time(self, k, speed, inverse_mass) result(time)

@@ -8,44 +8,56 @@
 !> velocities of the material points at arms s_i, s_j from the centres of mass, and drift what of v_T' does not depend on
 !> accelerations: the normal turns, and the points of contact move through the bodies.
 !>
+!> In space a contact has two tangents. The first lies along `way`, the direction in which it slid at the end of the last step: slip
+!> is 1 and ends where the velocity along it does. Sliding friction is against the velocity; where that is next to none (`still`),
+!> against the way. The deflection of bristles is a vector of the tangent plane, which the normal takes along as it turns (with the
+!> mean spin of both bodies about it):
+!>
+!> F_T = -F (v_T + ...)/|v_T|,   z' = (rate by the law) + w x z,   w = n x n' + n (n . (w_i + w_j))/2
+!>
 !> Signs: forces are those on body j along t. Source: Flores et al. (2008), section 3.5.
 module contact_grip
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use kinds, only: wp
    use memory, only: get, put
+   use motion, only: cross
    implicit none (type, external)
    private
-   public :: grip_t, is_undecided, n_grip_memory, new_grip, slip_force, sticks, tangent_t
+   public :: grip_t, is_undecided, new_grip, slip_force, sticks, tangent_t
 
    integer, parameter :: sticks = 0         !! value of slip: no sliding
    integer, parameter :: is_undecided = 2   !! value of slip: not known since the onset
 
-   integer, parameter :: n_grip_memory = 4  !! numbers per contact in a checkpoint
-
    !> How a contact lies, at one motion.
    type :: tangent_t
-      real(wp) :: t(3) = 0.0_wp        !! (3) unit tangent, world frame [1]
+      real(wp) :: t(3, 2) = 0.0_wp     !! (3, 2) unit tangents, in the plane one; world frame [1]
+      real(wp) :: way(3) = 0.0_wp      !! (3) in space: direction of sliding at the end of the last step; zero: none yet [1]
+      real(wp) :: spin(3) = 0.0_wp     !! (3) in space: angular velocity of the tangent plane [rad/s]
       real(wp) :: arm_i(3) = 0.0_wp    !! (3) where the force on i acts, from its centre of mass, world frame [m]
       real(wp) :: arm_j(3) = 0.0_wp    !! (3) where the force on j acts, from its centre of mass, world frame [m]
-      real(wp) :: v = 0.0_wp           !! sliding velocity of j along t [m/s]
-      real(wp) :: drift = 0.0_wp       !! part of its rate that does not depend on accelerations [m/s^2]
+      real(wp) :: v(2) = 0.0_wp        !! (2) sliding velocity of j along the tangents [m/s]
+      real(wp) :: drift(2) = 0.0_wp    !! (2) part of its rate that does not depend on accelerations [m/s^2]
       real(wp) :: f_n = 0.0_wp         !! normal force [N]
-      real(wp) :: f_t = 0.0_wp         !! friction force on j along t [N]
+      real(wp) :: f_t(2) = 0.0_wp      !! (2) friction force on j along the tangents [N]
       logical :: is_driven = .false.   !! it sticks, but drivers alone prescribe how it slides
    end type tangent_t
 
    !> The grip of all contacts of a set.
    type :: grip_t
       integer :: memory = memory_none                !! what is remembered, as of the law
-      integer :: first_bristle = 0                   !! deflections of earlier sets
+      integer :: first_bristle = 0                   !! components of deflections of earlier sets
+      integer :: n_tangent = 1                       !! tangents of a contact: 1 in the plane, 2 in space
+      integer :: n_component = 1                     !! components of a deflection: 1 in the plane, 3 in space
       integer, allocatable :: slip(:)                !! (contacts) which way they slide, 0: they stick, 2: not decided
       real(wp), allocatable :: band(:)               !! (contacts) speed against the slip at which it ends [m/s]
       real(wp), allocatable :: since(:)              !! (contacts) time of the last decision [s]
-      real(wp), allocatable :: z(:)                  !! (contacts) deflections of bristles [m]
-      real(wp), allocatable :: origin(:)             !! (contacts) what the state was when they began [m]
-      real(wp), allocatable :: z_rate(:)             !! (contacts) their rates [m/s]
+      real(wp), allocatable :: still(:)              !! (contacts) in space: speed that is next to none [m/s]
+      real(wp), allocatable :: z(:, :)               !! (n_component, contacts) deflections, along t or in the world's frame [m]
+      real(wp), allocatable :: origin(:, :)          !! (n_component, contacts) what the state was when they began [m]
+      real(wp), allocatable :: z_rate(:, :)          !! (n_component, contacts) their rates [m/s]
       type(tangent_t), allocatable :: tangent(:)     !! (contacts) of the last evaluation
    contains
+      procedure :: memory_size => grip_memory_size
       procedure :: forget
       procedure :: adopt
       procedure :: save => grip_save
@@ -55,15 +67,21 @@ module contact_grip
 contains
 
    !> Room for n contacts, if the law remembers anything.
-   subroutine new_grip(n, law, grip)
+   subroutine new_grip(n, is_spatial, law, grip)
       integer, intent(in) :: n                 !! number of contacts
+      logical, intent(in) :: is_spatial        !! contacts in space, not in the plane
       class(friction_law_t), intent(in) :: law !! friction law
       type(grip_t), intent(out) :: grip        !! nothing remembered yet
 
       grip%memory = law%memory
       if (grip%memory == memory_none) return
       allocate (grip%slip(n), source=is_undecided)
-      allocate (grip%band(n), grip%since(n), grip%z(n), grip%z_rate(n), grip%origin(n), source=0.0_wp)
+      if (is_spatial) then
+         grip%n_tangent = 2
+         grip%n_component = 3
+      end if
+      allocate (grip%band(n), grip%since(n), grip%still(n), source=0.0_wp)
+      allocate (grip%z(grip%n_component, n), grip%z_rate(grip%n_component, n), grip%origin(grip%n_component, n), source=0.0_wp)
       allocate (grip%tangent(n))
    end subroutine new_grip
 
@@ -76,9 +94,10 @@ contains
       self%slip(k) = is_undecided
       self%band(k) = 0.0_wp
       self%since(k) = -huge(1.0_wp)
-      self%origin(k) = self%origin(k) + self%z(k)
-      self%z(k) = 0.0_wp
-      self%z_rate(k) = 0.0_wp
+      self%still(k) = 0.0_wp
+      self%origin(:, k) = self%origin(:, k) + self%z(:, k)
+      self%z(:, k) = 0.0_wp
+      self%z_rate(:, k) = 0.0_wp
       self%tangent(k) = tangent_t()
    end subroutine forget
 
@@ -93,30 +112,68 @@ contains
       self%slip(k) = other%slip(k_other)
       self%band(k) = other%band(k_other)
       self%since(k) = other%since(k_other)
-      self%origin(k) = other%origin(k_other)
+      self%still(k) = other%still(k_other)
+      self%origin(:, k) = other%origin(:, k_other)
+      self%tangent(k)%way = other%tangent(k_other)%way
    end subroutine adopt
 
-   !> Friction force of a touching contact on body j along t; none of one that sticks, which is found with the accelerations.
+   !> Friction force of a touching contact on body j along its tangents; none of one that sticks, which is found with the
+   !> accelerations.
    subroutine slip_force(self, law, k)
       type(grip_t), intent(inout) :: self         !! the grip; how contact k lies, with its normal force, is set
       class(friction_law_t), intent(in) :: law    !! friction law
       integer, intent(in) :: k                    !! contact of the set
 
-      real(wp) :: f(1)
+      real(wp) :: along, f(1)
 
       associate (tangent => self%tangent(k))
          tangent%f_t = 0.0_wp
          select case (self%memory)
          case (memory_bristle)
-            call law%bristles(tangent%f_n, tangent%v, self%z(k), f(1), self%z_rate(k))
-            tangent%f_t = -f(1)
+            call bend(self, law, k)
          case (memory_slip)
             if (abs(self%slip(k)) /= 1) return
-            call law%force(1, [tangent%f_n], [abs(tangent%v)], f)
-            tangent%f_t = -self%slip(k)*f(1)
+            call law%force(1, [tangent%f_n], [hypot(tangent%v(1), tangent%v(2))], f)
+            if (self%n_tangent == 1) then
+               tangent%f_t(1) = -self%slip(k)*f(1)
+            else
+               along = max(tangent%v(1), self%still(k), tiny(1.0_wp))
+               tangent%f_t = -f(1)*[along, tangent%v(2)]/hypot(along, tangent%v(2))
+            end if
          end select
       end associate
    end subroutine slip_force
+
+   !> Force of the bristles of a contact, and the rate of their deflection.
+   subroutine bend(self, law, k)
+      type(grip_t), intent(inout) :: self         !! the grip; how contact k lies, with its normal force, is set
+      class(friction_law_t), intent(in) :: law    !! friction law
+      integer, intent(in) :: k                    !! contact of the set
+
+      real(wp) :: f(self%n_component)
+
+      associate (tangent => self%tangent(k), n => self%n_component, z => self%z(:, k))
+         if (n == 1) then
+            call law%bristles(n, tangent%f_n, tangent%v(:n), z, f, self%z_rate(:, k))
+            tangent%f_t(1) = -f(1)
+         else
+            call law%bristles(n, tangent%f_n, matmul(tangent%t, tangent%v), z, f, self%z_rate(:, k))
+            self%z_rate(:, k) = self%z_rate(:, k) + cross(tangent%spin, z)
+            tangent%f_t = -matmul(f, tangent%t)
+         end if
+      end associate
+   end subroutine bend
+
+   !> Numbers that the grip keeps in a checkpoint.
+   pure integer function grip_memory_size(self) result(n)
+      class(grip_t), intent(in) :: self   !! the grip
+
+      n = 0
+      if (self%memory == memory_none) return
+      n = 3 + self%n_component
+      if (self%n_tangent > 1) n = n + 4
+      n = n*size(self%slip)
+   end function grip_memory_size
 
    !> Write what the grip remembers.
    subroutine grip_save(self, row, place)
@@ -129,7 +186,8 @@ contains
       if (self%memory == memory_none) return
       do k = 1, size(self%slip)
          call put(row, place, self%slip(k))
-         call put(row, place, [self%band(k), self%since(k), self%origin(k)])
+         call put(row, place, [self%band(k), self%since(k), self%origin(:, k)])
+         if (self%n_tangent > 1) call put(row, place, [self%still(k), self%tangent(k)%way])
       end do
    end subroutine grip_save
 
@@ -139,14 +197,21 @@ contains
       real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
       integer, intent(inout) :: place        !! last place used
 
-      integer :: k
+      integer :: i, k
 
       if (self%memory == memory_none) return
       do k = 1, size(self%slip)
          call get(row, place, self%slip(k))
          call get(row, place, self%band(k))
          call get(row, place, self%since(k))
-         call get(row, place, self%origin(k))
+         do i = 1, self%n_component
+            call get(row, place, self%origin(i, k))
+         end do
+         if (self%n_tangent == 1) cycle
+         call get(row, place, self%still(k))
+         do i = 1, 3
+            call get(row, place, self%tangent(k)%way(i))
+         end do
       end do
    end subroutine grip_load
 

@@ -5,9 +5,8 @@
 !> at the onset, the greatest force and penetration as steps find them, and the end makes a row of the list of events.
 module contact_states
    use catalogue, only: state_contact, state_free, state_name
-   use contact_grip, only: grip_t, n_grip_memory
+   use contact_grip, only: grip_t
    use contact_memory, only: contact_memory_t, n_contact_memory
-   use friction_law, only: memory_none
    use kinds, only: not_a_number, wp
    use recorder, only: event_t
    use text, only: text_t
@@ -47,6 +46,7 @@ module contact_states
       procedure :: set_course
       procedure :: cross_transition
       procedure :: slip_as
+      procedure :: slip_toward
       procedure :: note_decision
       procedure :: stick_with
       procedure :: place_bristles
@@ -224,22 +224,41 @@ contains
       self%grip%slip(k) = slip
    end subroutine slip_as
 
+   !> It is decided that a contact slides along a vector of its tangents, as it lies.
+   pure subroutine slip_toward(self, k, direction)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: direction(2)            !! (2) along its tangents, of any length; in the plane the sign counts [any]
+
+      real(wp) :: way(3)
+
+      if (self%grip%n_tangent == 1) then
+         self%grip%slip(k) = nint(sign(1.0_wp, direction(1)))
+         return
+      end if
+      self%grip%slip(k) = 1
+      way = matmul(self%grip%tangent(k)%t, direction)
+      if (any(abs(way) > 0.0_wp)) self%grip%tangent(k)%way = way/norm2(way)
+   end subroutine slip_toward
+
    !> When it was decided, and the speed the wrong way at which its slip is to end next.
-   pure subroutine note_decision(self, k, t, band)
+   pure subroutine note_decision(self, k, t, band, still)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
       real(wp), intent(in) :: t                       !! time [s]
       real(wp), intent(in) :: band                    !! speed against the slip at which it ends [m/s]
+      real(wp), intent(in) :: still                   !! speed that is next to none [m/s]
 
       self%grip%since(k) = t
       self%grip%band(k) = band
+      self%grip%still(k) = still
    end subroutine note_decision
 
    !> Friction of a contact that sticks, as found with the accelerations.
    pure subroutine stick_with(self, k, force, is_driven)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
-      real(wp), intent(in) :: force                   !! on body j along t [N]
+      real(wp), intent(in) :: force(2)                !! (2) on body j along its tangents [N]
       logical, intent(in) :: is_driven                !! drivers alone prescribe how it slides
 
       self%grip%tangent(k)%f_t = force
@@ -257,9 +276,9 @@ contains
    !> Take the deflections of bristles from a state.
    pure subroutine bend_bristles(self, state)
       class(contact_states_t), intent(inout) :: self  !! the set, with friction that has bristles
-      real(wp), intent(in) :: state(:)                !! (n_contact) the entries of the state [m]
+      real(wp), intent(in) :: state(:)                !! (n_component n_contact) the entries of the state [m]
 
-      self%grip%z = state - self%grip%origin
+      self%grip%z = reshape(state, shape(self%grip%z)) - self%grip%origin
    end subroutine bend_bristles
 
    !> Numbers that the set must keep in a checkpoint.
@@ -267,7 +286,7 @@ contains
       class(contact_states_t), intent(in) :: self  !! the set
 
       n = n_contact_memory*self%n_contact
-      if (self%grip%memory /= memory_none) n = n + n_grip_memory*self%n_contact
+      n = n + self%grip%memory_size()
    end function states_memory_size
 
    !> Write what the set remembers.

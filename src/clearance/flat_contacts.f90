@@ -17,7 +17,7 @@ module flat_contacts
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
-   use point_contacts, only: point_contacts_t
+   use planar_points, only: planar_points_t
    implicit none (type, external)
    private
    public :: flat_contacts_t
@@ -31,7 +31,7 @@ module flat_contacts
    end type plane_surfaces_t
 
    !> Points or circles against planes. `prepare` of a geometry calls `make_planes` and fills the parameters.
-   type, abstract, extends(point_contacts_t) :: flat_contacts_t
+   type, abstract, extends(planar_points_t) :: flat_contacts_t
       type(plane_surfaces_t) :: plane   !! planes, and what comes near them
    contains
       procedure, non_overridable :: make_planes

@@ -54,11 +54,11 @@ contains
       real(wp), intent(in) :: speed_j               !! n . s_j', the same of j [m/s]
       type(tangent_t), intent(inout) :: tangent     !! how it lies; its forces are left alone
 
-      tangent%t(1:2) = [-contact%normal(2), contact%normal(1)]
+      tangent%t(1:2, 1) = [-contact%normal(2), contact%normal(1)]
       tangent%arm_i(1:2) = contact%arm_i(1:2)
       tangent%arm_j(1:2) = contact%arm_j(1:2)
-      tangent%v = contact%v_t_work
-      tangent%drift = -turn*contact%rate + omega_j*speed_j - omega_i*speed_i
+      tangent%v(1) = contact%v_t_work
+      tangent%drift(1) = -turn*contact%rate + omega_j*speed_j - omega_i*speed_i
    end subroutine lie_in_plane
 
 end module planar_contacts

@@ -1,7 +1,7 @@
 !> The one way of contacts at points: measure -> press -> rub -> loads and losses, and what is asked of them beside that.
 !>
 !> A geometry measures: where its surfaces meet and how deep (`measure`), the second derivative of the penetration
-!> (`penetration_acceleration`), how the normal turns and the point of contact moves (`turning`). The rest is here:
+!> (`penetration_acceleration`), how its contacts lie (`lie`). The rest is here:
 !>
 !> press   F_N of all contacts at once from the normal law
 !> rub     F_T from F_N and the sliding velocity, by the friction law or by what the contact remembers (`contact_grip`)
@@ -21,13 +21,13 @@ module point_contacts
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
-   use planar_contacts, only: planar_force
    use readings, only: readings_t
    use point_contact, only: contact_work_t, most_of_item, new_work, point_contact_t
    implicit none (type, external)
    private
    public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
-   public :: of_eccentricity, of_force, of_moment, of_state
+   public :: take_friction  ! for its submodule
+   public :: of_contact_point, of_eccentricity, of_force, of_moment, of_state
 
    ! channels
    integer, parameter :: of_force = 1             !! force on j
@@ -36,8 +36,9 @@ module point_contacts
    integer, parameter :: of_normal_force = 4      !! of a contact
    integer, parameter :: of_friction_force = 5    !! of a contact
    integer, parameter :: of_state = 6             !! of a contact
-   integer, parameter :: of_eccentricity = 7      !! a geometry's own
-   integer, parameter :: of_moment = 8            !! a geometry's own
+   integer, parameter :: of_contact_point = 7     !! of a contact
+   integer, parameter :: of_eccentricity = 8      !! a geometry's own
+   integer, parameter :: of_moment = 9            !! a geometry's own
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t
@@ -46,7 +47,6 @@ module point_contacts
       procedure, non_overridable :: make_room
       procedure(measure_interface), deferred :: measure
       procedure(acceleration_interface), deferred :: penetration_acceleration
-      procedure(turning_interface), deferred :: turning
       procedure, non_overridable :: share_faces => point_share_faces
       procedure :: share_item => point_share_item
       procedure :: report_item => point_report_item
@@ -54,8 +54,7 @@ module point_contacts
       procedure, non_overridable :: rub => point_rub
       procedure :: gaps => point_gaps
       procedure :: watch => point_watch
-      procedure :: lie => point_lie
-      procedure, nopass :: force_on_j => planar_force
+      procedure(point_force_interface), nopass, deferred :: force_on_j
       procedure :: report => point_report
       procedure :: elastic_energy => point_elastic_energy
    end type point_contacts_t
@@ -82,18 +81,15 @@ module point_contacts
          type(point_contact_t), intent(in) :: contact   !! its kinematics
       end function acceleration_interface
 
-      !> How the normal of a contact turns, and how fast its point goes along the normal, as each body sees it.
-      pure subroutine turning_interface(self, k, motion, contact, turn, speed_i, speed_j)
-         import :: motion_t, point_contact_t, point_contacts_t, wp
+      !> Force of a contact on body j.
+      pure function point_force_interface(contact, f_n, f_t) result(f)
+         import :: point_contact_t, wp
          implicit none (type, external)
-         class(point_contacts_t), intent(in) :: self    !! the set
-         integer, intent(in) :: k                       !! contact
-         type(motion_t), intent(in) :: motion           !! positions and velocities
          type(point_contact_t), intent(in) :: contact   !! its kinematics
-         real(wp), intent(out) :: turn                  !! rate at which the normal turns towards t [rad/s]
-         real(wp), intent(out) :: speed_i               !! n . s_i', from the centre of mass of i [m/s]
-         real(wp), intent(out) :: speed_j               !! n . s_j', from the centre of mass of j [m/s]
-      end subroutine turning_interface
+         real(wp), intent(in) :: f_n                    !! normal force [N]
+         real(wp), intent(in) :: f_t                    !! friction force on j along t [N]
+         real(wp) :: f(3)                               !! (3) world frame [N]
+      end function point_force_interface
    end interface
 
    interface
@@ -117,15 +113,6 @@ module point_contacts
          real(wp), intent(out) :: force               !! normal force [N]
          real(wp), intent(out) :: force_rate          !! its rate [N/s]
       end subroutine point_watch
-
-      !> How a contact lies, whether it touches or not.
-      module subroutine point_lie(self, k, motion, tangent)
-         implicit none (type, external)
-         class(point_contacts_t), intent(in) :: self  !! the set
-         integer, intent(in) :: k                     !! contact
-         type(motion_t), intent(in) :: motion         !! positions and velocities
-         type(tangent_t), intent(inout) :: tangent    !! how it lies
-      end subroutine point_lie
 
       !> Values that are read: those of the contacts and the force on j here, others as the geometry has them. The contacts of an
       !> item are found once for all of them.
@@ -170,6 +157,7 @@ contains
       call add_channel(info, "normal_force", "N", "none", 1, "normal contact force", of_normal_force)
       call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along, of_friction_force)
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed", of_state)
+      call add_channel(info, "contact_point", "m", "world", 2, "where the force on the "//who//" acts, or would", of_contact_point)
    end subroutine add_contact_channels
 
    !> Room for what an evaluation finds.
@@ -199,9 +187,24 @@ contains
          call self%lay(k, motion)
          self%grip%tangent(k)%f_n = self%work%f_rub(k)
          call slip_force(self%grip, self%laws%friction, k)
-         self%work%f_t(k) = self%grip%tangent(k)%f_t
+         call take_friction(self%grip%n_tangent, self%grip%tangent(k), self%work%contacts(k), self%work%f_t(k))
       end do
    end subroutine point_rub
+
+   !> Friction of a contact that remembers, as those that do not have it: in space t is against it.
+   pure subroutine take_friction(n_tangent, tangent, contact, f_t)
+      integer, intent(in) :: n_tangent                   !! tangents of a contact: 1 in the plane, 2 in space
+      type(tangent_t), intent(in) :: tangent             !! how the contact lies, with its friction
+      type(point_contact_t), intent(inout) :: contact    !! its kinematics; in space t and the velocity along it are set
+      real(wp), intent(out) :: f_t                       !! friction force on j along t [N]
+
+      f_t = tangent%f_t(1)
+      if (n_tangent == 1) return
+      f_t = -hypot(tangent%f_t(1), tangent%f_t(2))
+      if (.not. f_t < 0.0_wp) return
+      contact%tangent = matmul(tangent%t, tangent%f_t/f_t)
+      contact%v_t_work = dot_product(tangent%v, tangent%f_t/f_t)
+   end subroutine take_friction
 
    !> A channel of a geometry's own; there is none here, and the value is left alone.
    subroutine point_report_item(self, code, item, motion, contacts, f_n, f_t, value)

@@ -4,7 +4,6 @@ submodule(point_contacts) point_queries
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use normal_law, only: n_law_parameter, normal_law_t
-   use planar_contacts, only: lie_in_plane
    implicit none (type, external)
 
 contains
@@ -53,20 +52,6 @@ contains
       force_rate = slope_delta(1)*rate + slope_rate(1)*self%penetration_acceleration(k, motion, contact)
    end procedure point_watch
 
-   !> How a contact lies, whether it touches or not.
-   module procedure point_lie
-      type(point_contact_t) :: contact
-      real(wp) :: speed_i, speed_j, turn
-      integer :: item
-
-      item = self%item_of(k)
-      call self%measure(k, .true., motion, contact)
-      call self%turning(k, motion, contact, turn, speed_i, speed_j)
-      call lie_in_plane(contact, motion%omega(3, self%items%body(1, item)), motion%omega(3, self%items%body(2, item)), turn, &
-                        speed_i, speed_j, &
-                        tangent)
-   end procedure point_lie
-
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
       type(point_contact_t) :: contacts(most_of_item)
@@ -75,13 +60,16 @@ contains
       logical :: has_contacts
 
       n = self%n_contact_item
-      has_contacts = readings%has(of_force, of_state) .or. readings%has(of_moment, of_moment)
+      has_contacts = readings%has(of_force, of_contact_point) .or. readings%has(of_moment, of_moment)
       do item = 1, self%n
          first = (item - 1)*n
          if (has_contacts) call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
          do m = 1, readings%n
             associate (values => groups(readings%group(m))%data)
-               if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
+               if (readings%code(m) == of_contact_point) then
+                  call report_points(motion%r(:, self%items%body(2, item)), n, contacts, &
+                                     values(:, self%before%contacts + first + 1:self%before%contacts + first + n))
+               else if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
                   call report_contacts(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, &
                                        values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
                else if (readings%code(m) == of_force) then
@@ -122,6 +110,20 @@ contains
          end select
       end do
    end subroutine report_contacts
+
+   !> Where the forces on j act.
+   pure subroutine report_points(r_j, n, contacts, values)
+      real(wp), intent(in) :: r_j(3)                        !! (3) centre of mass of j, world frame [m]
+      integer, intent(in) :: n                              !! contacts
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
+      real(wp), intent(inout) :: values(:, :)               !! (2 or 3, n) the points, world frame [m]
+
+      integer :: c
+
+      do c = 1, n
+         values(:, c) = r_j(:size(values, 1)) + contacts(c)%arm_j(:size(values, 1))
+      end do
+   end subroutine report_points
 
    !> Force of all contacts of an item on j.
    pure subroutine report_force(self, n, contacts, f_n, f_t, force)
@@ -169,7 +171,10 @@ contains
       if (self%grip%memory == memory_none) then
          call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)
       else  ! of the last evaluation: it is no function of the motion alone
-         f_t = merge(self%grip%tangent(first + 1:first + n)%f_t, 0.0_wp, self%contact(first + 1:first + n)%is_touching)
+         do c = 1, n
+            if (.not. self%contact(first + c)%is_touching) cycle
+            call take_friction(self%grip%n_tangent, self%grip%tangent(first + c), contacts(c), f_t(c))
+         end do
       end if
    end subroutine find_forces
 

@@ -22,7 +22,8 @@ module round_contacts
    use normal_law, only: n_law_parameter, normal_law_t
    use planar_contacts, only: planar_sliding
    use point_contact, only: point_contact_t
-   use point_contacts, only: of_eccentricity, of_force, of_state, point_contacts_t, point_report
+   use planar_points, only: planar_points_t
+   use point_contacts, only: of_eccentricity, of_force, of_state, point_report
    use readings, only: readings_t
    use revolute_level, only: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_power, &
       of_film_pressure, of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
@@ -41,7 +42,7 @@ module round_contacts
    end type journal_t
 
    !> Journals in bearings or beside discs. `prepare` of a geometry sets their surfaces.
-   type, abstract, extends(point_contacts_t) :: round_contacts_t
+   type, abstract, extends(planar_points_t) :: round_contacts_t
       type(journal_t), allocatable :: journal(:)       !! (n) the surfaces
    contains
       procedure :: evaluate => round_evaluate

@@ -31,6 +31,7 @@ module socket_contacts
    use point_contacts, only: of_eccentricity, of_moment, point_contacts_t
    implicit none (type, external)
    private
+   public :: direction_of, measure_one, station_of  ! for its submodule
    public :: of_axial_displacement, of_engagement, of_tilt, socket_contacts_t, socket_t
 
    ! channels of a bushing
@@ -69,11 +70,21 @@ module socket_contacts
       procedure :: evaluate => socket_evaluate
       procedure :: measure => socket_measure
       procedure :: penetration_acceleration => socket_penetration_acceleration
-      procedure :: turning => socket_turning
       procedure :: lie => socket_lie
       procedure, nopass :: force_on_j => socket_force_on_j
       procedure :: report_item => socket_report_item
    end type socket_contacts_t
+
+   interface
+      !> How a contact lies: see `socket_tangents`.
+      module subroutine socket_lie(self, k, motion, tangent)
+         implicit none (type, external)
+         class(socket_contacts_t), intent(in) :: self   !! the set
+         integer, intent(in) :: k                       !! contact
+         type(motion_t), intent(in) :: motion           !! positions and velocities
+         type(tangent_t), intent(inout) :: tangent      !! how it lies; its forces and its way are left alone
+      end subroutine socket_lie
+   end interface
 
 contains
 
@@ -265,32 +276,6 @@ contains
       w_e = w - dot_product(w, at%u)*at%u
       acceleration = dot_product(at%e/distance, a) + (dot_product(w_e, w_e) - contact%rate**2)/distance
    end function socket_penetration_acceleration
-
-   !> No law of space remembers how a contact lies.
-   pure subroutine socket_turning(self, k, motion, contact, turn, speed_i, speed_j)
-      class(socket_contacts_t), intent(in) :: self   !! the set
-      integer, intent(in) :: k                       !! contact
-      type(motion_t), intent(in) :: motion           !! positions and velocities
-      type(point_contact_t), intent(in) :: contact   !! its kinematics
-      real(wp), intent(out) :: turn                  !! nothing [rad/s]
-      real(wp), intent(out) :: speed_i               !! nothing [m/s]
-      real(wp), intent(out) :: speed_j               !! nothing [m/s]
-
-      turn = 0.0_wp
-      speed_i = 0.0_wp
-      speed_j = 0.0_wp
-      error stop "internal mistake: friction with a memory in space"
-   end subroutine socket_turning
-
-   !> No law of space remembers how a contact lies.
-   subroutine socket_lie(self, k, motion, tangent)
-      class(socket_contacts_t), intent(in) :: self   !! the set
-      integer, intent(in) :: k                       !! contact
-      type(motion_t), intent(in) :: motion           !! positions and velocities
-      type(tangent_t), intent(inout) :: tangent      !! left alone
-
-      error stop "internal mistake: friction with a memory in space"
-   end subroutine socket_lie
 
    !> Force of a contact on body j.
    pure function socket_force_on_j(contact, f_n, f_t) result(f)

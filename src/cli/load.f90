@@ -9,11 +9,12 @@ module load
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
-   use figure_words, only: check_figures, figure_bifurcation, figure_film, figure_portrait, figure_section, figure_statistics, &
-      figure_t, new_figure
+   use drawn_figures, only: check_drawn_figures
+   use figure_words, only: check_figures, draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, &
+      figure_statistics, figure_t, new_figure
    use film_figures, only: check_film_figures
    use function_range, only: check_function_ranges
-   use item, only: item_t, location_t, place_of, value_t
+   use item, only: item_t, location_of, location_t, place_of
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -91,6 +92,7 @@ contains
          call check_words(loaded%scene, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
       end if
+      if (mistakes%count() == 0) call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
 
@@ -275,7 +277,7 @@ contains
       associate (words => scene%settings%output%values(place_of(scene%settings%output, "figures"))%words)
          do bad = 1, size(words)
             call new_figure(words(bad)%s, catalogue, figure, message, hint)
-            if (figure%kind <= figure_portrait .or. figure%kind == figure_film) cycle
+            if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) cycle
             if (.not. scene%settings%statistics%is_present) then
                message = "'"//words(bad)%s//"' needs a section [statistics]"
                hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
@@ -323,14 +325,5 @@ contains
          names(k)%s = list(k)%name
       end do
    end function known_numbers
-
-   !> Where a word of a list stands.
-   pure type(location_t) function location_of(value, word)
-      type(value_t), intent(in) :: value  !! the list
-      integer, intent(in) :: word         !! number of the word
-
-      location_of = value%location
-      if (word <= size(value%places)) location_of = value%places(word)
-   end function location_of
 
 end module load

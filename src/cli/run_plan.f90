@@ -5,6 +5,7 @@ module run_plan
    use channels, only: find_scalars, item_finder_t
    use consistent_start, only: assembly_t
    use deck_texts, only: deck_text, get_includes
+   use drawn_figures, only: plan_drawn_figures
    use figure_words, only: check_figures
    use item, only: place_of
    use kinds, only: wp
@@ -14,7 +15,8 @@ module run_plan
    use output_directory, only: output_directory_t
    use output_plan, only: output_plan_t, show_json, show_nothing
    use row_plan, only: contact_rows_text, has_contact_rows
-   use scene, only: analysis_dynamic, analysis_names
+   use scene, only: analysis_dynamic, analysis_names, analysis_static
+   use scene_drawing, only: drawing_of_scene
    use scene_echo, only: echo_scene
    use start_state, only: redundancy_text
    use statistics, only: statistics_plan_t
@@ -37,6 +39,8 @@ contains
       type(assembly_t), intent(in) :: assembly     !! how the start was found
       type(output_plan_t), intent(out) :: plan     !! the plan
 
+      logical :: is_drawn
+
       plan%warnings = directory%warnings
       plan%directory = directory%path
       call tell_origin(options, loaded, plan)
@@ -57,6 +61,13 @@ contains
       plan%with%histories = options%write /= "numbers"
       plan%with%texts = options%write == "all"
       plan%with%figures = options%write == "all"
+      plan%with%motion = loaded%scene%settings%output%word("motion") /= "off" .and. options%write == "all"
+      if (plan%with%figures .and. loaded%scene%analysis /= analysis_static) then
+         call plan_drawn_figures(plan%figures, loaded%scene, loaded%system, loaded%plan, loaded%catalogue, plan%looks%frames)
+      end if
+      is_drawn = plan%with%motion
+      if (allocated(plan%looks%frames%wanted)) is_drawn = is_drawn .or. size(plan%looks%frames%wanted) > 0
+      if (is_drawn) call drawing_of_scene(loaded%scene, plan%looks%drawing)
       if (loaded%sweep%is_present .and. options%write == "all") then
          call append_text(plan%warnings, "the deck has a sweep of "//to_text(loaded%sweep%n_cases())// &
                           " cases; this is the deck's own case ('gudgeon sweep' runs them)")

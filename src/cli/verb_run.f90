@@ -271,6 +271,7 @@ contains
       keeper%plan%suffix = ".ideal"
       keeper%plan%with%hdf5 = .false.
       keeper%plan%with%summary = .false.
+      keeper%plan%with%motion = .false.
       keeper%plan%with%figures = .false.
       keeper%plan%with%progress = .false.
       keeper%plan%show = show_nothing

@@ -11,7 +11,7 @@
 module friction_coulomb
    use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
-   use kind_info, only: add_number, dim_none, in_plane, kind_info_t
+   use kind_info, only: add_number, dim_none, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -37,7 +37,6 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.coulomb"
-      info%space = in_plane
       info%help = "Coulomb friction with sticking: stick and slip begin at located events"
       info%source = "Flores et al. (2008), eqs. (3.13), (3.14)"
       call add_number(info, "coefficient", dim_none, "coefficient of sliding friction; 0: frictionless", lower=0.0_wp)

@@ -5,13 +5,16 @@
 !> With steady sliding z = mu/sigma and F_T = mu F_N. A contact begins with z = 0; from there, sliding one way by s with i = 1,
 !> F_T = mu F_N (1 - exp(-sigma s/mu)), at any speed. Below mu F_N it gives by z only, so that a body on a slope rests.
 !>
+!> In space z and v_T are vectors: the part of z along v_T follows the law, the part across it, z_c, fades with z_c' = -|v_T| sigma
+!> z_c/mu, so that with i = 1 it is z' = v_T - |v_T| sigma z/mu.
+!>
 !> Signs: against the sliding velocity. Source: P. R. Dahl, A solid friction model, Aerospace Corporation report
 !> TOR-0158(3107-18)-1 (1968), with forces in proportion to the normal one. Limits: no dip after Stribeck and no viscous part;
 !> the energy of the deflection counts as lost by friction, and what of it comes back comes back there.
 module friction_dahl
    use friction_law, only: friction_law_t, memory_bristle
    use item, only: item_t
-   use kind_info, only: add_number, dim_none, dim_t, in_plane, kind_info_t
+   use kind_info, only: add_number, dim_none, dim_t, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -38,7 +41,6 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.dahl"
-      info%space = in_plane
       info%help = "Dahl: an elastic deflection with a state of its own that yields at the coefficient of friction"
       info%source = "Dahl (1968)"
       call add_number(info, "coefficient", dim_none, "coefficient of friction; 0: frictionless", lower=0.0_wp)
@@ -79,19 +81,26 @@ contains
    end subroutine dahl_force
 
    !> Force and rate of the deflection of one contact.
-   pure subroutine dahl_bristles(self, normal_force, velocity, z, f, z_rate)
+   pure subroutine dahl_bristles(self, n, normal_force, velocity, z, f, z_rate)
       class(friction_dahl_t), intent(in) :: self   !! the law
+      integer, intent(in) :: n                     !! components: 1 in the plane, 3 in space
       real(wp), intent(in) :: normal_force         !! normal force [N]
-      real(wp), intent(in) :: velocity             !! sliding velocity [m/s]
-      real(wp), intent(in) :: z                    !! deflection [m]
-      real(wp), intent(out) :: f                   !! force along the sliding velocity that is to be opposed [N]
-      real(wp), intent(out) :: z_rate              !! rate of the deflection [m/s]
+      real(wp), intent(in) :: velocity(n)          !! (n) sliding velocity [m/s]
+      real(wp), intent(in) :: z(n)                 !! (n) deflection [m]
+      real(wp), intent(out) :: f(n)                !! (n) force along the sliding velocity that is to be opposed [N]
+      real(wp), intent(out) :: z_rate(n)           !! (n) rate of the deflection [m/s]
 
-      real(wp) :: left
+      real(wp) :: along, bent(n), direction(n), left, speed
 
-      left = 1.0_wp - sign(1.0_wp, velocity)*self%stiffness*z/self%coefficient
-      z_rate = velocity*sign(abs(left)**self%exponent, left)
       f = normal_force*self%stiffness*z
+      z_rate = 0.0_wp
+      speed = norm2(velocity)
+      if (.not. speed > 0.0_wp) return
+      direction = velocity/speed
+      bent = self%stiffness/self%coefficient*z
+      along = dot_product(direction, bent)
+      left = 1.0_wp - along
+      z_rate = speed*(sign(abs(left)**self%exponent, left)*direction - (bent - along*direction))
    end subroutine dahl_bristles
 
    !> The greatest deflection that lasts.

@@ -84,13 +84,14 @@ contains
    end function friction_stick_limit
 
    !> Force of the bristles of one contact and the rate of their deflection: none, unless the law says otherwise.
-   pure subroutine friction_bristles(self, normal_force, velocity, z, f, z_rate)
+   pure subroutine friction_bristles(self, n, normal_force, velocity, z, f, z_rate)
       class(friction_law_t), intent(in) :: self  !! the law
+      integer, intent(in) :: n                   !! components: 1 in the plane, 3 in space
       real(wp), intent(in) :: normal_force       !! normal force, not negative [N]
-      real(wp), intent(in) :: velocity           !! sliding velocity [m/s]
-      real(wp), intent(in) :: z                  !! deflection [m]
-      real(wp), intent(out) :: f                 !! force along the sliding velocity that is to be opposed [N]
-      real(wp), intent(out) :: z_rate            !! rate of the deflection [m/s]
+      real(wp), intent(in) :: velocity(n)        !! (n) sliding velocity [m/s]
+      real(wp), intent(in) :: z(n)               !! (n) deflection [m]
+      real(wp), intent(out) :: f(n)              !! (n) force along the sliding velocity that is to be opposed [N]
+      real(wp), intent(out) :: z_rate(n)         !! (n) rate of the deflection [m/s]
 
       f = 0.0_wp
       z_rate = 0.0_wp

@@ -1,10 +1,12 @@
 !> LuGre friction: surfaces hold each other by bristles, whose mean deflection z is a state of the contact.
 !>
-!> z' = v_T - sigma0 |v_T| z / g(v_T),   g = c_f + (c_s - c_f) exp(-(v_T / v_s)^2)
+!> z' = v_T - sigma0 |v_T| z / g(|v_T|),   g = c_f + (c_s - c_f) exp(-(v_T / v_s)^2)
 !> F_T = F_N (sigma0 z + sigma1 z' + sigma2 v_T)
 !>
 !> With steady sliding z = g / sigma0 and F_T = F_N (g + sigma2 |v_T|). A contact begins with z = 0. Below c_s F_N it gives by
 !> z only, so that a body on a slope rests. The sigmas are those of the literature over the normal force.
+!>
+!> In space z and v_T are vectors of the tangent plane.
 !>
 !> Signs: against the sliding velocity. Source: C. Canudas de Wit, H. Olsson, K. J. Astrom and P. Lischinsky, A new model for
 !> control of systems with friction, IEEE Trans. Autom. Control 40 (1995) 419-425, eqs. (3)-(7), with forces in proportion to
@@ -13,7 +15,7 @@
 module friction_lugre
    use friction_law, only: friction_law_t, memory_bristle
    use item, only: item_t
-   use kind_info, only: add_number, dim_none, dim_speed, dim_t, in_plane, kind_info_t
+   use kind_info, only: add_number, dim_none, dim_speed, dim_t, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -44,7 +46,6 @@ contains
       type(kind_info_t) :: info  !! name and columns
 
       info%name = "friction.lugre"
-      info%space = in_plane
       info%help = "LuGre: elastic bristles with a state of their own, Stribeck's dip and viscous friction"
       info%source = "Canudas de Wit, Olsson, Astrom and Lischinsky (1995), eqs. (3)-(7)"
       call add_number(info, "coefficient", dim_none, "coefficient of friction of fast sliding; 0: frictionless", lower=0.0_wp)
@@ -116,15 +117,19 @@ contains
    end function steady
 
    !> Force and rate of the bristles of one contact.
-   pure subroutine lugre_bristles(self, normal_force, velocity, z, f, z_rate)
+   pure subroutine lugre_bristles(self, n, normal_force, velocity, z, f, z_rate)
       class(friction_lugre_t), intent(in) :: self  !! the law
+      integer, intent(in) :: n                     !! components: 1 in the plane, 3 in space
       real(wp), intent(in) :: normal_force         !! normal force [N]
-      real(wp), intent(in) :: velocity             !! sliding velocity [m/s]
-      real(wp), intent(in) :: z                    !! deflection of the bristles [m]
-      real(wp), intent(out) :: f                   !! force along the sliding velocity that is to be opposed [N]
-      real(wp), intent(out) :: z_rate              !! rate of the deflection [m/s]
+      real(wp), intent(in) :: velocity(n)          !! (n) sliding velocity [m/s]
+      real(wp), intent(in) :: z(n)                 !! (n) deflection of the bristles [m]
+      real(wp), intent(out) :: f(n)                !! (n) force along the sliding velocity that is to be opposed [N]
+      real(wp), intent(out) :: z_rate(n)           !! (n) rate of the deflection [m/s]
 
-      z_rate = velocity - self%stiffness*abs(velocity)*z/steady(self, velocity)
+      real(wp) :: speed
+
+      speed = norm2(velocity)
+      z_rate = velocity - self%stiffness*speed*z/steady(self, speed)
       f = normal_force*(self%stiffness*z + self%damping*z_rate + self%viscosity*velocity)
    end subroutine lugre_bristles
 

@@ -69,6 +69,8 @@ contains
          if (depth == 0) first = k
          if (list(k)%kind == token_brace) then
             call resolve_brace(deck, place, list(k), word, mistakes)
+         else if (list(k)%kind == token_equals .and. depth > 0) then
+            word = "="
          else
             call read_word(deck, place, list(k), word, mistakes)
          end if

@@ -12,7 +12,7 @@ module item
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: condition_t, find_place, item_t, location_t, option_t, place_of, take_items, value_t
+   public :: condition_t, find_place, item_t, location_of, location_t, option_t, place_of, take_items, value_t
 
    !> A stretch of deck text.
    type :: location_t
@@ -172,5 +172,14 @@ contains
 
       is_given = self%values(place_of(self, name))%given
    end function item_is_given
+
+   !> Where a word of a list stands.
+   pure type(location_t) function location_of(value, word)
+      type(value_t), intent(in) :: value  !! the list
+      integer, intent(in) :: word         !! number of the word
+
+      location_of = value%location
+      if (word <= size(value%places)) location_of = value%places(word)
+   end function location_of
 
 end module item

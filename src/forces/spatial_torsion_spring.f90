@@ -10,11 +10,11 @@ module spatial_torsion_spring
    use bodies, only: points_t
    use force_set, only: force_set_t
    use item, only: item_t
+   use joint_frames, only: add_zero_column, find_frames, from_start
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
    use memory, only: get, put
    use motion, only: loads_t, motion_t
-   use rotations, only: axes_across
    use spatial_rows, only: angle_between, scalar_t, wrapped
    use spring_law, only: add_turning_law, spring_law_t
    implicit none (type, external)
@@ -32,6 +32,7 @@ module spatial_torsion_spring
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
       type(spring_law_t), allocatable :: law(:)     !! (n) moment over angle and its rate, and actuator
       real(wp), allocatable :: axis(:, :, :)        !! (3, 2, n) axes of i and j as in the deck; zero: left out [1]
+      logical, allocatable :: from_start(:)         !! (n) the angle is zero where the deck puts the bodies
       real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) frames of the axes, frames of the bodies [1]
       real(wp), allocatable :: near(:)              !! (n) angle at the end of the last step [rad]
    contains
@@ -64,6 +65,7 @@ contains
       call add_reference(info, "j", "bodies", "second body")
       call add_direction(info, "axis_i", "axis, in the frame of body i", default='"0 0 1"')
       call add_direction(info, "axis_j", "axis, in the frame of body j; left out: as the deck puts the bodies", default="")
+      call add_zero_column(info)
       call add_turning_law(info)
       call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis", of_moment)
       call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted", of_angle)
@@ -80,7 +82,7 @@ contains
       integer :: k
 
       self%n = size(items)
-      allocate (self%names(self%n), self%body(2, self%n), self%law(self%n))
+      allocate (self%names(self%n), self%body(2, self%n), self%law(self%n), self%from_start(self%n))
       allocate (self%axis(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
       do k = 1, self%n
          associate (item => items(k))
@@ -88,6 +90,7 @@ contains
             self%body(:, k) = [item%reference("i"), item%reference("j")]
             self%axis(:, 1, k) = item%direction("axis_i")
             self%axis(:, 2, k) = item%direction("axis_j")
+            self%from_start(k) = item%word("zero") == from_start
             call self%law(k)%prepare(item, "free_angle")
          end associate
       end do
@@ -98,18 +101,11 @@ contains
       class(spatial_torsion_spring_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion                    !! bodies where the deck puts them
 
-      real(wp) :: axis(3), own(3, 3, 2)
-      integer :: k, side
+      integer :: k
 
       do k = 1, self%n
-         do side = 1, 2
-            associate (body => self%body(side, k))
-               own(:, :, side) = matmul(motion%rot(:, :, body), transpose(motion%spatial%own(:, :, body)))
-               axis = self%axis(:, side, k)
-               if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(matmul(own(:, :, 1), self%axis(:, 1, k)), own(:, :, 2))
-               self%frame(:, :, side, k) = matmul(transpose(motion%spatial%own(:, :, body)), axes_across(axis))
-            end associate
-         end do
+         call find_frames(motion, self%body(:, k), self%axis(:, 1, k), self%axis(:, 2, k), self%from_start(k), &
+                          self%frame(:, :, 1, k), self%frame(:, :, 2, k))
       end do
       call self%follow(motion)
    end subroutine torsion_set_start

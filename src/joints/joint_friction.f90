@@ -105,11 +105,12 @@ contains
       real(wp), intent(out) :: force             !! friction force on body j [N]
       real(wp), intent(out) :: z_rate            !! rate of the deflection; zero without bristles [m/s]
 
-      real(wp) :: f(1)
+      real(wp) :: f(1), rate(1)
 
       z_rate = 0.0_wp
       if (law%memory == memory_bristle .and. .not. is_steady) then
-         call law%bristles(normal_force, v, z, f(1), z_rate)
+         call law%bristles(1, normal_force, [v], [z], f, rate)
+         z_rate = rate(1)
          force = -f(1)
       else
          call law%force(1, [normal_force], [abs(v)], f)

@@ -1,9 +1,8 @@
 !> What the joints of space share: axes in both bodies, and rows made of a list of elementary constraints.
 !>
-!> A joint has a frame x, y, z in each of its bodies. z is `axis_i` in the body of i and `axis_j` in the body of j; left out, the
-!> axis of j is that of i where the deck puts the bodies. x is along the part across z of the body axis that follows (xi, eta, zeta,
-!> xi) the one nearest to z: with z along zeta x is along xi. A joint that holds the orientation (`holds_turn`) has the frame of i
-!> in j too, as the deck puts the bodies. A kind lists its elements (`elements`):
+!> A joint has a frame x, y, z in each of its bodies (`joint_frames`): z is `axis_i` in the body of i and `axis_j` in the body of j;
+!> with z along zeta x is along xi. A joint that holds the orientation (`holds_turn`) has the frame of i in j too, as the deck puts
+!> the bodies. A kind lists its elements (`elements`):
 !>
 !>     at_point        P_i - P_j                       three rows
 !>     across a, b     a_i . b_j = 0                   the axes, by number, stay at right angles
@@ -15,13 +14,14 @@
 module spatial_joint
    use coordinates, only: coordinates_t
    use item, only: find_place, item_t
+   use joint_frames, only: add_zero_column, find_frames, from_start
    use joint_set, only: joint_set_t, of_force, of_moment, of_own, of_violation, of_violation_rate, report_shared
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
-   use rotations, only: axes_across, rotation_of_axes
    use rows, only: rows_t
-   use spatial_rows, only: angle_between, axis_of, dot_of_axes, dot_with_span, put_row, put_vector_rows, scalar_t
+   use spatial_rows, only: angle_between, axis_of, dot_with_span, put_across_rows, put_row, put_vector_rows, &
+      scalar_t
    implicit none (type, external)
    private
    public :: across, add_axis_columns, add_joint_columns, add_spatial_channels, at_point, beside, element_t, set_joint_frames
@@ -36,6 +36,9 @@ module spatial_joint
    integer, parameter :: of_angular_rate = of_own + 1 !! its rate
    integer, parameter :: of_displacement = of_own + 2 !! along the axis
    integer, parameter :: of_sliding_rate = of_own + 3 !! its rate
+   ! channels of all
+   integer, parameter :: of_own_force = of_own + 4    !! reaction along the axes of the joint
+   integer, parameter :: of_own_moment = of_own + 5   !! its moment along them
 
    !> An elementary constraint.
    type :: element_t
@@ -52,6 +55,7 @@ module spatial_joint
       logical :: holds_turn = .false.              !! the frames are parallel as the deck puts the bodies
       real(wp), allocatable :: axis_i(:, :)        !! (3, n) as in the deck, body's own axes [1]
       real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: left out [1]
+      logical, allocatable :: from_start(:)        !! (n) angles are zero where the deck puts the bodies
       real(wp), allocatable :: frame_i(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body i [1]
       real(wp), allocatable :: frame_j(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body j [1]
    end type joint_axes_t
@@ -112,6 +116,9 @@ contains
 
       call add_channel(info, "force", "N", "world", 2, "reaction force on the body of i", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "reaction moment on the body of i about its point", of_moment)
+      call add_channel(info, "joint_force", "N", "joint", 2, "the force along the axes x, y, z of the joint in i", of_own_force)
+      call add_channel(info, "joint_moment", "N.m", "joint", 2, "the moment along the axes x, y, z of the joint in i", &
+                       of_own_moment)
       call add_channel(info, "violation", "m", "none", 1, "norm of the constraint violation, angles times 1 m", of_violation)
       call add_channel(info, "violation_rate", "m/s", "none", 1, "norm of the rate of the constraint violation", &
                        of_violation_rate)
@@ -134,11 +141,13 @@ contains
       end do
       allocate (self%axes%axis_i(3, self%n), self%axes%axis_j(3, self%n), source=0.0_wp)
       allocate (self%axes%frame_i(3, 3, self%n), self%axes%frame_j(3, 3, self%n), source=0.0_wp)
+      allocate (self%axes%from_start(self%n), source=.false.)
       self%axes%axis_i(3, :) = 1.0_wp
       if (.not. any([(elements(k)%what /= is_point, k=1, size(elements))])) return
       do k = 1, self%n
          self%axes%axis_i(:, k) = items(k)%direction("axis_i")
          if (find_place(items(k), "axis_j") > 0) self%axes%axis_j(:, k) = items(k)%direction("axis_j")
+         if (find_place(items(k), "zero") > 0) self%axes%from_start(k) = items(k)%word("zero") == from_start
       end do
    end subroutine spatial_take_axes
 
@@ -147,26 +156,12 @@ contains
       class(spatial_joint_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion           !! bodies where the deck puts them
 
-      real(wp) :: axis(3), own_i(3, 3), own_j(3, 3)
       integer :: k
 
       do k = 1, self%n
-         associate (i => self%body(1, k), j => self%body(2, k), own => motion%spatial%own, rot => motion%rot)
-            own_i = matmul(rot(:, :, i), transpose(own(:, :, i)))  ! own axes of the bodies, world frame
-            own_j = matmul(rot(:, :, j), transpose(own(:, :, j)))
-            self%axes%frame_i(:, :, k) = matmul(transpose(own(:, :, i)), axes_across(self%axes%axis_i(:, k)))
-            axis = self%axes%axis_j(:, k)
-            if (self%axes%holds_turn .and. .not. any(abs(axis) > 0.0_wp)) then
-               self%axes%frame_j(:, :, k) = matmul(transpose(rot(:, :, j)), matmul(rot(:, :, i), self%axes%frame_i(:, :, k)))
-            else
-               if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(matmul(own_i, self%axes%axis_i(:, k)), own_j)
-               self%axes%frame_j(:, :, k) = matmul(transpose(own(:, :, j)), axes_across(axis))
-               if (self%axes%holds_turn) then  ! the given axis, turned about as the deck puts the bodies
-                  axis = matmul(matmul(rot(:, :, i), self%axes%frame_i(:, 1, k)), rot(:, :, j))
-                  self%axes%frame_j(:, :, k) = rotation_of_axes(self%axes%frame_j(:, 3, k), axis)
-                  self%axes%frame_j(:, :, k) = self%axes%frame_j(:, [2, 3, 1], k)
-               end if
-            end if
+         associate (axes => self%axes)
+            call find_frames(motion, self%body(:, k), axes%axis_i(:, k), axes%axis_j(:, k), &
+                             axes%holds_turn .or. axes%from_start(k), axes%frame_i(:, :, k), axes%frame_j(:, :, k))
          end associate
       end do
    end subroutine set_joint_frames
@@ -190,28 +185,27 @@ contains
       type(scalar_t) :: x
       integer :: e, k, row
 
-      if (size(self%axes%elements) == 0) return
-      if (self%axes%elements(1)%what == is_point) then
-         call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, motion%omega, &
-                              self%first_row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
-      end if
-      do k = 1, self%n
-         row = self%first_row + (k - 1)*self%n_row_item
-         do e = 1, size(self%axes%elements)
-            associate (element => self%axes%elements(e), body => self%body(:, k))
-               select case (element%what)
-               case (is_point)
-                  row = row + 3
-                  cycle
-               case (is_across)
-                  x = dot_of_axes(motion, body, self%axes%frame_i(:, element%of_i, k), self%axes%frame_j(:, element%of_j, k))
-               case default
-                  x = dot_with_span(motion, body, self%axes%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
-               end select
+      row = self%first_row
+      do e = 1, size(self%axes%elements)
+         associate (element => self%axes%elements(e), axes => self%axes)
+            select case (element%what)
+            case (is_point)
+               call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, &
+                                    motion%omega, row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
+               row = row + 3
+            case (is_across)
+               call put_across_rows(self%n, self%body, element%of_i, axes%frame_i, element%of_j, axes%frame_j, &
+                                    ubound(motion%angle, 1), motion%rot, motion%omega, row, self%n_row_item, rows%n, rows%phi, &
+                                    rows%phi_t, rows%jac, rows%gam)
                row = row + 1
-               call put_row(rows, row, motion, body, x, 0.0_wp, 0.0_wp, 0.0_wp)
-            end associate
-         end do
+            case default
+               do k = 1, self%n
+                  x = dot_with_span(motion, self%body(:, k), axes%frame_i(:, element%of_i, k), self%s_i(:, k), self%s_j(:, k))
+                  call put_row(rows, row + 1 + (k - 1)*self%n_row_item, motion, self%body(:, k), x, 0.0_wp, 0.0_wp, 0.0_wp)
+               end do
+               row = row + 1
+            end select
+         end associate
       end do
    end subroutine spatial_fill_rows
 
@@ -236,10 +230,11 @@ contains
                             axis_of(motion, self%body(2, k), self%axes%frame_j(:, 1, k))) < 0.0_wp
    end function spatial_is_turned_over
 
-   !> The channels of a joint that turns about its axis.
+   !> The channels of a joint that turns about its axis, and where its angle is zero.
    subroutine add_turn_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
+      call add_zero_column(info)
       call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi", of_angle)
       call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis", &
                        of_angular_rate)
@@ -253,7 +248,7 @@ contains
       call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement", of_sliding_rate)
    end subroutine add_slide_channels
 
-   !> Value of a channel of an item: angle and displacement here, the others are shared.
+   !> Value of a channel of an item: those of the axes here, the others are shared.
    subroutine spatial_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       class(spatial_joint_t), intent(in) :: self       !! the set
       integer, intent(in) :: code                      !! the channel
@@ -274,6 +269,10 @@ contains
       case (of_displacement, of_sliding_rate)
          x = dot_with_span(motion, self%body(:, k), self%axes%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
          value = merge(x%value, x%rate, code == of_displacement)
+      case (of_own_force, of_own_moment)
+         call report_shared(self, merge(of_force, of_moment, code == of_own_force), k, motion, coordinates, rows, lambda, &
+                            phi_dot, value)
+         value = matmul(matmul(value, motion%rot(:, :, self%body(1, k))), self%axes%frame_i(:, :, k))
       case default
          call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       end select

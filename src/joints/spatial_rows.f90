@@ -21,7 +21,8 @@ module spatial_rows
    use rows, only: rows_t
    implicit none (type, external)
    private
-   public :: angle_between, axis_of, dot_of_axes, dot_with_span, length_of_span, put_row, put_vector_rows, scalar_t, wrapped
+   public :: angle_between, axis_of, dot_with_span, length_of_span, put_across_rows, put_row, put_vector_rows, &
+      scalar_t, wrapped
 
    !> A scalar of two bodies, and what moves it.
    type :: scalar_t
@@ -188,6 +189,62 @@ contains
          rows%jac(c + 9, row) = dot_product(motion%rot(:, c, body(2)), x%turn_j)
       end do
    end subroutine put_row
+
+   !> Set a row each to a . b of an axis of i and one of j: kernel on plain arrays, for many joints. With v = a . b
+   !>
+   !> bend = (w_i . a)(w_i . b) + (w_j . a)(w_j . b) - 2 (w_i . b)(w_j . a) - |w_i - w_j|^2 v
+   pure subroutine put_across_rows(n, body, of_i, frame_i, of_j, frame_j, n_body, rot, omega, first, n_each, n_row, phi, phi_t, &
+                                   jac, gam)
+      integer, intent(in) :: n                          !! number of joints
+      integer, intent(in) :: body(2, n)                 !! (2, n) bodies i and j
+      integer, intent(in) :: of_i                       !! which axis of the frame of i
+      real(wp), intent(in) :: frame_i(3, 3, n)          !! (3, 3, n) axes of the joints as columns, frame of body i [1]
+      integer, intent(in) :: of_j                       !! which axis of the frame of j
+      real(wp), intent(in) :: frame_j(3, 3, n)          !! (3, 3, n) axes of the joints as columns, frame of body j [1]
+      integer, intent(in) :: n_body                     !! number of bodies
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)       !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: omega(3, 0:n_body)        !! (3, 0:bodies) angular velocities [rad/s]
+      integer, intent(in) :: first                      !! rows before that of the first joint
+      integer, intent(in) :: n_each                     !! rows of each joint
+      integer, intent(in) :: n_row                      !! number of rows
+      real(wp), intent(inout) :: phi(n_row)             !! (rows) violations [1]
+      real(wp), intent(inout) :: phi_t(n_row)           !! (rows) their partial time derivatives [1/s]
+      real(wp), intent(inout) :: jac(12, n_row)         !! (12, rows) Phi_q [1]
+      real(wp), intent(inout) :: gam(n_row)             !! (rows) gamma [1/s^2]
+
+      real(wp) :: a(3), b(3), i_a, i_b, j_a, j_b, q(3), value, w(3), w_i(3), w_j(3)
+      integer :: c, i, j, k, row
+
+      do k = 1, n
+         row = first + 1 + n_each*(k - 1)
+         i = body(1, k)
+         j = body(2, k)
+         w_i = omega(:, i)
+         w_j = omega(:, j)
+         do c = 1, 3
+            a(c) = rot(c, 1, i)*frame_i(1, of_i, k) + rot(c, 2, i)*frame_i(2, of_i, k) + rot(c, 3, i)*frame_i(3, of_i, k)
+            b(c) = rot(c, 1, j)*frame_j(1, of_j, k) + rot(c, 2, j)*frame_j(2, of_j, k) + rot(c, 3, j)*frame_j(3, of_j, k)
+         end do
+         q = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+         value = a(1)*b(1) + a(2)*b(2) + a(3)*b(3)
+         i_a = w_i(1)*a(1) + w_i(2)*a(2) + w_i(3)*a(3)
+         i_b = w_i(1)*b(1) + w_i(2)*b(2) + w_i(3)*b(3)
+         j_a = w_j(1)*a(1) + w_j(2)*a(2) + w_j(3)*a(3)
+         j_b = w_j(1)*b(1) + w_j(2)*b(2) + w_j(3)*b(3)
+         w = w_i - w_j
+         phi(row) = value
+         phi_t(row) = 0.0_wp
+         gam(row) = (w(1)*w(1) + w(2)*w(2) + w(3)*w(3))*value - i_a*i_b - j_a*j_b + 2.0_wp*i_b*j_a
+         do c = 1, 3
+            jac(c, row) = 0.0_wp
+            jac(c + 6, row) = 0.0_wp
+         end do
+         do c = 1, 3
+            jac(c + 3, row) = rot(1, c, i)*q(1) + rot(2, c, i)*q(2) + rot(3, c, i)*q(3)
+            jac(c + 9, row) = -(rot(1, c, j)*q(1) + rot(2, c, j)*q(2) + rot(3, c, j)*q(3))
+         end do
+      end do
+   end subroutine put_across_rows
 
    !> Set three rows each to the coincidence of two points along the world's axes: kernel on plain arrays, for many joints.
    pure subroutine put_vector_rows(n, body, s_i, s_j, n_body, r, rot, omega, first, n_each, n_row, phi, phi_t, jac, gam)

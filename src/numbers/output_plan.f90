@@ -1,7 +1,9 @@
 !> What a recorder is told before a run: where its files go and what they say of the run.
 module output_plan
    use accuracy_results, only: accuracy_t
+   use drawing, only: drawing_t
    use exponent, only: horizon_t
+   use frames, only: frame_plan_t
    use statistics, only: statistics_plan_t
    use text, only: text_t
    implicit none (type, external)
@@ -36,10 +38,17 @@ module output_plan
       logical :: contact_rows = .false.     !! write rows at the instants of contacts, besides the output instants
       logical :: texts = .true.             !! write time histories and events as text
       logical :: summary = .true.           !! write summary.txt and summary.json
+      logical :: motion = .false.           !! write the motion for other programs
       logical :: figures = .true.           !! make the figures at the end
       logical :: progress = .true.          !! show how far the run is on the standard error
       logical :: warnings = .true.          !! print warnings on the standard error
    end type written_t
+
+   !> What the mechanism looks like, and when, if someone wants to see it.
+   type :: looks_t
+      type(drawing_t) :: drawing    !! outlines and joints
+      type(frame_plan_t) :: frames  !! instants that figures want
+   end type looks_t
 
    !> The plan. Strings and lists that are not allocated count as empty.
    type :: output_plan_t
@@ -53,6 +62,7 @@ module output_plan
       type(text_t), allocatable :: warnings(:)         !! (n) what was noticed before the run
       type(statistics_plan_t) :: statistics            !! numbers of the motion after its transient
       type(accuracy_t) :: accuracy                     !! what is known of the errors, if an accuracy was asked for
+      type(looks_t) :: looks                           !! what drawings of the mechanism need
       type(horizon_t) :: horizon                       !! how long digits mean anything; without times: it was not asked for
       type(written_t) :: with                          !! what is written
       character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts

@@ -15,14 +15,17 @@ module run_recorder
    use figures, only: make_figures
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
+   use frames, only: frame_keeper_t
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
+   use motion_writer, only: motion_name, motion_writer_t
    use output_plan, only: output_plan_t, show_json, show_summary
    use plot_table, only: plot_table_t
    use posix, only: is_pipe_gone, write_error, write_output
    use progress, only: progress_t
    use recorder, only: event_t, recorder_t, row_instant, status_failed, summary_t
+   use scene_poses, only: pose_reader_t
    use statistics, only: number_t, statistics_t
    use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
@@ -43,7 +46,10 @@ module run_recorder
       type(figure_t), allocatable, private :: of_sweep(:)     !! (n) figures of a sweep that this run may be a part of
       type(event_list_t), private :: events                   !! all events
       type(hdf5_writer_t), private :: hdf5                    !! run.h5
+      type(motion_writer_t), private :: motion                !! the motion for other programs
       type(text_writer_t), private :: texts                   !! time histories and events.dat
+      type(pose_reader_t), private :: reader                  !! what the motion for other programs reads
+      type(frame_keeper_t), private :: keeper                 !! pictures of the motion, for figures
       type(progress_t), private :: display                    !! how far the run is
       type(statistics_t), private :: statistics               !! what is gathered for the statistics
       type(extremes_t), private :: extremes                   !! what the channels go through
@@ -92,6 +98,12 @@ contains
       call self%extremes%start(list_scalars(self%selection))
       if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
+      if (.not. self%plan%is_twin()) call self%keeper%start(self%plan%looks%frames, catalogue)
+      if (self%plan%with%motion) then
+         call self%reader%bind(catalogue)
+         call self%motion%start(self%plan, catalogue, error)
+         if (allocated(error)) return
+      end if
       if (self%plan%with%texts) then
          call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
          if (allocated(error)) return
@@ -168,6 +180,7 @@ contains
 
       wants = self%selection%has_group(group)
       if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
+      wants = wants .or. self%reader%reads(group) .or. self%keeper%reads(group)
       if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
       if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
       do k = 1, size(self%figures)
@@ -192,7 +205,13 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values at t
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
+      type(error_t), allocatable :: second
+
       call keep_row(self, t, row_instant, catalogue, error)
+      if (self%keeper%is_wanted) call self%keeper%sample(t, catalogue)
+      call self%motion%sample(t, catalogue, second)
+      if (allocated(second)) self%is_broken = .true.
+      call join_errors(error, second)
       if (size(self%extremes%channels) > 0) call self%extremes%sample(t, catalogue)
       call self%statistics%sample(t, catalogue)
    end subroutine sample_run
@@ -206,6 +225,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       call keep_row(self, t, kind, catalogue, error)
+      if (self%keeper%is_wanted) call self%keeper%follow(t, catalogue)
       call self%extremes%note(t, catalogue)
       call self%statistics%note_extremes(t, catalogue)
    end subroutine further_row_run
@@ -315,6 +335,9 @@ contains
          call join_errors(error, second)
          outcome%files = self%texts%names
       end if
+      call self%motion%finish(full%status, second)
+      call join_errors(error, second)
+      if (self%plan%with%motion) call append_text(outcome%files, motion_name)
       outcome%numbers = numbers
       self%is_broken = self%is_broken .or. allocated(error)
       if (self%plan%with%figures .and. .not. self%is_broken) then
@@ -325,7 +348,7 @@ contains
                                   file_heading(self%plan), tables(k))
          end do
          call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, self%fields, &
-                           outcome%pictures, missing, second)
+                           self%plan%looks%drawing, self%keeper, outcome%pictures, missing, second)
          call append_all(outcome%warnings, missing)
          call join_errors(error, second)
       end if

@@ -64,15 +64,11 @@ contains
       type(figure_t), intent(in) :: figures(:)         !! (n) figures
       type(selection_t), intent(inout) :: selection    !! channels that are kept
 
-      integer :: i, k
+      integer :: k
 
       do k = 1, size(figures)
          if (figures(k)%kind > figure_portrait) cycle
-         do i = 1, size(figures(k)%scalars)
-            associate (this => figures(k)%scalars(i))
-               selection%groups(this%group)%mask(this%component, this%item) = .true.
-            end associate
-         end do
+         call selection%choose(figures(k)%scalars)
       end do
    end subroutine add_figure_channels
 

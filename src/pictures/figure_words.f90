@@ -5,7 +5,7 @@
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
 !> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
-!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time.
+!> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
 module figure_words
    use catalogue, only: catalogue_t, room_clearances, room_contacts
    use channel_names, only: scalar_t
@@ -13,12 +13,14 @@ module figure_words
    use film_fields, only: field_request_t
    use film_words, only: film_hint, take_film
    use kinds, only: wp
+   use motion_words, only: motion_hint, motion_request_t, take_motion
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t
    implicit none (type, external)
    private
    public :: append_figure, check_figures, figure_t, new_figure
    public :: figure_bifurcation, figure_histogram, figure_history, figure_orbit, figure_portrait, figure_section
+   public :: draws_mechanism, figure_animation, figure_coupler, figure_mechanism, figure_strip
    public :: figure_film, figure_spectrum, figure_statistics, is_of_run
 
    integer, parameter :: figure_history = 1   !! channels over time
@@ -30,11 +32,15 @@ module figure_words
    integer, parameter :: figure_bifurcation = 7  !! of a sweep: a channel once per period over the parameter
    integer, parameter :: figure_statistics = 8   !! of a sweep: numbers with their spread over the parameter
    integer, parameter :: figure_film = 9         !! pressure of a film around a bearing, unwrapped
+   integer, parameter :: figure_mechanism = 10   !! the mechanism at some instants
+   integer, parameter :: figure_strip = 11       !! the mechanism at several positions over a turn, one over the other
+   integer, parameter :: figure_coupler = 12     !! the path of a point
+   integer, parameter :: figure_animation = 13   !! the moving mechanism
    integer, parameter :: most_panels = 4         !! of a figure of statistics
    integer, parameter :: most_curves = 12     !! of one figure
    !> How the figures with arguments begin, by their kind.
-   character(*), parameter :: call_words(figure_portrait:figure_film) = [character(12) :: "portrait(", "section(", &
-      "spectrum(", "histogram(", "bifurcation(", "statistics(", "film("]
+   character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
+      "spectrum(", "histogram(", "bifurcation(", "statistics(", "film(", "mechanism(", "strip(", "coupler(", "animation("]
    character(*), parameter :: histogram_words = "impact_speed peak_force"  !! what there are histograms of
    character(*), parameter :: orbit_word = ".orbit"        !! how an orbit ends
 
@@ -46,6 +52,7 @@ module figure_words
       type(scalar_t), allocatable :: scalars(:)     !! (n) curves; of an orbit its coordinates; of a portrait x and y
       integer :: joint = 0                          !! of an orbit: number of the clearance joint
       type(field_request_t) :: film                 !! of a film: which, and when
+      type(motion_request_t) :: motion              !! of what draws the mechanism: when, and which point
       type(text_t), allocatable :: numbers(:)       !! (n) of statistics: their names; of a histogram: joint, quantity
    end type figure_t
 
@@ -85,9 +92,9 @@ contains
       hint = ""
       figure%word = word
       figure%name = file_name(word)
-      figure%kind = kind_of_call(word)
+      figure%kind = kind_of_call(called(word))
       if (figure%kind > 0) then
-         call new_call(word, catalogue, figure, message, hint)
+         call new_call(called(word), catalogue, figure, message, hint)
          return
       end if
       figure%kind = figure_history
@@ -136,7 +143,8 @@ contains
       if (len(message) > 0) then
          message = "unknown figure"//message(len("unknown channel") + 1:)
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
-                "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER) and film(JOINT)"
+                "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
+                "coupler(POINT) and animation(last=...)"
          return
       end if
       if (size(figure%scalars) == 0 .or. size(figure%scalars) > most_curves) then
@@ -204,11 +212,24 @@ contains
    pure integer function kind_of_call(word) result(kind)
       character(*), intent(in) :: word  !! a word of the deck
 
-      do kind = figure_portrait, figure_film
+      do kind = figure_portrait, figure_animation
          if (starts_with(word, trim(call_words(kind)))) return
       end do
       kind = 0
    end function kind_of_call
+
+   !> A word that needs no arguments, with parentheses; any other as it is.
+   pure function called(word) result(call)
+      character(*), intent(in) :: word        !! a word of the deck
+      character(:), allocatable :: call       !! as `mechanism()`
+
+      integer :: kind
+
+      call = word
+      do kind = figure_mechanism, figure_animation
+         if (word//"(" == trim(call_words(kind)) .and. kind /= figure_coupler) call = word//"()"
+      end do
+   end function called
 
    !> A figure with arguments.
    subroutine new_call(word, catalogue, figure, message, hint)
@@ -226,12 +247,19 @@ contains
       most = merge(most_panels, least, figure%kind == figure_statistics)
       if (figure%kind == figure_film) most = 2
       arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
+      if (draws_mechanism(figure) .and. word(len(word):) == ")" .and. &
+          (figure%kind /= figure_coupler .or. size(arguments) > 0)) then
+         call take_motion(arguments, figure%kind == figure_coupler, figure%motion, message)
+         if (len(message) > 0) hint = motion_hint
+         return
+      end if
       if (size(arguments) < least .or. size(arguments) > most .or. word(len(word):) /= ")") then
          message = "cannot read '"//word//"'"
          hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", least == 2))// &
                 ") without blanks"
          if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers, without blanks"
          if (figure%kind == figure_film) hint = film_hint
+         if (draws_mechanism(figure)) hint = motion_hint
          return
       end if
       select case (figure%kind)
@@ -318,6 +346,13 @@ contains
 
       is_of_run = figure%kind /= figure_bifurcation .and. figure%kind /= figure_statistics
    end function is_of_run
+
+   !> Whether a figure draws the mechanism.
+   pure logical function draws_mechanism(figure)
+      type(figure_t), intent(in) :: figure  !! the figure
+
+      draws_mechanism = figure%kind >= figure_mechanism
+   end function draws_mechanism
 
    !> Append a figure to a list.
    subroutine append_figure(figures, figure)

@@ -5,19 +5,23 @@
 !> fails, takes too long or leaves no whole picture is a warning: the scripts stay.
 module figures
    use catalogue, only: catalogue_t
+   use animation_page, only: page_text
+   use drawing, only: drawing_t
    use errors, only: error_t
    use field_plot, only: write_field_plot
    use figure_data, only: curve_t, data_files_t, find_curves
    use figure_script, only: figure_text
-   use figure_words, only: figure_film, figure_portrait, figure_t
+   use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_portrait, figure_t
+   use frames, only: frame_keeper_t
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, write_plot
    use kinds, only: i8
    use output_marker, only: enter_file
    use posix, only: is_missing, make_directory, remove_file, system_message
    use processes, only: clock_ms, start_program, wait_group
+   use scene_plot, only: write_scene_plot
    use system_file, only: read_file
-   use text, only: append_text, text_t, to_text
+   use text, only: append_text, starts_with, text_t, to_text
    use text_file, only: fail_file, write_file
    implicit none (type, external)
    private
@@ -27,30 +31,31 @@ module figures
    integer, parameter :: patience = 300             !! that a figure may take, unless the environment says otherwise [s]
    character(*), parameter :: patience_variable = "GUDGEON_GNUPLOT_SECONDS"  !! what says so
    integer(i8), parameter :: largest_picture = 1000000000_i8  !! bytes
+   character(*), parameter :: moving = ".gif"       !! ending of pictures that move
    character(*), parameter :: ideal_suffix = ".ideal"  !! of the files of the ideal twin
 
 contains
 
    !> Write the scripts of all figures and draw them.
-   subroutine make_figures(directory, title, list, catalogue, tables, fields, pictures, warnings, error)
+   subroutine make_figures(directory, title, list, catalogue, tables, fields, drawing, keeper, pictures, warnings, error)
       character(*), intent(in) :: directory                        !! of the run
       character(*), intent(in) :: title                            !! of the scene, any text
       type(figure_t), intent(in) :: list(:)                        !! (n) figures
       type(catalogue_t), intent(in) :: catalogue                   !! what was recorded
       type(plot_table_t), intent(in) :: tables(:)                  !! (n) numbers of those that are no histories
       type(film_field_t), intent(in) :: fields(:)                  !! (any) films
+      type(drawing_t), intent(in) :: drawing                       !! what the scene looks like
+      type(frame_keeper_t), intent(in) :: keeper                   !! pictures of its motion
       type(text_t), allocatable, intent(out) :: pictures(:)        !! (m) pictures made, paths within the directory
       type(text_t), allocatable, intent(out) :: warnings(:)        !! (k) what was not made, and why
       type(error_t), allocatable, intent(out) :: error             !! a script cannot be written
 
-      type(text_t), allocatable :: names(:)
-      type(curve_t), allocatable :: curves(:), ideal(:)
+      type(text_t), allocatable :: names(:), pages(:)
       type(data_files_t) :: files
-      character(:), allocatable :: script
       integer :: code, k
       logical :: is_written
 
-      allocate (pictures(0), warnings(0), names(0))
+      allocate (pictures(0), warnings(0), names(0), pages(0))
       if (size(list) == 0) return
       code = enter_file(directory//"/figures/")
       if (code == 0) code = make_directory(directory//"/figures")
@@ -59,34 +64,85 @@ contains
          return
       end if
       do k = 1, size(list)
-         if (is_named(list(k)%name, names)) cycle
-         if (list(k)%kind > figure_portrait) then
-            if (list(k)%kind == figure_film) then
-               call write_field_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, fields, is_written, error)
-            else
-               call write_plot(directory//"/figures", title, tables(k), is_written, error)
-            end if
-            if (allocated(error)) return
-            if (is_written) then
-               call append_text(names, list(k)%name)
-            else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder tells
-               call append_text(warnings, "figure "//list(k)%word//": no numbers to draw")
-            end if
-            cycle
+         if (is_named(file_of(list(k)), names)) cycle
+         if (draws_mechanism(list(k))) then
+            call write_scene(directory//"/figures", title, list(k), catalogue, drawing, keeper, is_written, pages, error)
+         else if (list(k)%kind == figure_film) then
+            call write_field_plot(directory//"/figures", title, tables(k)%heading, list(k)%name, fields, is_written, error)
+         else if (list(k)%kind > figure_portrait) then
+            call write_plot(directory//"/figures", title, tables(k), is_written, error)
+         else
+            call write_curves(directory, title, list(k), catalogue, files, is_written, error)
          end if
-         call find_curves(list(k), catalogue, directory, "", files, curves)
-         call find_curves(list(k), catalogue, directory, ideal_suffix, files, ideal)
-         script = figure_text(list(k), catalogue, title, curves, ideal)
-         if (len(script) == 0) then
-            call append_text(warnings, "figure "//list(k)%word//": no numbers to draw")
-            cycle
-         end if
-         call write_file(directory//"/figures/"//list(k)%name//".gp", script, error)
          if (allocated(error)) return
-         call append_text(names, list(k)%name)
+         if (is_written) then
+            call append_text(names, file_of(list(k)))
+         else if (list(k)%kind /= figure_film) then  ! of a film that is missing the recorder tells
+            call append_text(warnings, "figure "//list(k)%word//": no numbers to draw")
+         end if
       end do
       call draw_figures(directory//"/figures", names, pictures, warnings)
+      do k = 1, size(pages)
+         call append_text(pictures, pages(k)%s)
+      end do
    end subroutine make_figures
+
+   !> What a figure is called among the pictures: those that move by the name of their file.
+   pure function file_of(figure) result(name)
+      type(figure_t), intent(in) :: figure     !! the figure
+      character(:), allocatable :: name        !! without the ending of a picture that stands still
+
+      name = figure%name
+      if (figure%kind == figure_animation) name = name//moving
+   end function file_of
+
+   !> Time histories, orbits and portraits.
+   subroutine write_curves(directory, title, figure, catalogue, files, is_written, error)
+      character(*), intent(in) :: directory               !! of the run
+      character(*), intent(in) :: title                   !! of the scene, any text
+      type(figure_t), intent(in) :: figure                !! the figure
+      type(catalogue_t), intent(in) :: catalogue          !! what was recorded
+      type(data_files_t), intent(inout) :: files          !! files of numbers looked at so far
+      logical, intent(out) :: is_written                  !! there are numbers to draw
+      type(error_t), allocatable, intent(out) :: error    !! the script cannot be written
+
+      type(curve_t), allocatable :: curves(:), ideal(:)
+      character(:), allocatable :: script
+
+      call find_curves(figure, catalogue, directory, "", files, curves)
+      call find_curves(figure, catalogue, directory, ideal_suffix, files, ideal)
+      script = figure_text(figure, catalogue, title, curves, ideal)
+      is_written = len(script) > 0
+      if (is_written) call write_file(directory//"/figures/"//figure%name//".gp", script, error)
+   end subroutine write_curves
+
+   !> A figure of the mechanism, and of an animation its page.
+   subroutine write_scene(folder, title, figure, catalogue, drawing, keeper, is_written, pages, error)
+      character(*), intent(in) :: folder                         !! of the figures
+      character(*), intent(in) :: title                          !! of the scene, any text
+      type(figure_t), intent(in) :: figure                       !! the figure
+      type(catalogue_t), intent(in) :: catalogue                 !! what was recorded
+      type(drawing_t), intent(in) :: drawing                     !! what the scene looks like
+      type(frame_keeper_t), intent(in) :: keeper                 !! pictures of its motion
+      logical, intent(out) :: is_written                         !! the run came to its instants
+      type(text_t), allocatable, intent(inout) :: pages(:)       !! (any) pages written
+      type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
+
+      integer :: k
+
+      is_written = .false.
+      do k = 1, size(keeper%n)
+         if (keeper%plan%wanted(k)%name /= figure%name .or. keeper%n(k) == 0) cycle
+         is_written = .true.
+         call write_scene_plot(folder, title, figure, catalogue, drawing, keeper%frames(:keeper%n(k), k), keeper%tracks(k), error)
+         if (allocated(error)) return
+         if (figure%kind /= figure_animation) return
+         call write_file(folder//"/"//figure%name//".html", &
+                         page_text(title, catalogue, drawing, keeper%frames(:keeper%n(k), k), keeper%tracks(k)), error)
+         call append_text(pages, "figures/"//figure%name//".html")
+         return
+      end do
+   end subroutine write_scene
 
    !> Whether a figure is already in the list.
    pure logical function is_named(name, names)
@@ -164,10 +220,10 @@ contains
       integer, intent(out) :: code        !! 0, or the system's error number
 
       process = 0
-      code = enter_file(folder//"/"//name//".log")
-      if (code == 0) code = enter_file(folder//"/"//name//".png")
+      code = enter_file(folder//"/"//stem(name)//".log")
+      if (code == 0) code = enter_file(folder//"/"//picture_of(name))
       if (code /= 0) return
-      code = start_program(folder, "gnuplot", [text_t("-d"), text_t(name//".gp")], name//".log", .true., process)
+      code = start_program(folder, "gnuplot", [text_t("-d"), text_t(stem(name)//".gp")], stem(name)//".log", .true., process)
       if (code /= 0) process = 0
    end subroutine start_drawing
 
@@ -186,7 +242,7 @@ contains
       integer :: code, ignored
       logical :: is_late
 
-      path = folder//"/"//name
+      path = folder//"/"//stem(name)
       code = wait_group(process, until, is_late)
       if (is_late) then
          n_late = n_late + 1
@@ -195,18 +251,44 @@ contains
       else if (code /= 0) then
          call append_text(warnings, "figure "//name//": gnuplot ended with code "//to_text(code)// &
                           ", its message is in "//path//".log")
-      else if (.not. is_whole_picture(path//".png")) then
+      else if (.not. is_whole_picture(folder//"/"//picture_of(name))) then
          call append_text(warnings, "figure "//name//": gnuplot left no whole picture, though it reported no failure; its "// &
                           "message is in "//path//".log")
       else
          ignored = remove_file(path//".log")
-         call append_text(pictures, "figures/"//name//".png")
+         call append_text(pictures, "figures/"//picture_of(name))
          return
       end if
-      ignored = remove_file(path//".png")
+      ignored = remove_file(folder//"/"//picture_of(name))
    end subroutine end_drawing
 
-   !> Whether a file is a PNG picture up to its last chunk.
+   !> Name of a picture without its ending.
+   pure function stem(name) result(start)
+      character(*), intent(in) :: name         !! of the figure, as `file_of` has it
+      character(:), allocatable :: start       !! what its script is called
+
+      start = name
+      if (is_moving(name)) start = name(:len(name) - len(moving))
+   end function stem
+
+   !> File of a picture.
+   pure function picture_of(name) result(file)
+      character(*), intent(in) :: name         !! of the figure, as `file_of` has it
+      character(:), allocatable :: file        !! with its ending
+
+      file = name
+      if (.not. is_moving(name)) file = name//".png"
+   end function picture_of
+
+   !> Whether a picture moves.
+   pure logical function is_moving(name)
+      character(*), intent(in) :: name  !! of the figure, or its file
+
+      is_moving = .false.
+      if (len(name) > len(moving)) is_moving = name(len(name) - len(moving) + 1:) == moving
+   end function is_moving
+
+   !> Whether a file is a PNG picture up to its last chunk, or a GIF up to its trailer.
    logical function is_whole_picture(path)
       character(*), intent(in) :: path  !! the file
 
@@ -219,6 +301,11 @@ contains
       call read_file(path, .true., largest_picture, bytes, message)
       n = len(bytes) - checksum
       is_whole_picture = .false.
+      if (n < 0) return
+      if (is_moving(path)) then
+         is_whole_picture = starts_with(bytes, "GIF8") .and. bytes(len(bytes):) == ";"
+         return
+      end if
       if (n < len(start) + len(end)) return
       is_whole_picture = bytes(1:len(start)) == start .and. bytes(n - len(end) + 1:n) == end
    end function is_whole_picture

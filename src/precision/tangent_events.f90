@@ -149,9 +149,11 @@ contains
       do n = 1, part%method%events%n_happened
          if (part%system%loose%functions%kind_of(part%method%events%happened(n)) /= touch_function) cycle
          call part%system%find_contact(part%method%events%happened(n), k, i)
-         if (part%system%loose%sets(k)%set%grip%memory /= memory_bristle) cycle
-         tangent%w(part%system%bristle_place(k, i)) = 0.0_wp
-         before(part%system%bristle_place(k, i)) = 0.0_wp
+         associate (grip => part%system%loose%sets(k)%set%grip, place => part%system%bristle_place(k, i))
+            if (grip%memory /= memory_bristle) cycle
+            tangent%w(place + 1:place + grip%n_component) = 0.0_wp
+            before(place + 1:place + grip%n_component) = 0.0_wp
+         end associate
       end do
    end subroutine drop_deflections
 

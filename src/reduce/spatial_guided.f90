@@ -67,14 +67,17 @@ contains
       real(wp), intent(in) :: x_dot(self%n)           !! (n) their rates [rad/s or m/s]
       type(motion_t), intent(inout) :: motion         !! the motion of the guided bodies is set
 
-      call place_bodies(self%n, self%n_turning, self%held, self%item, x, x_dot, ubound(motion%angle, 1), motion%a, motion%alpha, &
-                        motion%r, motion%rot, motion%v, motion%omega, motion%spatial%p, motion%spatial%spin)
+      associate (n => self%n_turning, n_body => ubound(motion%angle, 1))
+         call place_turning(n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, motion%v, &
+                            motion%omega, motion%spatial%p, motion%spatial%spin)
+         call place_sliding(n, self%n, self%held, self%item, x, x_dot, n_body, motion%a, motion%alpha, motion%r, motion%rot, &
+                            motion%v, motion%omega, motion%spatial%p, motion%spatial%spin)
+      end associate
    end subroutine spatial_move
 
-   !> The same on plain arrays.
-   pure subroutine place_bodies(n, n_turning, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, p, spin)
-      integer, intent(in) :: n                              !! number of guided bodies
-      integer, intent(in) :: n_turning                      !! those of them that turn, the first ones
+   !> The bodies that turn, on plain arrays.
+   pure subroutine place_turning(n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, p, spin)
+      integer, intent(in) :: n                              !! number of bodies that turn, the first ones
       type(held_t), intent(in) :: held(n)                   !! (n) how they are held
       type(spatial_guide_t), intent(inout) :: item(n)       !! (n) the bodies, moved
       real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad or m]
@@ -92,7 +95,7 @@ contains
       real(wp) :: at(3), at_dot(3), at_dot_dot(3), cosine, d(3), sine, u(3), wd(3)
       integer :: a, b, k
 
-      do k = 1, n_turning
+      do k = 1, n
          a = held(k)%base
          b = held(k)%body
          call sine_cosine(0.5_wp*x(k), sine, cosine)
@@ -117,6 +120,29 @@ contains
          v(:, b) = at_dot + wd
          item(k)%a_0 = item(k)%a_0 + across(omega(:, b), wd)
       end do
+   end subroutine place_turning
+
+   !> The bodies that slide, on plain arrays.
+   pure subroutine place_sliding(n_turning, n, held, item, x, x_dot, n_body, acceleration, alpha, r, rot, v, omega, p, spin)
+      integer, intent(in) :: n_turning                      !! number of bodies that turn, the first ones
+      integer, intent(in) :: n                              !! number of guided bodies
+      type(held_t), intent(in) :: held(n)                   !! (n) how they are held
+      type(spatial_guide_t), intent(inout) :: item(n)       !! (n) the bodies, those that slide are moved
+      real(wp), intent(in) :: x(n)                          !! (n) coordinates [rad or m]
+      real(wp), intent(in) :: x_dot(n)                      !! (n) their rates [rad/s or m/s]
+      integer, intent(in) :: n_body                         !! number of bodies
+      real(wp), intent(in) :: acceleration(3, 0:n_body)     !! (3, 0:bodies) accelerations, those of the bases [m/s^2]
+      real(wp), intent(in) :: alpha(3, 0:n_body)            !! (3, 0:bodies) angular accelerations, those of the bases [rad/s^2]
+      real(wp), intent(inout) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(inout) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(inout) :: v(3, 0:n_body)             !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(inout) :: omega(3, 0:n_body)         !! (3, 0:bodies) angular velocities, world frame [rad/s]
+      real(wp), intent(inout) :: p(4, 0:n_body)             !! (4, 0:bodies) Euler parameters [1]
+      real(wp), intent(inout) :: spin(3, 0:n_body)          !! (3, 0:bodies) angular velocities, body frames [rad/s]
+
+      real(wp) :: at(3), at_dot(3), at_dot_dot(3)
+      integer :: a, b, k
+
       do k = n_turning + 1, n
          a = held(k)%base
          b = held(k)%body
@@ -133,7 +159,7 @@ contains
          item(k)%rise_0 = turned_back(rot(:, :, b), alpha(:, a))
          item(k)%a_0 = at_dot_dot + 2.0_wp*x_dot(k)*across(omega(:, a), item(k)%along)
       end do
-   end subroutine place_bodies
+   end subroutine place_sliding
 
    !> Rates of the coordinates and their derivatives at the motion that is set. Status 1 if one is not a finite number.
    pure subroutine spatial_rates(self, n_v, n_body, g, x_dot, rate, x_ddot, status)

@@ -19,6 +19,7 @@ module kind_list
    use lubricant, only: lubricant_info
    use normal_law, only: normal_law_t
    use precision_info, only: precision_section
+   use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
@@ -110,14 +111,15 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(16 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(17 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds + n_film_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
       kinds(3) = points_info()
       kinds(4) = spatial_bodies_info()
       kinds(5) = spatial_points_info()
-      n = 5
+      kinds(6) = shapes_info()
+      n = 6
       do k = 1, n_joint_kinds
          kinds(n + k) = joint_info(k)
       end do

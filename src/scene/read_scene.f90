@@ -20,8 +20,9 @@ module read_scene
    use read_functions, only: functions_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
-      scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_t
+      scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_shapes, table_t
    use scene_checks, only: check_meaning, check_names, report_doubled
+   use shapes, only: mistake_of_shape, shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use settings, only: check_sections, has_section, read_settings
    use spatial_bodies, only: mistake_of_body, new_spatial_bodies, new_spatial_points, spatial_bodies_info, spatial_points_info
@@ -168,6 +169,7 @@ contains
       end if
       scene%tables%base(table_materials)%info = material_info()
       scene%tables%base(table_lubricants)%info = lubricant_info()
+      scene%tables%base(table_shapes)%info = shapes_info()
       do k = 1, n_base
          call read_items(deck, scene%tables%base(k)%info, scene%tables%base(k)%items, diagnostics)
       end do
@@ -199,7 +201,7 @@ contains
 
    end subroutine read_tables
 
-   !> What a row of bodies, or the direction of gravity, must be in the plane or in space.
+   !> What a row of bodies or shapes, or the direction of gravity, must be in the plane or in space.
    subroutine check_space(scene, diagnostics)
       type(scene_t), intent(in) :: scene                  !! tables, references resolved
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
@@ -213,7 +215,14 @@ contains
                                  merge("give three in a spatial scene", "give two in a planar scene   ", scene%settings%is_spatial))
          end if
       end associate
-      if (.not. scene%settings%is_spatial .or. diagnostics%count() > 0) return
+      if (diagnostics%count() > 0) return
+      associate (items => scene%tables%base(table_shapes)%items)
+         do k = 1, size(items)
+            if (mistake_of_shape(items(k), scene%settings%is_spatial) == "") cycle
+            call diagnostics%add(items(k)%location, mistake_of_shape(items(k), scene%settings%is_spatial), "in this row")
+         end do
+      end associate
+      if (.not. scene%settings%is_spatial) return
       associate (items => scene%tables%base(table_bodies)%items)
          do k = 1, size(items)
             if (mistake_of_body(items(k)) == "") cycle

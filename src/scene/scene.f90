@@ -18,13 +18,14 @@ module scene
    private
    public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
    public :: friction_slot_t, law_slot_t, n_base, scene_t, section_t, settings_t, table_t
-   public :: table_bodies, table_lubricants, table_materials, table_points
+   public :: table_bodies, table_lubricants, table_materials, table_points, table_shapes
 
    integer, parameter :: table_bodies = 1     !! base table: bodies
    integer, parameter :: table_points = 2     !! base table: points
    integer, parameter :: table_materials = 3  !! base table: materials
    integer, parameter :: table_lubricants = 4 !! base table: lubricants
-   integer, parameter :: n_base = 4           !! base tables
+   integer, parameter :: table_shapes = 5     !! base table: shapes
+   integer, parameter :: n_base = 5           !! base tables
 
    integer, parameter :: analysis_dynamic = 1    !! motion in time under forces
    integer, parameter :: analysis_kinematic = 2  !! motion prescribed by drivers
@@ -68,7 +69,7 @@ module scene
 
    !> Tables that became something else when they were read: kept for the echo, and for what is told of them.
    type :: tables_t
-      type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials, lubricants
+      type(table_t) :: base(n_base)                    !! (kinds) bodies, points, materials, lubricants, shapes
       type(table_t) :: functions(n_function_kinds)     !! (kinds) named functions
       type(table_t) :: laws(n_law_kinds)               !! (kinds) normal laws
       type(table_t) :: frictions(n_friction_kinds)     !! (kinds) friction laws

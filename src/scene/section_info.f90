@@ -208,7 +208,10 @@ contains
       call add_number(info, "instants_limit", dim_none, "greatest number of output instants, and of periods of the statistics", &
                       default="1e7", lower=2.0_wp, upper=2.0e9_wp)
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
-      call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel), film(JOINT)", default="")
+      call add_word(info, "motion", "the moving mechanism in a file for other programs: vtkhdf (motion.vtkhdf, which ParaView " &
+                    //"plays), one step for each output instant", default="off", choices="off vtkhdf")
+      call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel), film(JOINT), mechanism, " &
+                     //"strip(n=8), coupler(POINT), animation(last=...)", default="")
    end function output_info
 
 end module section_info

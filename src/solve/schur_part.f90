@@ -1,11 +1,11 @@
-!> Structure of the Schur complement of some of the rows: their order, the envelope, and the pairs of rows that share a body.
+!> Structure of the Schur complement of some of the rows: their order, the envelope, and the rows that share a body.
 !>
 !> S = Phi_q M^-1 Phi_q^T. The order is the given one or that of reverse Cuthill-McKee, whichever costs less.
 module schur_part
    use envelope, only: envelope_t, new_envelope
    use kinds, only: wp
    use ordering, only: envelope_of, reverse_cuthill_mckee
-   use rows, only: coordinate_place, rows_t
+   use rows, only: rows_t
    implicit none (type, external)
    private
    public :: choose_order, part_t, prepare_part
@@ -16,12 +16,10 @@ module schur_part
       type(envelope_t) :: s                       !! Schur complement, then its factors
       integer, allocatable :: order(:)            !! (its rows) rows in the order of the envelope
       integer :: n_side = 0                       !! their sides that are unknown bodies
-      integer, allocatable :: side(:, :)          !! (2, sides) place in the envelope's order, place in the Jacobian; body by body
-      integer :: n_pair = 0                       !! pairs of sides that share a body
-      integer, allocatable :: pair(:, :)          !! (3, pairs) places in Phi_q M^-1 of the body, in Phi_q and in S
+      integer, allocatable :: side(:, :)          !! (2, sides) place in the envelope's order, place in the Jacobian; body by body,
+                                                  !! of each in the order of the envelope
       integer :: n_body = 0                       !! bodies with sides
-      integer, allocatable :: body(:, :)          !! (3, these bodies) body, its last side, its last pair
-      real(wp), allocatable :: jac_m(:)           !! (n_v most sides of a body) Phi_q M^-1 of one body [any]
+      integer, allocatable :: body(:, :)          !! (2, these bodies) body, its last side
       real(wp), allocatable :: x(:)               !! (its rows) right-hand side and solution, in the order of the envelope [any]
    end type part_t
 
@@ -98,7 +96,7 @@ contains
       start(1) = 1
    end subroutine list_neighbours
 
-   !> Order, envelope, sides and pairs of some of the rows.
+   !> Order, envelope and sides of some of the rows.
    subroutine prepare_part(rows, is_taken, part)
       type(rows_t), intent(in) :: rows       !! rows, of which the bodies are read
       logical, intent(in) :: is_taken(:)     !! (solved rows) which of them
@@ -106,41 +104,36 @@ contains
 
       integer, allocatable :: first(:), place(:)
       real :: cost
-      integer :: body, column, first_side, i, j, k, line, most, pass
+      integer :: body, first_side, i, k, line, n_side
 
       part%n_v = rows%n_v
       call choose_order(rows, is_taken, part%order, first, cost)
       allocate (place(rows%n_solve), source=0)
       place(part%order) = [(k, k=1, size(part%order))]
       call new_envelope(first, part%s)
-      do pass = 1, 2
-         part%n_side = 0
-         part%n_pair = 0
-         part%n_body = 0
-         most = 0
-         do body = 1, ubound(rows%last_side, 1)
-            first_side = part%n_side
-            do i = rows%last_side(body - 1) + 1, rows%last_side(body)
-               line = place(rows%side(1, i))
-               if (line == 0) cycle
-               part%n_side = part%n_side + 1
-               if (pass == 2) part%side(:, part%n_side) = [line, rows%side(2, i)]
-               do j = rows%last_side(body - 1) + 1, rows%last_side(body)
-                  column = place(rows%side(1, j))
-                  if (column > line .or. column == 0) cycle
-                  part%n_pair = part%n_pair + 1
-                  if (pass == 2) part%pair(:, part%n_pair) = [coordinate_place(rows%n_v, part%n_side - first_side), &
-                                                              rows%side(2, j), part%s%start(line) + column]
-               end do
+      n_side = count([(place(rows%side(1, i)) > 0, i=1, size(rows%side, 2))])
+      allocate (part%side(2, n_side), part%body(2, ubound(rows%last_side, 1)), source=0)
+      n_side = 0
+      do body = 1, ubound(rows%last_side, 1)
+         first_side = n_side
+         do i = rows%last_side(body - 1) + 1, rows%last_side(body)
+            line = place(rows%side(1, i))
+            if (line == 0) cycle
+            n_side = n_side + 1
+            k = n_side
+            do while (k > first_side + 1)
+               if (part%side(1, k - 1) < line) exit
+               part%side(:, k) = part%side(:, k - 1)
+               k = k - 1
             end do
-            if (part%n_side == first_side) cycle
-            most = max(most, part%n_side - first_side)
-            part%n_body = part%n_body + 1
-            if (pass == 2) part%body(:, part%n_body) = [body, part%n_side, part%n_pair]
+            part%side(:, k) = [line, rows%side(2, i)]
          end do
-         if (pass == 1) allocate (part%side(2, part%n_side), part%pair(3, part%n_pair), part%body(3, part%n_body), source=0)
+         if (n_side == first_side) cycle
+         part%n_body = part%n_body + 1
+         part%body(:, part%n_body) = [body, n_side]
       end do
-      allocate (part%jac_m(coordinate_place(rows%n_v, most + 1)), source=0.0_wp)
+      part%n_side = n_side
+      part%body = part%body(:, :part%n_body)
       allocate (part%x(size(part%order)), source=0.0_wp)
    end subroutine prepare_part
 

@@ -5,7 +5,7 @@ module grip_forces
    use lapack, only: dsyev
    implicit none (type, external)
    private
-   public :: grip_forces_t, new_grip_forces, solve_grips, unit_load_t
+   public :: grip_forces_t, gripped_t, new_grip_forces, solve_grips, unit_load_t
 
    !> Loads of a unit force, and room for what they are solved in place of.
    type :: unit_load_t
@@ -19,20 +19,27 @@ module grip_forces
       real(wp), allocatable :: ydot(:)   !! (n) its derivative [any]
    end type trial_state_t
 
+   !> A tangent of a contact that sticks.
+   type :: gripped_t
+      integer :: slot = 0      !! set of the contact
+      integer :: contact = 0   !! the contact
+      integer :: axis = 0      !! the tangent
+   end type gripped_t
+
    !> Contacts whose friction has a memory.
    type :: grip_forces_t
       integer :: n_slip = 0                      !! contacts that may stick: of laws that remember a slip
-      integer :: n_bristle = 0                   !! contacts with bristles
+      integer :: n_bristle = 0                   !! components of the deflections of contacts with bristles
+      logical :: have_ways = .false.             !! some of them slide in a plane, along a way that they follow
       real(wp) :: h = 0.0_wp                     !! length of the step in hand [s]
-      integer, allocatable :: slot(:)            !! (n_slip) sets of the contacts that stick, the first ones used
-      integer, allocatable :: contact(:)         !! (n_slip) the contacts
-      real(wp), allocatable :: matrix(:, :)      !! (n_slip, n_slip) what a unit force does to the sliding accelerations [1/kg]
-      real(wp), allocatable :: force(:)          !! (n_slip) forces [N]
-      real(wp), allocatable :: mobility(:)       !! (n_slip) its diagonal if the bodies were free [1/kg]
-      logical, allocatable :: is_fixed(:)        !! (n_slip) whether no force of its own moves it
-      real(wp), allocatable :: left(:)           !! (n_slip) sliding acceleration that no force can change [m/s^2]
-      real(wp), allocatable :: root(:)           !! (n_slip) roots of the normal forces [N^0.5]
-      real(wp), allocatable :: eigenvalue(:)     !! (n_slip) of the scaled matrix [N/kg]
+      type(gripped_t), allocatable :: at(:)      !! (n_force) tangents of the contacts that stick, the first ones used
+      real(wp), allocatable :: matrix(:, :)      !! (n_force, n_force) what a unit force does to the sliding accelerations [1/kg]
+      real(wp), allocatable :: force(:)          !! (n_force) forces [N]
+      real(wp), allocatable :: mobility(:)       !! (n_force) its diagonal if the bodies were free [1/kg]
+      logical, allocatable :: is_fixed(:)        !! (n_force) whether no force of its own moves it
+      real(wp), allocatable :: left(:)           !! (n_force) sliding acceleration that no force can change [m/s^2]
+      real(wp), allocatable :: root(:)           !! (n_force) roots of the normal forces [N^0.5]
+      real(wp), allocatable :: eigenvalue(:)     !! (n_force) of the scaled matrix [N/kg]
       real(wp), allocatable :: work(:)           !! (any) scratch [any]
       type(unit_load_t) :: load                  !! of a unit force
       type(trial_state_t) :: trial               !! a state a moment later
@@ -41,9 +48,10 @@ module grip_forces
 contains
 
    !> Room for contacts that may stick.
-   subroutine new_grip_forces(n_slip, n_bristle, a, n_row, n, grips)
+   subroutine new_grip_forces(n_slip, n_force, n_bristle, a, n_row, n, grips)
       integer, intent(in) :: n_slip               !! contacts that may stick
-      integer, intent(in) :: n_bristle            !! contacts with bristles
+      integer, intent(in) :: n_force              !! their tangents
+      integer, intent(in) :: n_bristle            !! components of the deflections of contacts with bristles
       real(wp), intent(in) :: a(:, 0:)            !! (n_v, 0:bodies) accelerations, for the shape of loads [any]
       integer, intent(in) :: n_row                !! rows
       integer, intent(in) :: n                    !! entries of the state
@@ -52,11 +60,12 @@ contains
       grips%n_slip = n_slip
       grips%n_bristle = n_bristle
       if (n_slip == 0) return
-      allocate (grips%slot(n_slip), grips%contact(n_slip), source=0)
-      allocate (grips%is_fixed(n_slip), source=.false.)
-      allocate (grips%matrix(n_slip, n_slip), grips%mobility(n_slip), grips%left(n_slip), grips%force(n_slip), &
-                grips%root(n_slip), grips%eigenvalue(n_slip), &
-                grips%work(34*n_slip), grips%load%unit(size(a, 1), 0:ubound(a, 2)), grips%load%b(n_row), grips%trial%y(n), &
+      grips%have_ways = n_force > n_slip
+      allocate (grips%at(n_force))
+      allocate (grips%is_fixed(n_force), source=.false.)
+      allocate (grips%matrix(n_force, n_force), grips%mobility(n_force), grips%left(n_force), grips%force(n_force), &
+                grips%root(n_force), grips%eigenvalue(n_force), &
+                grips%work(34*n_force), grips%load%unit(size(a, 1), 0:ubound(a, 2)), grips%load%b(n_row), grips%trial%y(n), &
                 grips%trial%ydot(n), source=0.0_wp)
    end subroutine new_grip_forces
 

@@ -146,7 +146,7 @@ module mechanism
          integer, intent(out) :: status             !! 0: found
       end subroutine mechanism_stick
 
-      !> Place of the deflection of a contact in the state; contact 0 is before the first one of its set.
+      !> Entries of the state before the deflection of a contact, which has as many as its components.
       pure module integer function mechanism_bristle_place(self, slot, contact) result(place)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the system

@@ -1,6 +1,7 @@
-!> Friction that remembers, in a planar scene: contacts that stick, and bristles.
+!> Friction that remembers: contacts that stick, and bristles.
 !>
-!> Normal forces are known before the accelerations, so the forces x of the m contacts that stick follow from
+!> Normal forces are known before the accelerations, so the forces x along the m tangents of contacts that stick (of each one in
+!> the plane, two in space) follow from
 !>
 !> v_T' = -2 kappa v_T:   A x = -(G a_0 + drift + 2 kappa v_T),   A = G K^-1 G^T,
 !>
@@ -20,14 +21,14 @@ submodule(mechanism) mechanism_friction
    use coordinates, only: most_rates
    use friction_law, only: memory_bristle, memory_slip
    use floors, only: least_mobility, no_acceleration, settling
-   use grip_forces, only: solve_grips
+   use grip_forces, only: gripped_t, solve_grips
    implicit none (type, external)
 
 contains
 
    !> Forces of the contacts that stick, and the accelerations with them.
    module procedure mechanism_stick
-      integer :: c, d, k, m
+      integer :: axis, c, d, k, m
 
       status = 0
       m = 0
@@ -36,19 +37,20 @@ contains
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
                if (.not. set%contact(k)%is_touching .or. set%grip%slip(k) /= sticks) cycle
-               m = m + 1
-               self%friction%grips%slot(m) = d
-               self%friction%grips%contact(m) = k
+               do axis = 1, set%grip%n_tangent
+                  m = m + 1
+                  self%friction%grips%at(m) = gripped_t(d, k, axis)
+               end do
             end do
          end associate
       end do
       if (m == 0) return
       associate (grips => self%friction%grips, n => self%linkage%rows%n_solve)
          do c = 1, m
-            associate (tangent => self%loose%sets(grips%slot(c))%set%grip%tangent(grips%contact(c)))
+            associate (tangent => self%loose%sets(grips%at(c)%slot)%set%grip%tangent(grips%at(c)%contact))
                grips%root(c) = sqrt(max(tangent%f_n, tiny(1.0_wp)))
-               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift &
-                                  + 2.0_wp*settling*self%linkage%scales%pace*tangent%v)
+               grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(grips%at(c)%axis) &
+                                  + 2.0_wp*settling*self%linkage%scales%pace*tangent%v(grips%at(c)%axis))
                grips%mobility(c) = mobility_of(self, c)
             end associate
          end do
@@ -70,15 +72,35 @@ contains
                           grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
-            associate (set => self%loose%sets(grips%slot(c))%set, k => grips%contact(c))
-               call set%stick_with(k, set%grip%tangent(k)%f_t + grips%force(c), grips%is_fixed(c) &
-                                   .or. abs(grips%left(c)) > no_acceleration*grips%mobility(c)*grips%root(c)**2)
-               self%loose%losses(loss_friction, set%before%contacts + k) = -set%grip%tangent(k)%f_t*set%grip%tangent(k)%v
-            end associate
+            call keep_force(self, c)
          end do
       end associate
       call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
    end procedure mechanism_stick
+
+   !> Keep the force that was found along a tangent on the list with its contact. Drivers prescribe how it slides where no force
+   !> moves it along any tangent, or where they accelerate it along one.
+   subroutine keep_force(self, c)
+      class(mechanism_t), intent(inout) :: self    !! the system, forces found
+      integer, intent(in) :: c                     !! place on the list of contacts that stick
+
+      real(wp) :: force(2)
+      logical :: is_driven
+      integer :: first
+
+      associate (grips => self%friction%grips, set => self%loose%sets(self%friction%grips%at(c)%slot)%set, &
+                 k => self%friction%grips%at(c)%contact)
+         associate (tangent => set%grip%tangent(k))
+            first = c - grips%at(c)%axis + 1
+            is_driven = all(grips%is_fixed(first:first + set%grip%n_tangent - 1)) &
+                        .or. any(abs(grips%left(first:c)) > no_acceleration*grips%mobility(first:c)*grips%root(c)**2)
+            force = tangent%f_t
+            force(grips%at(c)%axis) = force(grips%at(c)%axis) + grips%force(c)
+            call set%stick_with(k, force, is_driven)
+            self%loose%losses(loss_friction, set%before%contacts + k) = -dot_product(tangent%f_t, tangent%v)
+         end associate
+      end associate
+   end subroutine keep_force
 
    !> Part of the rate of the sliding velocity of a contact on the list that comes from the accelerations.
    pure real(wp) function sliding_acceleration(self, c, with_known) result(a)
@@ -86,14 +108,17 @@ contains
       integer, intent(in) :: c                     !! place on the list of contacts that stick
       logical, intent(in) :: with_known            !! with those of bodies whose motion is known
 
-      a = tangential(self, self%friction%grips%slot(c), self%friction%grips%contact(c), with_known)
+      associate (at => self%friction%grips%at(c))
+         a = tangential(self, at%slot, at%contact, at%axis, with_known)
+      end associate
    end function sliding_acceleration
 
    !> The same for any contact.
-   pure real(wp) function tangential(self, slot, k, with_known) result(a)
+   pure real(wp) function tangential(self, slot, k, axis, with_known) result(a)
       class(mechanism_t), intent(in) :: self   !! the system, accelerations found
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: k                     !! contact of the set
+      integer, intent(in) :: axis                  !! tangent of the contact
       logical, intent(in) :: with_known            !! with those of bodies whose motion is known
 
       real(wp) :: acceleration(most_rates), row(most_rates)
@@ -104,7 +129,7 @@ contains
          do side = 1, 2
             body = set%items%body(side, set%item_of(k))
             if (body == 0) cycle
-            call sliding_row(self, slot, k, side, row)
+            call sliding_row(self, slot, k, axis, side, row)
             if (.not. linkage%reduced%is_known(body)) then
                a = a + dot_product(row(:linkage%coordinates%n_v), linkage%solution%a(:, body))
             else if (with_known) then
@@ -124,11 +149,11 @@ contains
       integer :: body, side
 
       mobility = 0.0_wp
-      associate (slot => self%friction%grips%slot(c), k => self%friction%grips%contact(c))
+      associate (slot => self%friction%grips%at(c)%slot, k => self%friction%grips%at(c)%contact)
          associate (set => self%loose%sets(slot)%set)
             do side = 1, 2
                body = set%items%body(side, set%item_of(k))
-               call sliding_row(self, slot, k, side, row)
+               call sliding_row(self, slot, k, self%friction%grips%at(c)%axis, side, row)
                mobility = mobility + sum(self%linkage%inverse_mass(:, body)*row(:self%linkage%coordinates%n_v)**2)
             end do
          end associate
@@ -145,11 +170,11 @@ contains
       real(wp) :: row(most_rates)
       integer :: body, side
 
-      associate (slot => self%friction%grips%slot(c), k => self%friction%grips%contact(c))
+      associate (slot => self%friction%grips%at(c)%slot, k => self%friction%grips%at(c)%contact)
          associate (set => self%loose%sets(slot)%set)
             do side = 1, 2
                body = set%items%body(side, set%item_of(k))
-               call sliding_row(self, slot, k, side, row)
+               call sliding_row(self, slot, k, self%friction%grips%at(c)%axis, side, row)
                g(:, body) = g(:, body) + force*row(:size(g, 1))
             end do
          end associate
@@ -157,10 +182,11 @@ contains
    end subroutine add_pair
 
    !> What the rates of one of its bodies add to the sliding velocity of a contact, of j relative to i.
-   pure subroutine sliding_row(self, slot, k, side, row)
+   pure subroutine sliding_row(self, slot, k, axis, side, row)
       class(mechanism_t), intent(in) :: self   !! the system
       integer, intent(in) :: slot                  !! set of the contact
       integer, intent(in) :: k                     !! contact of the set
+      integer, intent(in) :: axis                  !! tangent of the contact
       integer, intent(in) :: side                  !! 1: body i, 2: body j
       real(wp), intent(out) :: row(most_rates)     !! (most_rates) the row, its first n_v entries [1 or m]
 
@@ -170,17 +196,19 @@ contains
       associate (tangent => self%loose%sets(slot)%set%grip%tangent(k), coordinates => self%linkage%coordinates, &
                  motion => self%linkage%motion)
          if (side == 1) then
-            call coordinates%along(tangent%t, tangent%arm_i, motion, body, row(:coordinates%n_v))
+            call coordinates%along(tangent%t(:, axis), tangent%arm_i, motion, body, row(:coordinates%n_v))
             row(:coordinates%n_v) = -row(:coordinates%n_v)
          else
-            call coordinates%along(tangent%t, tangent%arm_j, motion, body, row(:coordinates%n_v))
+            call coordinates%along(tangent%t(:, axis), tangent%arm_j, motion, body, row(:coordinates%n_v))
          end if
       end associate
    end subroutine sliding_row
 
-   !> Place of the deflection of a contact in the state.
+   !> Entries of the state before the deflection of a contact.
    module procedure mechanism_bristle_place
-      place = self%linkage%n_position + self%linkage%n_rate + self%loose%sets(slot)%set%grip%first_bristle + contact
+      associate (grip => self%loose%sets(slot)%set%grip)
+         place = self%linkage%n_position + self%linkage%n_rate + grip%first_bristle + grip%n_component*(contact - 1)
+      end associate
    end procedure mechanism_bristle_place
 
    !> Place of the deflection of a joint that rubs in the state.
@@ -197,8 +225,8 @@ contains
       do k = 1, size(self%loose%sets)
          associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = self%bristle_place(k, 0)
-            call set%bend_bristles(y(place + 1:place + set%n_contact))
+            place = self%bristle_place(k, 1)
+            call set%bend_bristles(y(place + 1:place + size(set%grip%z)))
          end associate
       end do
       do k = 1, self%friction%rubbing%n
@@ -211,13 +239,16 @@ contains
 
    !> Rates of these deflections; a contact that is free keeps its deflection.
    module procedure mechanism_bristle_rates
-      integer :: k, place
+      integer :: contact, k, place
 
       do k = 1, size(self%loose%sets)
          associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = self%bristle_place(k, 0)
-            ydot(place + 1:place + set%n_contact) = merge(set%grip%z_rate, 0.0_wp, set%contact%is_touching)
+            do contact = 1, set%n_contact
+               place = self%bristle_place(k, contact)
+               ydot(place + 1:place + set%grip%n_component) = 0.0_wp
+               if (set%contact(contact)%is_touching) ydot(place + 1:place + set%grip%n_component) = set%grip%z_rate(:, contact)
+            end do
          end associate
       end do
       do k = 1, self%friction%rubbing%n
@@ -235,8 +266,8 @@ contains
       do k = 1, size(self%loose%sets)
          associate (set => self%loose%sets(k)%set)
             if (set%grip%memory /= memory_bristle) cycle
-            place = self%bristle_place(k, 0)
-            scale(place + 1:place + set%n_contact) = set%laws%friction%bristle_scale()
+            place = self%bristle_place(k, 1)
+            scale(place + 1:place + size(set%grip%z)) = set%laws%friction%bristle_scale()
          end associate
       end do
       do k = 1, self%friction%rubbing%n

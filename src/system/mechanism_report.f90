@@ -30,7 +30,8 @@ module mechanism_report
    integer, parameter :: of_dissipated_film = 10      !! taken by films
    integer, parameter :: of_residual = 11             !! what does not add up
 
-   character(*), parameter :: contact_channels = " penetration penetration_rate normal_force friction_force state "
+   character(*), parameter :: contact_channels = &
+      " penetration penetration_rate normal_force friction_force state contact_point "
       !! channels of a loose joint that belong to its contact
 
 contains

@@ -1,9 +1,10 @@
-!> When contacts of a planar scene begin to slip and to stick, and which way they go.
+!> When contacts begin to slip and to stick, and which way they go.
 !>
 !> Events: slip s = +-1 ends where s v_T falls to zero (to round-off, so that it also ends where drivers bring it to rest);
 !> sticking ends where |x| = c_s F_N, its rate by a difference along the motion, or where the contact moves all the same. A slip
 !> that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit: so a contact that
-!> can neither slip nor stick costs a bounded number of steps.
+!> can neither slip nor stick costs a bounded number of steps. In space speeds and forces are those of both tangents; a slip that
+!> has turned by a right angle within a step ends too, and goes on along its new way.
 !>
 !> Speeds that are small are parts of the mechanism's own, its pace times its size (`mechanism_scales`); times, of the
 !> contact's own.
@@ -44,8 +45,8 @@ contains
                      g(number) = short_of(self, tangent, set%laws%friction%stick_limit(tangent%f_n))
                      rate(number) = (rate(number) - g(number))/moment
                   else
-                     g(number) = standstill*own_speed(self) - slip*tangent%v - set%grip%band(k)
-                     rate(number) = -slip*(tangential(self, slot, k, .true.) + tangent%drift)
+                     g(number) = standstill*own_speed(self) - slip*tangent%v(1) - set%grip%band(k)
+                     rate(number) = -slip*(tangential(self, slot, k, 1, .true.) + tangent%drift(1))
                   end if
                end associate
             end do
@@ -81,7 +82,7 @@ contains
       real(wp) :: speed
 
       speed = own_speed(self)*merge(at_rest, torn, tangent%is_driven)
-      g = max(abs(tangent%f_t) - limit, limit*(abs(tangent%v)/speed - 1.0_wp))
+      g = max(size_of(tangent%f_t) - limit, limit*(size_of(tangent%v)/speed - 1.0_wp))
    end function short_of
 
    !> Speed of the mechanism, which says what sliding is slow.
@@ -121,11 +122,11 @@ contains
          if (t - set%grip%since(k) < chatter_time*own_time(self, slot, k, delta(set%before%contacts + k))) then
             band = speed*min(max(2.0_wp*set%grip%band(k)/speed, least_band), widest_band)
          end if
-         call set%note_decision(k, t, band)
+         call set%note_decision(k, t, band, at_rest*speed)
          if (before == is_undecided) then
             call set%lay(k, self%linkage%motion)
-            if (abs(set%grip%tangent(k)%v) > at_rest*speed) then
-               call set%slip_as(k, nint(sign(1.0_wp, set%grip%tangent(k)%v)))
+            if (size_of(set%grip%tangent(k)%v) > at_rest*speed) then
+               call set%slip_toward(k, set%grip%tangent(k)%v)
                return
             end if
          end if
@@ -133,22 +134,22 @@ contains
          call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
          associate (tangent => set%grip%tangent(k))
             if (tangent%is_driven) then
-               call set%note_decision(k, t, 0.0_wp)
-               call set%slip_as(k, way_of_drivers(self, t, y, slot, k, at_rest*speed))
+               call set%note_decision(k, t, 0.0_wp, at_rest*speed)
+               call go_with_drivers(self, t, y, slot, k, at_rest*speed)
                return
             end if
-            if (abs(tangent%v) > 0.5_wp*torn*speed) then
-               call set%slip_as(k, nint(sign(1.0_wp, tangent%v)))
+            if (size_of(tangent%v) > 0.5_wp*torn*speed) then
+               call set%slip_toward(k, tangent%v)
                return
             end if
-            if (before /= sticks .and. abs(tangent%f_t) <= set%laws%friction%stick_limit(tangent%f_n)) return
-            call set%slip_as(k, nint(-sign(1.0_wp, tangent%f_t)))
+            if (before /= sticks .and. size_of(tangent%f_t) <= set%laws%friction%stick_limit(tangent%f_n)) return
+            call set%slip_toward(k, -tangent%f_t)
          end associate
       end associate
    end procedure mechanism_decide_slip
 
-   !> Which way a contact goes that drivers move, by its speed now and a little later; it sticks if it does not move then either.
-   integer function way_of_drivers(self, t, y, slot, k, still) result(slip)
+   !> Let a contact that drivers move go their way, by its speed now and a little later; it sticks if it does not move then either.
+   subroutine go_with_drivers(self, t, y, slot, k, still)
       class(mechanism_t), intent(inout) :: self  !! the system, evaluated at the state with the contact sticking
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(:)                   !! (n) state [any]
@@ -156,24 +157,30 @@ contains
       integer, intent(in) :: k                       !! contact of the set
       real(wp), intent(in) :: still                  !! speed that is none [m/s]
 
-      real(wp) :: later, now, v
+      real(wp) :: later, now(2), v(2)
       integer :: status
 
       later = max(look_ahead*self%friction%grips%h, self%time_of_difference(t))
       associate (set => self%loose%sets(slot)%set)
          now = set%grip%tangent(k)%v
          v = now
-         if (abs(now) < 0.5_wp*still) then
+         if (size_of(now) < 0.5_wp*still) then
             self%friction%grips%trial%y = y + later*self%friction%grips%trial%ydot
             call self%linkage%set_motion(t + later, self%friction%grips%trial%y)
             call set%lay(k, self%linkage%motion)
             v = set%grip%tangent(k)%v
             call self%evaluate(t, y, self%friction%grips%trial%ydot, status)
          end if
-         slip = sticks
-         if (abs(v) >= 0.5_wp*still) slip = nint(sign(1.0_wp, v))
+         if (size_of(v) >= 0.5_wp*still) call set%slip_toward(k, v)
       end associate
-   end function way_of_drivers
+   end subroutine go_with_drivers
+
+   !> Length of a vector of the tangents.
+   pure real(wp) function size_of(x)
+      real(wp), intent(in) :: x(2)   !! (2) the vector [any]
+
+      size_of = hypot(x(1), x(2))
+   end function size_of
 
    !> Time in which a contact swings against its bodies, without the numbers of a whole swing; 0 where that is not known.
    pure real(wp) function own_time(self, slot, k, delta) result(time)

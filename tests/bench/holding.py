@@ -1,8 +1,10 @@
-"""CPU time against error of each way of holding the constraints, and of each integrator, on the four-bar and on A02.
+"""CPU time against error of each way of holding the constraints, and of each integrator, on the four-bar and on A02; of each
+integrator on Bricard's mechanism (A04), the flyball governor (A05) and a slider-crank in space.
 
 Errors are those of `make stability`: the angles of the four-bar at 0.1 to 5 s against an independent solution, the place of the
-first joint of the ten four-bars of A02 after 10 s against the exact motion. CPU times are those of the solution alone. A way that
-ends early, or not within a minute, stands in the table without an error.
+first joint of the ten four-bars of A02 after 10 s against the exact motion; energy of Bricard's mechanism, slider of governor and
+slider-crank against independent integrations. CPU times are those of the solution alone. A way that ends early, or not within a
+minute, stands in the table without an error.
 """
 
 import argparse
@@ -22,13 +24,18 @@ from runs import solve  # noqa: E402
 
 TOLERANCES = tuple(f"1e-{k}" for k in range(5, 11))
 STEPS = {"four-bar": ("0.4 ms", "0.2 ms", "0.1 ms", "0.05 ms", "0.025 ms"), "A02 N = 10": ("8 ms", "4 ms", "2 ms", "1 ms", "0.5 ms")}
-SCENES = tuple(STEPS)
+SPATIAL = {"A04 Bricard": METHODS, "A05 governor": ("bdf", "ida"), "spatial slider-crank": METHODS}  # multistep methods of each
+SCENES = (*STEPS, *SPATIAL)
 COLUMNS = ("scene", "method", "tolerance", "error", "violation", "energy_drift", "cpu_ms", "steps", "verdict")
 
 
 def ways(scene, quick):
     """Each way of holding with Verner's method, each integrator and RK4 with the default way."""
     tolerances = TOLERANCES[1::2] if quick else TOLERANCES
+    if scene in SPATIAL:
+        for method in ("verner", "dop853", *SPATIAL[scene]):
+            yield from (Way(tolerance, method=method) for tolerance in tolerances)
+        return
     for hold in HOLDS:
         yield from (Way(tolerance, stabilise=hold) for tolerance in tolerances)
     for method in METHODS:

@@ -30,12 +30,15 @@ PARTS = (
      "assembling and output; memory beyond that of the smallest scene."),
     ("holding.csv", None, "Ways of holding the constraints, and integrators",
      "CPU time against error over a ladder of tolerances."),
+    ("space_cost.csv", None, "The plane beside space",
+     "The dry slider-crank, ledger off: as the deck of the plane has it (its crank is a known function of time), with all coordinates of the "
+     "plane, and translated to space. Instructions of a right-hand side (callgrind); onsets of the first five impacts against the plane's."),
     ("peers/peers_ratio.csv", None, "Other programs on the same scenes (`make bench-peers`)",
      "Time of Simbody (Runge-Kutta-Merson and -Fehlberg; Adams of CPODES for chains), MuJoCo (RK4, implicitfast) and Exudyn (kinematic "
      "tree with DOPRI5 for chains, index-2 trapezoidal rule for loops) over gudgeon's (verner, ledger off) at the same error; each by its "
      "cheapest setting. Empty: that error is not reached, or the program is not tried on that scene: contact laws as these cannot be "
      "given to MuJoCo's and Exudyn's compiled code. Errors: greatest distance of a centre of mass at the end, over the scene's size; "
-     "of the slider-crank the greatest of ten onsets [s]."),
+     "of the slider-crank and of the pendulum in a loose ball and socket the greatest of ten onsets [s]."),
 )
 MOST_ROWS = 60
 

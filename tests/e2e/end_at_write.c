@@ -1,4 +1,4 @@
-/* Preloaded before the program: a SIGKILL at the n-th write to run.h5 (GUDGEON_KILL_AT=n). Without it each of
+/* Preloaded before the program: a SIGKILL at the n-th write to run.h5, or another file (-DNAME), with GUDGEON_KILL_AT=n. Without it each of
  * them is a line on the standard error. */
 #define _GNU_SOURCE
 
@@ -10,6 +10,10 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#ifndef NAME
+#define NAME "run.h5"
+#endif
+
 static long n = 0;
 
 static void count(int file)
@@ -17,9 +21,10 @@ static void count(int file)
    char link[64], path[4096];
    snprintf(link, sizeof link, "/proc/self/fd/%d", file);
    ssize_t length = readlink(link, path, sizeof path);
-   if (length < 7 || memcmp(path + length - 7, "/run.h5", 7) != 0) return;
+   const ssize_t n_name = sizeof NAME;  /* with the slash before it */
+   if (length < n_name || memcmp(path + length - n_name, "/" NAME, n_name) != 0) return;
    const char *at = getenv("GUDGEON_KILL_AT");
-   if (at == NULL) fputs("write to run.h5\n", stderr);
+   if (at == NULL) fputs("write to " NAME "\n", stderr);
    else if (++n == atol(at)) kill(getpid(), SIGKILL);
 }
 

@@ -4,7 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from support import ROOT, Run, call, changed, plain, scratch, written
+from support import ROOT, Run, call, changed, plain, plain_deck, scratch, written
+from translated import in_space
 
 DECKS = ROOT / "inputs"
 
@@ -56,7 +57,7 @@ METHODS = [{}, {"method": "dop853"}, {"method": "adams", "tolerance": "1e-11"}, 
 def test_tumbling_body(gudgeon, settings):
     """Euler's equations: Jacobi's elliptic functions."""
     run = run_text(gudgeon, deck("hard/tumbling_body.deck"), **settings)
-    limit = 1e-8 if not settings or settings["method"] == "dop853" else 1e-4
+    limit = {"{}": 2e-9, "{'method': 'dop853'}": 1e-9}.get(str(settings), 1e-4)  # passing an unstable turn, round-off grows
     spin = channel(run, "body.spin")
     for t, expected in ((0.5, (-2.755093076653706, 14.74515046172723, 1.592747925340059)),
                         (1.0, (-4.175541761862209, -14.40745817259049, 2.412132459398762)),
@@ -71,7 +72,7 @@ def test_tumbling_body(gudgeon, settings):
 def test_heavy_top(gudgeon, settings):
     """Nutation of a top that is released with a spin: an independent integration of its two angles."""
     run = run_text(gudgeon, deck("hard/heavy_top.deck"), **settings)
-    limit = 1e-8 if not settings or settings["method"] == "dop853" else 1e-4
+    limit = 1e-9 if not settings or settings["method"] == "dop853" else 1e-4
     r = channel(run, "top.position")
     theta = np.arccos(r[:, 2] / 0.5)
     phi = np.arctan2(r[:, 1], r[:, 0])
@@ -203,23 +204,14 @@ def test_slider_crank_in_three_models(gudgeon):
         near(of[name][:, 0], of["planar"][:, 0], 1e-9, f"{name}: onsets")
 
 
-def slider_crank_in_space():
-    """The deck of section 4.4 with its table of bodies, axes and gravity in space; nothing of the motion depends on ixx and iyy."""
-    text = deck("slider_crank_dry.deck").replace("= planar", "= spatial").replace("gravity  = 0 0 m/s^2", "gravity = 0 0 0 m/s^2")
-    text = re.sub(r"(?m)^name +mass.*$", "name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[mm]", text)
-    text = re.sub(r"(?m)^(crank|rod|slider) +(0\.\d+) +(\S+) +(\d+) +0 +0$", r"\1 \2 \3 \3 \3 \4", text)
-    text = re.sub(r"(?m)^name +i +j +axis +#.*$", "name i j axis_i", text)
-    return re.sub(r"(?m)^guide +main +pin +x$", 'guide main pin "1 0 0"', text)
-
-
-def test_planar_deck_in_space(gudgeon):
-    """Section 4.4: onsets of the first five impacts are those of the plane; the same bodies leave the unknowns."""
-    settings = {"end": "3 ms", "tolerance": "1e-11", "method": "dop853"}
-    text = slider_crank_in_space()
-    plane, space = (first_impacts(run_text(gudgeon, t, **settings), 5) for t in (deck("slider_crank_dry.deck"), text))
-    near(space[:, 0], plane[:, 0], 1e-9, "onsets")
-    near(space[:, 1] / plane[:, 1], np.ones(5), 1e-6, "speeds")
-    explained = call(gudgeon, "explain", written(scratch(), text)).stdout
+def test_plane_in_space(gudgeon):
+    """The slider-crank of section 4.4, translated: pin in a bushing, onsets and forces of the first five impacts; the same bodies leave the unknowns."""
+    text = plain_deck()
+    settings = {"end": "2 ms", "tolerance": "1e-11"}
+    planar, spatial = (first_impacts(run_text(gudgeon, t, **settings), 5) for t in (text, in_space(text)))
+    near(spatial[:, 0], planar[:, 0], 1e-9, "onsets")
+    near(spatial / planar, np.ones((5, 4)), 1e-6, "impacts")
+    explained = call(gudgeon, "explain", written(scratch(), in_space(text))).stdout
     assert "'crank' moves as a known function of time" in explained
     assert "2 coordinates unknown, 0 rows solved" in explained
 

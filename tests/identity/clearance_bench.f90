@@ -229,9 +229,9 @@ contains
       if (bench%set%grip%memory == memory_none) return
       call bench%set%lie(contact, bench%motion, bench%set%grip%tangent(contact))
       associate (grip => bench%set%grip)
-         if (grip%memory == memory_slip) grip%slip(contact) = nint(sign(1.0_wp, grip%tangent(contact)%v))
+         if (grip%memory == memory_slip) call bench%set%slip_toward(contact, grip%tangent(contact)%v)
          if (grip%memory == memory_bristle) then
-            grip%z(contact) = sign(0.5_wp*bench%set%laws%friction%bristle_scale(), grip%tangent(contact)%v)
+            grip%z(1, contact) = sign(0.5_wp*bench%set%laws%friction%bristle_scale(), grip%tangent(contact)%v(1))
          end if
       end associate
    end subroutine let_slip

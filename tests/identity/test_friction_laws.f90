@@ -234,28 +234,28 @@ contains
 
       real(wp), parameter :: mu = 0.3_wp, sigma = 2.0e4_wp, v = 0.07_wp
       class(friction_law_t), allocatable :: law
-      real(wp) :: f, rate, x
+      real(wp) :: f(1), rate(1), x
       integer :: k
 
       do k = 0, 6
          x = 0.5_wp*k
          call make_named("dahl", [mu, sigma, 1.0_wp], " ", law)
-         call law%bristles(100.0_wp, v, mu/sigma*(1.0_wp - exp(-x)), f, rate)
-         call check_close(error, rate, v*exp(-x), 1.0e-14_wp, "ductile: rate")
-         call check_close(error, f, 100.0_wp*mu*(1.0_wp - exp(-x)), 1.0e-12_wp, "ductile: force")
+         call law%bristles(1, 100.0_wp, [v], [mu/sigma*(1.0_wp - exp(-x))], f, rate)
+         call check_close(error, rate(1), v*exp(-x), 1.0e-14_wp, "ductile: rate")
+         call check_close(error, f(1), 100.0_wp*mu*(1.0_wp - exp(-x)), 1.0e-12_wp, "ductile: force")
          call make_named("dahl", [mu, sigma, 2.0_wp], " ", law)
-         call law%bristles(100.0_wp, v, mu/sigma*x/(1.0_wp + x), f, rate)
-         call check_close(error, rate, v/(1.0_wp + x)**2, 1.0e-14_wp, "a greater exponent: rate")
-         call law%bristles(100.0_wp, -v, -mu/sigma*x/(1.0_wp + x), f, rate)
-         call check_close(error, rate, -v/(1.0_wp + x)**2, 1.0e-14_wp, "the other way: rate")
+         call law%bristles(1, 100.0_wp, [v], [mu/sigma*x/(1.0_wp + x)], f, rate)
+         call check_close(error, rate(1), v/(1.0_wp + x)**2, 1.0e-14_wp, "a greater exponent: rate")
+         call law%bristles(1, 100.0_wp, [-v], [-mu/sigma*x/(1.0_wp + x)], f, rate)
+         call check_close(error, rate(1), -v/(1.0_wp + x)**2, 1.0e-14_wp, "the other way: rate")
       end do
       call make_named("dahl", [mu, sigma, 1.0_wp], " ", law)
-      call law%bristles(100.0_wp, v, mu/sigma, f, rate)
+      call law%bristles(1, 100.0_wp, [v], [mu/sigma], f, rate)
       call check_close(error, [f, rate], [30.0_wp, 0.0_wp], 1.0e-13_wp, "steady")
-      call law%bristles(100.0_wp, -v, mu/sigma, f, rate)
-      call check_close(error, rate, -2.0_wp*v, 1.0e-14_wp, "back")
-      call law%bristles(100.0_wp, v, 1.1_wp*mu/sigma, f, rate)
-      call check_close(error, rate, -0.1_wp*v, 1.0e-13_wp, "what is too far comes back")
+      call law%bristles(1, 100.0_wp, [-v], [mu/sigma], f, rate)
+      call check_close(error, rate(1), -2.0_wp*v, 1.0e-14_wp, "back")
+      call law%bristles(1, 100.0_wp, [v], [1.1_wp*mu/sigma], f, rate)
+      call check_close(error, rate(1), -0.1_wp*v, 1.0e-13_wp, "what is too far comes back")
    end subroutine test_dahl
 
    !> Ambrosio's law with given numbers.

@@ -7,11 +7,12 @@ module test_spatial_clearances
    use check, only: check_close, check_true, suite_t
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t, loss_contact, loss_friction
+   use contact_grip, only: tangent_t
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use differences, only: five_point, places
    use errors, only: error_t
    use fixed_random, only: random_t, seed_of
-   use friction_law, only: friction_law_t
+   use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
    use kind_info, only: is_of_space, kind_info_t
@@ -64,6 +65,7 @@ contains
       call suite%test("power", test_power)
       call suite%test("force_rate", test_force_rate)
       call suite%test("channels", test_channels)
+      call suite%test("sliding", test_sliding)
    end subroutine run_test_spatial_clearances
 
    !> Claim something of all combinations.
@@ -192,6 +194,7 @@ contains
       bench%fits = k <= 1000
       do k = 1, bench%set%n_contact
          call bench%set%begin_contact(k, 0.0_wp, 5.0_wp, 0.0_wp)
+         call let_slip(bench, k)
       end do
 
    contains
@@ -209,6 +212,21 @@ contains
       end function arm
 
    end subroutine bring_into_contact
+
+   !> A contact that could stick slips the way that it moves; bristles are half bent that way.
+   subroutine let_slip(bench, k)
+      type(bench_t), intent(inout) :: bench   !! the set
+      integer, intent(in) :: k                !! its contact
+
+      if (bench%set%grip%memory == memory_none) return
+      call bench%set%lay(k, bench%motion)
+      associate (grip => bench%set%grip, tangent => bench%set%grip%tangent(k))
+         if (grip%memory == memory_slip) call bench%set%slip_toward(k, tangent%v)
+         if (grip%memory == memory_bristle) then
+            grip%z(:, k) = 0.5_wp*bench%set%laws%friction%bristle_scale()*matmul(tangent%t, tangent%v/norm2(tangent%v))
+         end if
+      end associate
+   end subroutine let_slip
 
    !> Motion after a time.
    subroutine move(bench, dt)
@@ -313,6 +331,7 @@ contains
       call check_close(error, given/scale, (-five_point(stored, tick) - sum(losses(loss_contact, :bench%set%n_contact)) &
                                             - sum(losses(loss_friction, :bench%set%n_contact)))/scale, 1.0e-7_wp, &
                        bench%name//": power")
+      if (bench%set%grip%memory == memory_bristle) return  ! which may give back what they have stored
       call check_true(error, all(losses(loss_friction, :bench%set%n_contact) >= 0.0_wp), bench%name//": friction takes")
    end subroutine power
 
@@ -378,5 +397,48 @@ contains
          end associate
       end do
    end subroutine channels
+
+   subroutine test_sliding(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call claim_all(error, sliding)
+   end subroutine test_sliding
+
+   !> Rates of the sliding velocities along the tangents, by accelerations and drift, against differences; the tangents are at right
+   !> angles to each other and to the normal, which turns as the tangent plane does.
+   subroutine sliding(error, bench)
+      type(error_t), allocatable, intent(inout) :: error  !! what failed
+      type(bench_t), intent(inout) :: bench               !! the combination
+
+      type(tangent_t) :: later, tangent
+      real(wp) :: a(3), n(3, 4), normal(3), v(2, 4)
+      integer :: c, k
+
+      if (bench%set%grip%memory == memory_none) return
+      do c = 1, bench%set%n_contact
+         call bench%set%lie(c, bench%motion, tangent)
+         tangent%way = tangent%t(:, 1) + 0.3_wp*tangent%t(:, 2)
+         call bench%set%lie(c, bench%motion, tangent)
+         later = tangent
+         do k = 1, 4
+            call move(bench, places(k)*tick)
+            call bench%set%lie(c, bench%motion, later)
+            v(:, k) = later%v
+            n(:, k) = cross(later%t(:, 1), later%t(:, 2))
+         end do
+         call move(bench, 0.0_wp)
+         a = bench%motion%a(:, 2) + cross(bench%motion%alpha(:, 2), tangent%arm_j) - bench%motion%a(:, 1) &
+             - cross(bench%motion%alpha(:, 1), tangent%arm_i)
+         do k = 1, 2
+            call check_close(error, dot_product(tangent%t(:, k), a) + tangent%drift(k), five_point(v(k, :), tick), &
+                             1.0e-6_wp*(100.0_wp + abs(tangent%drift(k))), bench%name//": rate of sliding")
+         end do
+         normal = cross(tangent%t(:, 1), tangent%t(:, 2))
+         call check_close(error, pack(matmul(transpose(tangent%t), tangent%t), .true.), [1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], &
+                          1.0e-13_wp, bench%name//": tangents at right angles")
+         call check_close(error, cross(tangent%spin, normal), [(five_point(n(k, :), tick), k=1, 3)], 1.0e-4_wp, &
+                          bench%name//": turn of the tangent plane")
+      end do
+   end subroutine sliding
 
 end module test_spatial_clearances

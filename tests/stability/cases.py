@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT / "tests" / "e2e"))
 import contact_measures as contact  # noqa: E402
 from film_cases import film_cases  # noqa: E402
 import references as ref  # noqa: E402
+from space_cases import space_cases  # noqa: E402
 from support import changed  # noqa: E402
 
 HARD = "inputs/hard"
@@ -352,4 +353,5 @@ CASES = (
          ends_early=True, says=("top|crankpin|pivot|motor|main", "dead point|try")),
     *CONTACTS,
     *film_cases(Case, Way, with_parameters),
+    *space_cases(Case, Way, HOLDS, SOLVERS, with_parameters),
 )

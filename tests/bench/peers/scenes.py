@@ -75,6 +75,19 @@ def slider_crank():
                  loose=[(2, (0.0, 0.0), 1, (rod, 0.0), c, stiffness, 0.75*(1 - restitution**2))])
 
 
+def spatial(name, size, deck, bodies, loose=(), **parameters):
+    """A scene of space: a deck, and the program simbody_space, which has it built in and tells of these bodies in this order."""
+    return {"name": name, "size": size, "deck": deck, "bodies": bodies, "parameters": parameters, "loose": loose}
+
+
+SPATIAL = (
+    spatial("bricard", 1.0, "inputs/hard/a04_bricard.deck", ("one", "two", "three", "four", "five")),
+    spatial("governor", 1.0, "inputs/hard/a05_flyball.deck", ("shaft", "slider", "left", "right")),
+    spatial("spatial_slider_crank", 0.4, "inputs/hard/spatial_slider_crank.deck", ("crank", "slider", "coupler"), speed="0 rad/s"),
+    spatial("ball_pendulum", 0.1, "tests/bench/peers/ball_pendulum.deck", ("rod",), ("pin",)),
+)
+
+
 def lines(it):
     """The scene for a peer: a keyword and numbers on each line."""
     def row(word, *values):

@@ -27,12 +27,16 @@ if command -v apt-get >/dev/null 2>&1; then
       say "apt-get could not install:$wanted ($directory/apt.log)"
 fi
 
-program=$directory/simbody_peer
-if [ "$program" -nt simbody_peer.cpp ] || g++ -O2 -std=c++17 -I/usr/include/simbody simbody_peer.cpp -o "$program" \
-   -lSimTKsimbody -lSimTKmath -lSimTKcommon >"$directory/simbody.log" 2>&1; then
+built=yes
+for program in simbody_peer simbody_space; do
+   if [ "$directory/$program" -nt "$program.cpp" ] && [ "$directory/$program" -nt simbody_loose.h ]; then continue; fi
+   g++ -O2 -std=c++17 -I/usr/include/simbody "$program.cpp" -o "$directory/$program" -lSimTKsimbody -lSimTKmath -lSimTKcommon \
+      >"$directory/$program.log" 2>&1 || built=no
+done
+if [ "$built" = yes ]; then
    there="$there Simbody"
 else
-   say "no Simbody ($directory/simbody.log)"
+   say "no Simbody ($directory/simbody_peer.log)"
 fi
 
 python=$directory/venv/bin/python

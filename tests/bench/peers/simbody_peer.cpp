@@ -2,83 +2,14 @@
 //
 // METHOD: merson and feldberg (Runge-Kutta pairs), cpodes_adams, cpodes_bdf.
 // Prints the processor time of the solution [s], steps, evaluations, the onsets [s] of a loose pin, and x, y of the centre of mass
-// of each body at the end [m]. Frictionless contact of Lankarani and Nikravesh, whose impact speed is taken at the located onset.
-#include <Simbody.h>
+// of each body at the end [m].
+#include "simbody_loose.h"
 
-#include <cmath>
-#include <cstdio>
-#include <ctime>
 #include <deque>
 #include <iostream>
-#include <memory>
 #include <sstream>
-#include <string>
-#include <vector>
-
-using namespace SimTK;
 
 namespace {
-
-struct Loose {
-   MobilizedBody bearing, journal;
-   Vec3 at_bearing, at_journal;
-   Real clearance, stiffness, hysteresis;
-   Real impact_speed = 1;
-   bool touches = false;
-   std::vector<Real> onsets;
-
-   // Gap (positive apart), its rate, and the normal from bearing to journal.
-   void measure(const State& state, Real& penetration, Real& rate, Vec3& normal) const {
-      const Vec3 e = journal.findStationLocationInGround(state, at_journal) - bearing.findStationLocationInGround(state, at_bearing);
-      const Real length = e.norm();
-      normal = length > 0 ? e/length : Vec3(1, 0, 0);
-      penetration = length - clearance;
-      const Vec3 v = journal.findStationVelocityInGround(state, at_journal) - bearing.findStationVelocityInGround(state, at_bearing);
-      rate = dot(v, normal);
-   }
-};
-
-class LooseForce : public Force::Custom::Implementation {
-public:
-   explicit LooseForce(Loose& joint) : joint(joint) {}
-   void calcForce(const State& state, Vector_<SpatialVec>& body_forces, Vector_<Vec3>&, Vector&) const override {
-      Real penetration, rate;
-      Vec3 normal;
-      joint.measure(state, penetration, rate, normal);
-      if (!joint.touches || penetration <= 0) return;
-      const Real force = joint.stiffness*std::pow(penetration, 1.5)*(1 + joint.hysteresis*rate/joint.impact_speed);
-      joint.journal.applyForceToBodyPoint(state, joint.at_journal, -force*normal, body_forces);
-      joint.bearing.applyForceToBodyPoint(state, joint.at_bearing, force*normal, body_forces);
-   }
-   Real calcPotentialEnergy(const State&) const override { return 0; }
-
-private:
-   Loose& joint;
-};
-
-class Onset : public TriggeredEventHandler {
-public:
-   explicit Onset(Loose& joint) : TriggeredEventHandler(Stage::Velocity), joint(joint) {}
-   Real getValue(const State& state) const override {
-      Real penetration, rate;
-      Vec3 normal;
-      joint.measure(state, penetration, rate, normal);
-      return penetration;
-   }
-   void handleEvent(State& state, Real, bool&) const override {
-      Real penetration, rate;
-      Vec3 normal;
-      joint.measure(state, penetration, rate, normal);
-      joint.touches = rate > 0;
-      if (joint.touches) {
-         joint.impact_speed = rate;
-         joint.onsets.push_back(state.getTime());
-      }
-   }
-
-private:
-   Loose& joint;
-};
 
 struct Scene {
    MultibodySystem system;
@@ -156,14 +87,6 @@ void read(Scene& scene, std::istream& in) {
    }
 }
 
-Integrator* integrator_of(const std::string& method, const System& system) {
-   if (method == "merson") return new RungeKuttaMersonIntegrator(system);
-   if (method == "feldberg") return new RungeKuttaFeldbergIntegrator(system);
-   if (method == "cpodes_adams") return new CPodesIntegrator(system, CPodes::Adams, CPodes::Functional);
-   if (method == "cpodes_bdf") return new CPodesIntegrator(system, CPodes::BDF, CPodes::Newton);
-   throw std::runtime_error("unknown method " + method);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -177,21 +100,7 @@ int main(int argc, char** argv) {
          scene.bodies[k].setOneQ(state, 0, scene.angles[k]);
          scene.bodies[k].setOneU(state, 0, scene.rates[k]);
       }
-      std::unique_ptr<Integrator> integrator(integrator_of(argv[1], scene.system));
-      integrator->setAccuracy(std::stod(argv[2]));
-      integrator->setConstraintTolerance(std::stod(argv[2]));
-      integrator->setFinalTime(scene.end);
-      integrator->setReturnEveryInternalStep(false);
-      TimeStepper stepper(scene.system, *integrator);
-      const std::clock_t begun = std::clock();
-      stepper.initialize(state);
-      stepper.stepTo(scene.end);
-      const double cpu = double(std::clock() - begun)/CLOCKS_PER_SEC;
-      std::printf("cpu %.9g\nsteps %d\n", cpu, integrator->getNumStepsTaken());
-      for (const auto& joint : scene.loose)
-         for (const Real onset : joint->onsets) std::printf("onset %.17g\n", onset);
-      const State& last = integrator->getState();
-      scene.system.realize(last, Stage::Position);
+      const State last = solved(scene.system, state, scene.end, argv[1], std::stod(argv[2]), scene.loose);
       for (size_t k = 0; k < scene.bodies.size(); k++) {
          const Vec3 at = scene.bodies[k].findStationLocationInGround(last, scene.centres[k]);
          std::printf("centre %.17g %.17g\n", at[0], at[1]);

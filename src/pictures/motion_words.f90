@@ -1,0 +1,134 @@
+!> The words of figures that draw the mechanism.
+!>
+!> `mechanism` at the end, `mechanism(t=1ms,2ms)` at instants; `strip(n=8)`: n positions over a turn of the first driver, or over
+!> `last=2turnsofmotor` or a time; `coupler(POINT)`: the path of a point of the deck, over all that is written or over `last=...`;
+!> `animation(last=1turnsofmotor)`, with n pictures.
+module motion_words
+   use kind_info, only: dim_time, same_dimension
+   use kinds, only: wp
+   use numbers, only: number_length
+   use text, only: piece, starts_with, text_t
+   use units, only: parse_unit, read_quantity, unit_t
+   implicit none (type, external)
+   private
+   public :: motion_request_t, motion_hint, take_motion
+
+   integer, parameter :: most_pictures = 200  !! of one figure
+   character(*), parameter :: motion_hint = "write mechanism(t=1ms,2ms), strip(n=8), coupler(POINT) or "// &
+                              "animation(last = 1 turns of DRIVER); strip, coupler and animation take n=... and last=..."
+
+   !> What such a figure asks for.
+   type :: motion_request_t
+      real(wp), allocatable :: times(:)        !! (any) instants that are named [s]
+      integer :: n = 0                         !! pictures; 0: as many as is usual
+      real(wp) :: last = 0.0_wp                !! length of the window; 0: as is usual [s, or turns of the driver]
+      character(:), allocatable :: driver      !! whose turns these are; blank: `last` is a time
+      character(:), allocatable :: point       !! whose path is drawn; blank: none
+   end type motion_request_t
+
+contains
+
+   !> Understand the arguments.
+   subroutine take_motion(arguments, with_point, request, message)
+      type(text_t), intent(in) :: arguments(:)               !! (any) what stands between commas
+      logical, intent(in) :: with_point                      !! the first of them is a point
+      type(motion_request_t), intent(out) :: request         !! what they ask for
+      character(:), allocatable, intent(out) :: message      !! what is wrong, blank if nothing
+
+      integer :: k
+
+      message = ""
+      request%driver = ""
+      request%point = ""
+      allocate (request%times(0))
+      if (with_point) request%point = arguments(1)%s
+      do k = merge(2, 1, with_point), size(arguments)
+         if (starts_with(arguments(k)%s, "n=")) then
+            call take_count(piece(arguments(k)%s, 3), request, message)
+         else if (starts_with(arguments(k)%s, "last=")) then
+            call take_window(piece(arguments(k)%s, 6), request, message)
+         else if (starts_with(arguments(k)%s, "t=")) then
+            call take_time(piece(arguments(k)%s, 3), request, message)
+         else
+            call take_time(arguments(k)%s, request, message)
+         end if
+         if (len(message) > 0) return
+      end do
+      if (size(request%times) > most_pictures) message = "more instants than a figure has room for"
+   end subroutine take_motion
+
+   !> A number of pictures.
+   subroutine take_count(word, request, message)
+      character(*), intent(in) :: word                       !! digits
+      type(motion_request_t), intent(inout) :: request       !! its number is set
+      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+
+      integer :: status
+
+      status = 1
+      if (len(word) > 0 .and. len(word) < 5 .and. verify(word, "0123456789") == 0) read (word, *, iostat=status) request%n
+      if (status == 0 .and. request%n >= 2 .and. request%n <= most_pictures) return
+      message = "'n="//word//"' is no number of pictures from 2 to 200"
+   end subroutine take_count
+
+   !> The length of a window: a time, or turns of a driver.
+   subroutine take_window(word, request, message)
+      character(*), intent(in) :: word                       !! as `2ms`, `1turnsofmotor`
+      type(motion_request_t), intent(inout) :: request       !! its window is set
+      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+
+      character(*), parameter :: turns = "turnsof"
+      integer :: n, status
+
+      n = number_length(word)
+      if (n > 0 .and. starts_with(piece(word, n + 1), turns)) then
+         request%driver = piece(word, n + 1 + len(turns))
+         read (word(:n), *, iostat=status) request%last
+         if (status /= 0 .or. len(request%driver) == 0) message = "'last="//word//"' names no turns of a driver"
+      else
+         call read_time(word, request%last, message)
+      end if
+      if (len(message) == 0 .and. .not. request%last > 0.0_wp) message = "'last="//word//"' is not positive"
+   end subroutine take_window
+
+   !> An instant.
+   subroutine take_time(word, request, message)
+      character(*), intent(in) :: word                       !! as `1ms`
+      type(motion_request_t), intent(inout) :: request       !! its times grow
+      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+
+      real(wp) :: t
+
+      call read_time(word, t, message)
+      if (len(message) > 0) return
+      if (size(request%times) > 0) then
+         if (t <= request%times(size(request%times))) message = "instants must increase: '"//word//"' does not"
+      end if
+      request%times = [request%times, t]
+   end subroutine take_time
+
+   !> A time with its unit.
+   subroutine read_time(word, t, message)
+      character(*), intent(in) :: word                       !! as `1ms`
+      real(wp), intent(out) :: t                             !! the time [s]
+      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+
+      character(:), allocatable :: trouble
+      type(unit_t) :: unit
+      integer :: first, last, n
+      logical :: is_good
+
+      t = 0.0_wp
+      n = number_length(word)
+      is_good = n > 0 .and. n < len(word)
+      if (is_good) then
+         call parse_unit(word(n + 1:), unit, trouble, first, last)
+         is_good = len(trouble) == 0
+         if (is_good) is_good = same_dimension(unit%dimension, dim_time)
+         if (is_good) call read_quantity(word(1:n), unit, t, is_good)
+         if (is_good) is_good = t >= 0.0_wp
+      end if
+      if (.not. is_good) message = "'"//word//"' is no time of a run, with its unit"
+   end subroutine read_time
+
+end module motion_words

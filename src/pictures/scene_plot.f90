@@ -1,0 +1,403 @@
+!> Figures of the mechanism by gnuplot: strokes in a `.dat` file, and the script that draws them.
+!>
+!> The file has a block for each style, and of an animation one such group for each picture; they are read by `index`. Several
+!> instants stand side by side, to one scale.
+module scene_plot
+   use catalogue, only: catalogue_t, room_clearances
+   use display_units, only: choose_unit, display_unit_t
+   use drawing, only: drawing_t, mark_plane, mark_slide
+   use errors, only: error_t
+   use figure_words, only: figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
+   use frames, only: frame_t, track_t
+   use kinds, only: wp
+   use plot_text, only: quoted
+   use scene_strokes, only: canvas_t, draw_scene, largest_force, magnification, n_style, style_arrow, style_body, style_ground, &
+      style_hole, style_journal, style_line, style_path, style_pin, style_symbol, symbols_t
+   use scene_views, only: extents_t, lay_out_views, projected, view_t
+   use script_parts, only: preamble
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   use text_file, only: write_file
+   implicit none (type, external)
+   private
+   public :: new_symbols, write_scene_plot
+
+   integer, parameter :: width_still = 1200    !! of a picture, in pixels
+   integer, parameter :: width_moving = 640    !! of an animation, in pixels
+   integer, parameter :: seconds_moving = 6    !! that an animation takes, about
+
+   !> Everything about one figure that its parts need.
+   type :: scene_figure_t
+      type(display_unit_t) :: unit              !! of lengths
+      type(symbols_t) :: symbols                !! scales
+      type(extents_t) :: extents                !! of the whole picture [m]
+      type(view_t), allocatable :: views(:)     !! views of a cell
+      real(wp) :: cell(2) = 0.0_wp              !! (2) size of a cell, where several instants stand side by side [m]
+      integer :: columns = 1                    !! cells beside each other
+      integer :: cells = 1                      !! all of them
+      logical :: has_axes = .false.             !! coordinates of the world stand at its edges
+   end type scene_figure_t
+
+contains
+
+   !> Write data and script of a figure.
+   subroutine write_scene_plot(folder, title, figure, catalogue, drawing, list, track, error)
+      character(*), intent(in) :: folder                  !! of the figures
+      character(*), intent(in) :: title                   !! of the scene, any text
+      type(figure_t), intent(in) :: figure                !! the figure
+      type(catalogue_t), intent(in) :: catalogue          !! what was recorded
+      type(drawing_t), intent(in) :: drawing              !! the scene
+      type(frame_t), intent(in) :: list(:)                !! (1 or more) frames
+      type(track_t), intent(in) :: track                  !! path of a point, or none
+      type(error_t), allocatable, intent(out) :: error    !! a file cannot be written
+
+      type(buffer_t) :: data, script
+      type(scene_figure_t) :: plot
+      type(track_t) :: path
+      logical :: has_style(n_style)
+
+      if (figure%kind == figure_coupler) path = track
+      call plan_plot(figure, catalogue, drawing, list, path, plot)
+      call write_data(figure, drawing, list, path, plot, data, has_style)
+      if (figure%kind == figure_animation) then
+         call moving_script(figure, title, list, plot, has_style, script)
+      else
+         call still_script(figure, title, list, plot, has_style, script)
+      end if
+      call write_file(folder//"/"//figure%name//".dat", data%get(), error)
+      if (allocated(error)) return
+      call write_file(folder//"/"//figure%name//".gp", script%get(), error)
+   end subroutine write_scene_plot
+
+   !> Scales, views and cells.
+   subroutine plan_plot(figure, catalogue, drawing, list, path, plot)
+      type(figure_t), intent(in) :: figure          !! the figure
+      type(catalogue_t), intent(in) :: catalogue    !! what was recorded
+      type(drawing_t), intent(in) :: drawing        !! the scene
+      type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
+      type(track_t), intent(in) :: path             !! path of a point, or none
+      type(scene_figure_t), intent(out) :: plot     !! the plan
+
+      real(wp), parameter :: narrowest = 0.7_wp  ! width of a picture over its height [1]
+      real(wp) :: lacking
+      integer :: rows
+
+      if (figure%kind == figure_mechanism) plot%cells = size(list)
+      call lay_out_views(drawing, list, path, plot%cells > 1 .or. figure%kind == figure_animation, plot%views, plot%extents)
+      lacking = narrowest*(plot%extents%greatest(2) - plot%extents%least(2)) - (plot%extents%greatest(1) - plot%extents%least(1))
+      if (lacking > 0.0_wp) then
+         plot%extents%least(1) = plot%extents%least(1) - 0.5_wp*lacking
+         plot%extents%greatest(1) = plot%extents%greatest(1) + 0.5_wp*lacking
+      end if
+      plot%unit = choose_unit("m", maxval(plot%extents%greatest - plot%extents%least))
+      plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
+      call new_symbols(catalogue, drawing, list, plot%symbols)
+      if (figure%kind == figure_strip) plot%symbols%force = largest_force(list(size(list):))  ! joints are drawn at the last
+      if (figure%kind == figure_coupler) plot%symbols%force = 0.0_wp
+      plot%symbols%scale = plot%unit%factor
+      plot%cell = plot%extents%greatest - plot%extents%least
+      plot%columns = ceiling(sqrt(real(plot%cells, wp)*plot%cell(2)/plot%cell(1)))
+      plot%columns = max(1, min(plot%cells, plot%columns))
+      rows = (plot%cells + plot%columns - 1)/plot%columns
+      plot%extents%greatest(1) = plot%extents%least(1) + plot%columns*plot%cell(1)
+      plot%extents%least(2) = plot%extents%greatest(2) - rows*plot%cell(2)
+   end subroutine plan_plot
+
+   !> Scales of symbols, ways of slides, and the joints with clearance of the marks.
+   subroutine new_symbols(catalogue, drawing, list, symbols)
+      type(catalogue_t), intent(in) :: catalogue    !! what was recorded
+      type(drawing_t), intent(in) :: drawing        !! the scene
+      type(frame_t), intent(in) :: list(:)          !! (n) frames
+      type(symbols_t), intent(out) :: symbols       !! scales
+
+      real(wp), parameter :: of_way = 0.3_wp  ! size of symbols over the extent of the motion, at least [1]
+      real(wp) :: along, axis(3), x(3, 2)
+      integer :: f, i, k
+
+      symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
+      symbols%magnified = magnification(drawing, symbols%size)
+      symbols%force = largest_force(list)
+      allocate (symbols%ways(2, drawing%n_mark), symbols%loose(drawing%n_mark))
+      symbols%ways = 0.0_wp
+      symbols%loose = 0
+      do k = 1, drawing%n_mark
+         associate (mark => drawing%marks(k), names => catalogue%rooms(room_clearances)%names)
+            do i = 1, size(names)
+               if (names(i)%s == mark%name) symbols%loose(k) = i
+            end do
+            if (mark%kind /= mark_slide .and. mark%kind /= mark_plane) cycle
+            symbols%ways(:, k) = [huge(1.0_wp), -huge(1.0_wp)]
+            do f = 1, size(list)
+               do i = 1, 2
+                  x(:, i) = list(f)%r(:, mark%body(i)) + matmul(list(f)%a(:, :, mark%body(i)), mark%s(:, i))
+               end do
+               axis = matmul(list(f)%a(:, :, mark%body(1)), mark%axis)
+               along = dot_product(axis, x(:, 2) - x(:, 1))
+               symbols%ways(:, k) = [min(symbols%ways(1, k), along), max(symbols%ways(2, k), along)]
+            end do
+         end associate
+      end do
+   end subroutine new_symbols
+
+   !> The diagonal of the box in which the centres of mass of all bodies are, with the size of the largest outline.
+   pure real(wp) function extent_of_motion(drawing, list) result(length)
+      type(drawing_t), intent(in) :: drawing !! outlines
+      type(frame_t), intent(in) :: list(:)   !! (n) frames
+
+      real(wp) :: greatest(3), least(3), radius
+      integer :: k
+
+      greatest = -huge(1.0_wp)
+      least = huge(1.0_wp)
+      do k = 1, size(list)
+         least = min(least, minval(list(k)%r(:, 1:), dim=2))
+         greatest = max(greatest, maxval(list(k)%r(:, 1:), dim=2))
+      end do
+      radius = 0.0_wp
+      do k = 1, drawing%n_part
+         if (drawing%parts(k)%body > 0) radius = max(radius, maxval(norm2(drawing%parts(k)%s, dim=1)))
+      end do
+      length = norm2(greatest - least) + 2.0_wp*radius
+   end function extent_of_motion
+
+   !> All strokes.
+   subroutine write_data(figure, drawing, list, path, plot, data, has_style)
+      type(figure_t), intent(in) :: figure          !! the figure
+      type(drawing_t), intent(in) :: drawing        !! the scene
+      type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
+      type(track_t), intent(in) :: path             !! path of a point, or none
+      type(scene_figure_t), intent(in) :: plot      !! the plan
+      type(buffer_t), intent(inout) :: data         !! the file
+      logical, intent(out) :: has_style(n_style)    !! which styles occur
+
+      type(canvas_t) :: canvas
+      type(view_t) :: view
+      real(wp) :: paleness
+      integer :: f, k, v
+
+      has_style = .false.
+      call data%line("# strokes of "//figure%name//": x ["//plot%unit%symbol//"], y ["//plot%unit%symbol//"], colour")
+      do f = 1, size(list)
+         if (f == 1 .or. figure%kind == figure_animation) canvas = canvas_t()
+         paleness = 0.0_wp
+         if (figure%kind == figure_strip) paleness = 0.65_wp*real(size(list) - f, wp)/real(max(size(list) - 1, 1), wp)
+         do v = 1, size(plot%views)
+            view = plot%views(v)
+            if (plot%cells > 1) view%shift = view%shift + plot%cell*[real(mod(f - 1, plot%columns), wp), &
+                                                                     -real((f - 1)/plot%columns, wp)]
+            if (f == 1 .or. figure%kind == figure_animation) call draw_path(path, view, plot%symbols%scale, canvas)
+            call draw_scene(drawing, list(f), view, plot%symbols, paleness, figure%kind /= figure_strip .or. f == size(list), &
+                            canvas)
+         end do
+         if (f < size(list) .and. figure%kind /= figure_animation) cycle
+         do k = 1, n_style
+            has_style(k) = has_style(k) .or. canvas%styles(k)%length() > 0
+            if (canvas%styles(k)%length() == 0) then  ! one point keeps the blocks in their order
+               call data%line(real_text(plot%unit%factor*plot%extents%least(1), 6)//" "// &
+                              real_text(plot%unit%factor*plot%extents%least(2), 6)//" 0")
+               call data%line("")
+            else
+               call data%add(canvas%styles(k)%get())
+            end if
+            call data%line("")
+         end do
+      end do
+   end subroutine write_data
+
+   !> The path of a point.
+   subroutine draw_path(path, view, scale, canvas)
+      type(track_t), intent(in) :: path          !! the path, perhaps none
+      type(view_t), intent(in) :: view           !! the view
+      real(wp), intent(in) :: scale              !! numbers of the picture over lengths [any/m]
+      type(canvas_t), intent(inout) :: canvas    !! gets lines
+
+      real(wp) :: p(2)
+      integer :: k
+
+      if (path%n == 0) return
+      do k = 1, path%n
+         p = scale*projected(view, path%x(:, k))
+         call canvas%styles(style_path)%line(real_text(p(1), 7)//" "//real_text(p(2), 7)//" 0")
+      end do
+      call canvas%styles(style_path)%line("")
+   end subroutine draw_path
+
+   !> What scales mean, in words.
+   function legend(plot) result(words)
+      type(scene_figure_t), intent(in) :: plot    !! the plan
+      character(:), allocatable :: words          !! one line, perhaps blank
+
+      type(display_unit_t) :: unit
+
+      words = ""
+      if (plot%symbols%magnified > 0.0_wp) words = "clearance × "//real_text(plot%symbols%magnified, 2)
+      if (plot%symbols%force > 0.0_wp) then
+         unit = choose_unit("N", plot%symbols%force)
+         if (len(words) > 0) words = words//",  "
+         words = words//"longest arrow "//real_text(unit%factor*plot%symbols%force, 3)//" "//unit%symbol
+      end if
+   end function legend
+
+   !> Frame of the picture, in its unit.
+   subroutine frame_lines(script, plot)
+      type(buffer_t), intent(inout) :: script      !! the script
+      type(scene_figure_t), intent(in) :: plot     !! the plan
+
+      real(wp) :: at(2), bar
+      integer :: v
+
+      call script%line("set size ratio -1")
+      call script%line("set key noautotitle")
+      associate (e => plot%extents, factor => plot%unit%factor)
+         call script%line("set xrange ["//real_text(factor*e%least(1), 6)//":"//real_text(factor*e%greatest(1), 6)//"]")
+         call script%line("set yrange ["//real_text(factor*e%least(2), 6)//":"//real_text(factor*e%greatest(2), 6)//"]")
+         if (plot%has_axes) then
+            call script%line("set xlabel "//quoted("x ["//plot%unit%symbol//"]"))
+            call script%line("set ylabel "//quoted("y ["//plot%unit%symbol//"]"))
+            return
+         end if
+         call script%line("unset grid; unset border; unset xtics; unset ytics")
+         bar = 10.0_wp**floor(log10(0.4_wp*factor*plot%cell(1)/sqrt(real(size(plot%views), wp))))
+         call script%line("set arrow from graph 0.02, graph 0.02 rto first "//real_text(bar, 3)// &
+                          ", 0 heads size graph 0.004,90 linewidth 2")
+         call script%line("set label "//quoted(real_text(bar, 3)//" "//plot%unit%symbol)//" at graph 0.02, graph 0.045")
+         if (plot%cells > 1) return
+         do v = 1, size(plot%views)
+            at = factor*plot%views(v)%label_at
+            call script%line("set label "//quoted(trim(plot%views(v)%label))//" at "//real_text(at(1), 6)//", "// &
+                             real_text(at(2), 6)//" center front textcolor rgb '#808080'")
+         end do
+      end associate
+   end subroutine frame_lines
+
+   !> The plot command.
+   subroutine plot_lines(script, name, first, width, has_style)
+      type(buffer_t), intent(inout) :: script       !! the script
+      character(*), intent(in) :: name              !! of the figure
+      character(*), intent(in) :: first             !! number of the first block
+      integer, intent(in) :: width                  !! of the lines of bodies, in pixels
+      logical, intent(in) :: has_style(n_style)     !! which styles occur
+
+      character(64) :: how(n_style)
+      integer :: k, last
+
+      how(style_ground) = "lines linewidth 1.2 linecolor rgb '#707070'"
+      how(style_body) = "filledcurves closed fillcolor rgb '#e4ebf2'"
+      how(style_line) = "lines linewidth "//to_text(width)//" linecolor rgb variable"
+      how(style_path) = "lines linewidth 1.6 linecolor rgb '#d1495b'"
+      how(style_pin) = "filledcurves closed fillcolor rgb '#ffffff'"
+      how(style_symbol) = "lines linewidth 1.6 linecolor rgb '#404040'"
+      how(style_hole) = "filledcurves closed fillcolor rgb '#fff4d6'"
+      how(style_journal) = "filledcurves closed fillcolor rgb '#9fb4c7'"
+      how(style_arrow) = "lines linewidth 2.5 linecolor rgb variable"
+      last = findloc(has_style, .true., dim=1, back=.true.)
+      call script%line("plot \")
+      do k = 1, n_style
+         if (.not. has_style(k)) cycle
+         call script%add("  '"//name//".dat' index "//first//"+"//to_text(k - 1)//" using 1:2")
+         if (index(how(k), "variable") > 0) call script%add(":3")
+         call script%add(" with "//trim(how(k)))
+         if (index(how(k), "filled") > 0) call script%add(" fillstyle solid border linecolor rgb '#404040'")
+         call script%line(merge(", \", "   ", k < last))
+      end do
+   end subroutine plot_lines
+
+   !> Height of a picture of a width.
+   pure integer function height_of(plot, width) result(height)
+      type(scene_figure_t), intent(in) :: plot    !! the plan
+      integer, intent(in) :: width                !! in pixels
+
+      associate (e => plot%extents)
+         height = nint(real(width, wp)*(e%greatest(2) - e%least(2))/(e%greatest(1) - e%least(1)))
+      end associate
+      height = min(max(height + width/10, width*2/5), width*5/4)
+   end function height_of
+
+   !> A picture.
+   subroutine still_script(figure, title, list, plot, has_style, script)
+      type(figure_t), intent(in) :: figure          !! the figure
+      character(*), intent(in) :: title             !! of the scene, any text
+      type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
+      type(scene_figure_t), intent(in) :: plot      !! the plan
+      logical, intent(in) :: has_style(n_style)     !! which styles occur
+      type(buffer_t), intent(inout) :: script       !! the script
+
+      character(:), allocatable :: words
+      real(wp) :: at(2)
+      integer :: f
+
+      call preamble(script, figure%name, width_still, height_of(plot, width_still))
+      call script%line("set title "//quoted(title)//" font ',17'")
+      call frame_lines(script, plot)
+      words = legend(plot)
+      if (figure%kind == figure_coupler) words = "path of "//figure%motion%point
+      if (plot%cells == 1 .and. figure%kind /= figure_coupler) then
+         if (len(words) > 0) words = ",  "//words
+         if (figure%kind == figure_strip) then
+            words = to_text(size(list))//" positions, the last at "//time_text(list(size(list))%t)//words
+         else
+            words = "t = "//time_text(list(1)%t)//words
+         end if
+      end if
+      call script%line("set label "//quoted(words)//" at graph 0.01, graph 0.975 front font ',13'")
+      if (plot%cells > 1) then
+         do f = 1, size(list)
+            at = [plot%extents%least(1), plot%extents%greatest(2)] + &
+                 plot%cell*[real(mod(f - 1, plot%columns), wp) + 0.05_wp, -real((f - 1)/plot%columns, wp) - 0.14_wp]
+            call script%line("set label "//quoted("t = "//time_text(list(f)%t))//" at "//real_text(plot%unit%factor*at(1), 6)// &
+                             ", "//real_text(plot%unit%factor*at(2), 6)//" front font ',13'")
+         end do
+      end if
+      call plot_lines(script, figure%name, "0", 3, has_style)
+      call script%line("unset output")
+   end subroutine still_script
+
+   !> A time that reads well.
+   function time_text(t) result(words)
+      real(wp), intent(in) :: t                !! the time [s]
+      character(:), allocatable :: words       !! with its unit
+
+      type(display_unit_t) :: unit
+
+      unit = choose_unit("s", abs(t))
+      words = real_text(unit%factor*t, 4)//" "//unit%symbol
+   end function time_text
+
+   !> An animation.
+   subroutine moving_script(figure, title, list, plot, has_style, script)
+      type(figure_t), intent(in) :: figure          !! the figure
+      character(*), intent(in) :: title             !! of the scene, any text
+      type(frame_t), intent(in) :: list(:)          !! (1 or more) frames
+      type(scene_figure_t), intent(in) :: plot      !! the plan
+      logical, intent(in) :: has_style(n_style)     !! which styles occur
+      type(buffer_t), intent(inout) :: script       !! the script
+
+      type(display_unit_t) :: unit
+      integer :: f
+
+      call script%line("# Edit this script and run it here again:  gnuplot "//figure%name//".gp")
+      call script%line("reset")
+      call script%line("set encoding utf8")
+      call script%line("set terminal gif animate delay "//to_text(max(3, 100*seconds_moving/size(list)))// &
+                       " loop 0 noenhanced size "//to_text(width_moving)//","//to_text(height_of(plot, width_moving))// &
+                       " font ""DejaVu Sans,11""")
+      call script%line("set output '"//figure%name//".gif'")
+      call script%line("set title "//quoted(title)//" font ',12'")
+      call script%line("set tics nomirror")
+      call script%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
+      call frame_lines(script, plot)
+      if (len(legend(plot)) > 0) call script%line("set label "//quoted(legend(plot))//" at graph 0.01, graph 0.97 front")
+      unit = choose_unit("s", list(size(list))%t)
+      call script%add("times = '")
+      do f = 1, size(list)
+         call script%add(real_text(unit%factor*list(f)%t, 4)//" ")
+      end do
+      call script%line("'")
+      call script%line("do for [f=0:"//to_text(size(list) - 1)//"] {")
+      call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.99, graph 0.97 right front")
+      call plot_lines(script, figure%name, "f*"//to_text(n_style), 2, has_style)
+      call script%line("}")
+      call script%line("unset output")
+   end subroutine moving_script
+
+end module scene_plot

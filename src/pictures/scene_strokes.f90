@@ -1,0 +1,343 @@
+!> A mechanism as strokes in a picture: bodies, joints by their symbols, loose joints magnified, forces as arrows.
+!>
+!> Each style has lines `x y colour` for gnuplot, polylines apart by a blank line. A loose round joint is a bearing with a journal
+!> in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the symbol.
+!> The ground is hatched where joints stand on it.
+module scene_strokes
+   use drawing, only: drawing_t, in_files, mark_bearing, mark_link, mark_pin, mark_plane, mark_slide, mark_spring, mark_t
+   use frames, only: frame_t
+   use kinds, only: wp
+   use scene_views, only: projected, view_t
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: body_colour, canvas_t, draw_scene, largest_force, magnification, n_style, symbols_t
+   public :: style_arrow, style_body, style_ground, style_hole, style_journal, style_line, style_path, style_pin, style_symbol
+
+   ! styles, in the order in which they are drawn
+   integer, parameter :: style_ground = 1    !! lines of the ground
+   integer, parameter :: style_body = 2      !! filled outlines
+   integer, parameter :: style_line = 3      !! lines of bodies
+   integer, parameter :: style_path = 4      !! path of a point
+   integer, parameter :: style_pin = 5       !! filled symbols of joints
+   integer, parameter :: style_symbol = 6    !! lines of symbols, springs and links
+   integer, parameter :: style_hole = 7      !! filled holes of loose joints
+   integer, parameter :: style_journal = 8   !! filled journals
+   integer, parameter :: style_arrow = 9     !! forces
+   integer, parameter :: n_style = 9         !! styles
+
+   real(wp), parameter :: pin_size = 0.014_wp      !! radius of a pin, of the size of the scene [1]
+   real(wp), parameter :: bearing_size = 0.034_wp  !! radius of a magnified bearing, of that size [1]
+   real(wp), parameter :: journal_part = 0.62_wp   !! radius of its journal, of that of the bearing [1]
+   real(wp), parameter :: arrow_size = 0.25_wp     !! of the greatest force, of the size of the scene [1]
+   integer, parameter :: n_round = 24              !! sides of a symbol's circle
+   integer, parameter :: dark = 4210752            !! colour of symbols, #404040
+   integer, parameter :: red = 13715803            !! colour of forces, #d1495b
+   real(wp), parameter :: turn = 8.0_wp*atan(1.0_wp)  !! [rad]
+
+   !> What is common to all frames of a figure.
+   type :: symbols_t
+      real(wp) :: size = 1.0_wp                   !! of the scene [m]
+      real(wp) :: scale = 1.0_wp                  !! numbers of the picture over lengths [any/m]
+      real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no loose round joints [1]
+      real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
+      real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: least and greatest place of j along the axis [m]
+      integer, allocatable :: loose(:)            !! (marks) number of the joint with clearance, 0: none
+   end type symbols_t
+
+   !> What is drawn.
+   type :: canvas_t
+      type(buffer_t) :: styles(n_style)  !! lines of each style
+   end type canvas_t
+
+contains
+
+   !> Draw a frame in a view.
+   subroutine draw_scene(drawing, frame, view, symbols, paleness, with_marks, canvas)
+      type(drawing_t), intent(in) :: drawing       !! the scene
+      type(frame_t), intent(in) :: frame           !! where it is
+      type(view_t), intent(in) :: view             !! from where it is seen
+      type(symbols_t), intent(in) :: symbols       !! scales
+      real(wp), intent(in) :: paleness             !! of bodies: 0: as they are, 1: white [1]
+      logical, intent(in) :: with_marks            !! joints and forces too
+      type(canvas_t), intent(inout) :: canvas      !! gets lines
+
+      integer :: k
+
+      do k = 1, drawing%n_part
+         call draw_part(k)
+      end do
+      if (.not. with_marks) return
+      do k = 1, drawing%n_mark
+         call draw_mark(drawing%marks(k), symbols%ways(:, k), symbols%loose(k), frame, view, symbols, canvas)
+      end do
+
+   contains
+
+      !> An outline.
+      subroutine draw_part(number)
+         integer, intent(in) :: number  !! of the part
+
+         real(wp), allocatable :: p(:, :)
+         integer :: colour, i, j
+
+         associate (part => drawing%parts(number))
+            colour = body_colour(part%body, paleness)
+            do j = 1, size(part%strokes)
+               if (part%strokes(j)%use == in_files) cycle
+               associate (vertices => part%strokes(j)%vertices)
+                  allocate (p(2, size(vertices)))
+                  do i = 1, size(vertices)
+                     p(:, i) = projected(view, frame%r(:, part%body) + matmul(frame%a(:, :, part%body), part%s(:, vertices(i))))
+                  end do
+               end associate
+               if (part%strokes(j)%is_face) then
+                  if (paleness <= 0.0_wp) call add(canvas, style_body, symbols, p, colour)
+                  call add(canvas, style_line, symbols, reshape([p, p(:, 1)], [2, size(p, 2) + 1]), colour)
+               else
+                  call add(canvas, style_line, symbols, p, colour)
+               end if
+               deallocate (p)
+            end do
+         end associate
+      end subroutine draw_part
+
+   end subroutine draw_scene
+
+   !> A joint or element.
+   subroutine draw_mark(mark, way, loose, frame, view, symbols, canvas)
+      type(mark_t), intent(in) :: mark             !! the joint
+      real(wp), intent(in) :: way(2)               !! (2) of a slide: places of j along the axis [m]
+      integer, intent(in) :: loose                 !! number among the joints with clearance, 0: none
+      type(frame_t), intent(in) :: frame           !! where it is
+      type(view_t), intent(in) :: view             !! from where it is seen
+      type(symbols_t), intent(in) :: symbols       !! scales
+      type(canvas_t), intent(inout) :: canvas      !! gets lines
+
+      real(wp) :: axis(2), e(2), p(2, 2), radius, x(3, 2)
+      integer :: k
+
+      do k = 1, 2
+         x(:, k) = frame%r(:, mark%body(k)) + matmul(frame%a(:, :, mark%body(k)), mark%s(:, k))
+         p(:, k) = projected(view, x(:, k))
+      end do
+      radius = pin_size*symbols%size
+      select case (mark%kind)
+      case (mark_pin)
+         if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
+         call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
+      case (mark_link)
+         call add(canvas, style_symbol, symbols, p, dark)
+         call add_disc(canvas, style_pin, symbols, p(:, 1), radius)
+         call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
+      case (mark_spring)
+         call draw_spring(canvas, symbols, p)
+      case (mark_plane)
+         x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
+         axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
+         call draw_hatch(canvas, symbols, p(:, 1) + (way(1) - 0.2_wp*symbols%size)*axis, &
+                         p(:, 1) + (way(2) + 0.2_wp*symbols%size)*axis)
+      case (mark_slide)
+         x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
+         axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
+         if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, mark%body(1) == 0)
+      case (mark_bearing)
+         if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
+         radius = bearing_size*symbols%size
+         e = 0.0_wp
+         if (loose > 0) e = projected(view, frame%e(:, loose)) - view%shift
+         call add_disc(canvas, style_hole, symbols, p(:, 1), radius)
+         call add_disc(canvas, style_journal, symbols, p(:, 1) + symbols%magnified*e, journal_part*radius)
+      end select
+      if (loose == 0 .or. .not. symbols%force > 0.0_wp) return
+      e = (projected(view, frame%f(:, loose)) - view%shift)*arrow_size*symbols%size/symbols%force
+      call draw_arrow(canvas, symbols, p(:, 2), e)
+   end subroutine draw_mark
+
+   !> Hatching where a joint stands on the ground.
+   subroutine draw_support(canvas, symbols, p)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2)             !! (2) the joint [m]
+
+      real(wp) :: base(2), h
+
+      h = 0.035_wp*symbols%size
+      base = p - [0.0_wp, 1.5_wp*h]
+      call add(canvas, style_ground, symbols, reshape([base - [h, 0.0_wp], p, base + [h, 0.0_wp]], [2, 3]), dark)
+      call draw_hatch(canvas, symbols, base - [1.5_wp*h, 0.0_wp], base + [1.5_wp*h, 0.0_wp])
+   end subroutine draw_support
+
+   !> A line with hatching to its right, seen from its first end.
+   subroutine draw_hatch(canvas, symbols, from, to)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: from(2)          !! (2) first end [m]
+      real(wp), intent(in) :: to(2)            !! (2) second end [m]
+
+      real(wp) :: along(2), at(2), back(2), step
+      integer :: k, n
+
+      call add(canvas, style_ground, symbols, reshape([from, to], [2, 2]), dark)
+      step = 0.018_wp*symbols%size
+      n = max(1, nint(norm2(to - from)/step))
+      if (.not. norm2(to - from) > 0.0_wp) return
+      along = (to - from)/norm2(to - from)
+      back = step*[along(2), -along(1)] - step*along
+      do k = 1, n
+         at = from + (to - from)*real(k, wp)/real(n, wp)
+         call add(canvas, style_ground, symbols, reshape([at, at + back], [2, 2]), dark)
+      end do
+   end subroutine draw_hatch
+
+   !> Both sides of a guide, hatched if it is the ground's.
+   subroutine draw_guide(canvas, symbols, p, axis, way, is_ground)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2)             !! (2) point of the guide [m]
+      real(wp), intent(in) :: axis(2)          !! (2) its axis in the view, at most of length 1 [1]
+      real(wp), intent(in) :: way(2)           !! (2) places of the slider along the axis [m]
+      logical, intent(in) :: is_ground         !! it is fixed
+
+      real(wp) :: across(2), ends(2, 2), reach
+      integer :: side
+
+      reach = 0.09_wp*symbols%size
+      ends(:, 1) = p + (way(1) - reach)*axis
+      ends(:, 2) = p + (way(2) + reach)*axis
+      do side = -1, 1, 2
+         across = real(side, wp)*0.0425_wp*symbols%size*[-axis(2), axis(1)]/norm2(axis)
+         if (.not. is_ground) then
+            call add(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across], [2, 2]), dark)
+         else if (side < 0) then
+            call draw_hatch(canvas, symbols, ends(:, 1) + across, ends(:, 2) + across)
+         else
+            call draw_hatch(canvas, symbols, ends(:, 2) + across, ends(:, 1) + across)
+         end if
+      end do
+   end subroutine draw_guide
+
+   !> A spring between two points.
+   subroutine draw_spring(canvas, symbols, p)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2, 2)          !! (2, 2) its ends [m]
+
+      integer, parameter :: n = 12
+      real(wp) :: across(2), q(2, 0:n + 1)
+      integer :: k
+
+      across = p(:, 2) - p(:, 1)
+      if (.not. norm2(across) > 0.0_wp) return
+      across = 0.02_wp*symbols%size*[-across(2), across(1)]/norm2(across)
+      q(:, 0) = p(:, 1)
+      q(:, n + 1) = p(:, 2)
+      do k = 1, n
+         q(:, k) = p(:, 1) + (p(:, 2) - p(:, 1))*(0.15_wp + 0.7_wp*real(k - 1, wp)/real(n - 1, wp))
+         if (k > 1 .and. k < n) q(:, k) = q(:, k) + real(2*mod(k, 2) - 1, wp)*across
+      end do
+      call add(canvas, style_symbol, symbols, q, dark)
+   end subroutine draw_spring
+
+   !> A force.
+   subroutine draw_arrow(canvas, symbols, from, way)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: from(2)          !! (2) where it acts [m]
+      real(wp), intent(in) :: way(2)           !! (2) from there to its tip [m]
+
+      real(wp) :: back(2), head, side(2), tip(2)
+
+      if (norm2(way) < 1.0e-3_wp*symbols%size) return
+      tip = from + way
+      head = min(0.03_wp*symbols%size, 0.5_wp*norm2(way))
+      back = -head*way/norm2(way)
+      side = 0.4_wp*[-back(2), back(1)]
+      call add(canvas, style_arrow, symbols, reshape([from, tip, tip + back + side, tip, tip + back - side], [2, 5]), red)
+   end subroutine draw_arrow
+
+   !> A circle that faces the eye, filled, with its line.
+   subroutine add_disc(canvas, style, symbols, p, radius)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      integer, intent(in) :: style             !! of the filling
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2)             !! (2) its centre [m]
+      real(wp), intent(in) :: radius           !! its radius [m]
+
+      real(wp) :: angle, q(2, 0:n_round)
+      integer :: k
+
+      do k = 0, n_round
+         angle = turn*real(k, wp)/real(n_round, wp)
+         q(:, k) = p + radius*[cos(angle), sin(angle)]
+      end do
+      call add(canvas, style, symbols, q, dark)
+   end subroutine add_disc
+
+   !> A polyline.
+   subroutine add(canvas, style, symbols, p, colour)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      integer, intent(in) :: style             !! its style
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(:, :)          !! (2, n) its points [m]
+      integer, intent(in) :: colour            !! red, green, blue in one number
+
+      integer :: k
+
+      associate (buffer => canvas%styles(style))
+         do k = 1, size(p, 2)
+            call buffer%line(real_text(symbols%scale*p(1, k), 6)//" "//real_text(symbols%scale*p(2, k), 6)//" "//to_text(colour))
+         end do
+         call buffer%line("")
+      end associate
+   end subroutine add
+
+   !> Colour of a body, the ground's grey; paler: nearer to white.
+   pure integer function body_colour(body, paleness) result(colour)
+      integer, intent(in) :: body          !! the body, 0: ground
+      real(wp), intent(in) :: paleness     !! 0: as it is, 1: white [1]
+
+      integer, parameter :: reds(8) = [31, 46, 123, 201, 23, 140, 90, 60]
+      integer, parameter :: greens(8) = [111, 139, 79, 138, 162, 86, 110, 60]
+      integer, parameter :: blues(8) = [180, 87, 163, 0, 184, 75, 30, 120]
+      integer :: k, parts(3)
+
+      k = modulo(body - 1, 8) + 1
+      parts = [reds(k), greens(k), blues(k)]
+      if (body == 0) parts = 112
+      parts = nint(255.0_wp - (255.0_wp - real(parts, wp))*(1.0_wp - paleness))
+      colour = 65536*parts(1) + 256*parts(2) + parts(3)
+   end function body_colour
+
+   !> Factor by which eccentricities are magnified: the largest clearance fills the gap of the symbol.
+   pure real(wp) function magnification(drawing, size) result(factor)
+      type(drawing_t), intent(in) :: drawing  !! the scene
+      real(wp), intent(in) :: size            !! of its symbols [m]
+
+      real(wp) :: clearance
+      integer :: k
+
+      clearance = 0.0_wp
+      do k = 1, drawing%n_mark
+         if (drawing%marks(k)%kind == mark_bearing) clearance = max(clearance, drawing%marks(k)%clearance)
+      end do
+      factor = 0.0_wp
+      if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*size/clearance
+   end function magnification
+
+   !> The greatest force of the joints with clearance in some frames.
+   pure real(wp) function largest_force(list) result(force)
+      type(frame_t), intent(in) :: list(:)  !! (n) frames
+
+      integer :: i, k
+
+      force = 0.0_wp
+      do k = 1, size(list)
+         do i = 1, size(list(k)%f, 2)
+            force = max(force, norm2(list(k)%f(:, i)))
+         end do
+      end do
+   end function largest_force
+
+end module scene_strokes

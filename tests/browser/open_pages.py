@@ -1,0 +1,78 @@
+"""Pages of animations opened by a real browser, headless Chromium: they load without an error and show another picture after a step.
+
+open_pages.py PROGRAM DIRECTORY: runs decks there with the program; exits with 1 if something is wrong. Chromium: apt-get install chromium.
+"""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+DECKS = ("slider_crank_dry", "four_bar_spatial", "hanging_chain", "double_pendulum", "billiards")
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+# before the page's own script: errors and requests are counted; after it: what a user does, and what is then to be seen
+BEFORE = """<script>window.found={errors:[],asked:0};window.onerror=(m,u,l,c)=>{found.errors.push(m+' '+l+':'+c)};
+window.fetch=()=>{found.asked++};XMLHttpRequest.prototype.open=()=>{found.asked++};</script>"""
+AFTER = """<script>{const look=()=>['scene','zoom','force','time'].map(k=>document.getElementById(k).innerHTML);
+const click=k=>document.getElementById(k).click();found.start=look();for(let k=0;k<5;k++)click('step');found.stepped=look();
+for(let k=0;k<5;k++)click('back');found.back=look();const v=document.getElementById('view');
+v.selectedIndex=v.options.length-1;v.dispatchEvent(new Event('change'));found.turned=look();
+const s=document.getElementById('slider');s.value=s.max;s.dispatchEvent(new Event('input'));found.last=look();
+click('play');found.playing=document.getElementById('play').textContent;click('play');
+document.documentElement.setAttribute('data-found',encodeURIComponent(JSON.stringify(found)))}</script></body>"""
+
+
+def page_of(program, directory, name):
+    """A deck's animation."""
+    text = (ROOT / "inputs" / f"{name}.deck").read_text(encoding="utf-8")
+    text, n = re.subn(r"^figures( *)=.*$", r"figures\1= animation(n=24)", text, flags=re.MULTILINE)
+    assert n == 1, name
+    deck = directory / f"{name}.deck"
+    deck.write_text(text, encoding="utf-8")
+    subprocess.run([program, "run", deck, "--out", directory / name, "--quiet"], check=True, timeout=300)
+    return directory / name / "figures" / "animation.n.24.html"
+
+
+def what_is_found(browser, page):
+    """What the browser sees in a page."""
+    text = page.read_text(encoding="utf-8")
+    assert "http" not in text and "src=" not in text and "@import" not in text, "the page asks for something"
+    watched = page.with_name("watched.html")
+    watched.write_text(text.replace("<script>", BEFORE + "<script>", 1).replace("</body>", AFTER, 1), encoding="utf-8")
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", watched.resolve().as_uri()]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    found = re.search(r'data-found="([^"]*)"', done.stdout)
+    errors = re.search(r"errors:\[\]", done.stdout)
+    assert found, f"the script did not come to its end: {done.stderr[-500:]} {errors}"
+    return json.loads(re.sub(r"%([0-9A-Fa-f]{2})", lambda m: chr(int(m.group(1), 16)), found.group(1)))
+
+
+def main(program, directory):
+    """All pages."""
+    browser = next((name for name in BROWSERS if shutil.which(name)), None)
+    if browser is None:
+        print("browser-test: no Chromium; on Debian: apt-get install chromium", file=sys.stderr)
+        return 1
+    directory.mkdir(parents=True, exist_ok=True)
+    for name in DECKS:
+        page = page_of(program, directory, name)
+        found = what_is_found(browser, page)
+        assert found["errors"] == [] and found["asked"] == 0, (name, found["errors"])
+        for k, part in enumerate(("scene", "zoom", "force", "time")):
+            there = found["start"][k] != "" or (part in ("zoom", "force") and "loose:[]" in page.read_text(encoding="utf-8"))
+            assert there, f"{name}: no {part}"
+        assert "<poly" in found["start"][0] and "NaN" not in str(found["start"]) + str(found["last"]), name
+        assert found["stepped"][0] != found["start"][0] and found["stepped"][3] != found["start"][3], f"{name}: a step shows nothing new"
+        assert found["back"] == found["start"], f"{name}: back is not where it was"
+        assert found["last"][0] != found["turned"][0] and found["playing"] == "stop", name
+        if "spatial:true" in page.read_text(encoding="utf-8"):
+            assert found["turned"][0] != found["start"][0], f"{name}: another view is the same"
+        print(f"browser-test: {name}: as expected ({page.stat().st_size // 1000} kB)")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()))

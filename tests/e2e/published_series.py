@@ -1,0 +1,203 @@
+"""What a commercial code found for the decks of tests/validation: states at 5 s, a few numbers of its series.
+
+Source: results of ADAMS in the repository of Project Chrono, data/testing/joints/ (BSD-3), six or seven digits. World frame;
+reactions are those on the ground, at its point. Noise below their last digit is zero here.
+"""
+
+SOURCE = {
+    "revolute": "revolute_joint/Revolute_Case",
+    "spherical": "spherical_joint/Spherical_Case",
+    "universal": "universal_joint/Universal_Case",
+    "cylindrical": "cylindrical_joint/Cylindrical_Case",
+    "prismatic": "prismatic_joint/Prismatic_Case",
+    "distance": "distance_constraint/Distance_Case",
+    "torsion_spring": "rotspring_force/RotSpring_Case",
+    "spring": "transpringcb_force/TranSpringCB_Case",
+    "actuator": "lin_actuator/LinActuator_Case",
+}
+
+AT_END = {
+    "revolute_1": {
+        "position": (-1.99968, 0, -0.0355587),
+        "velocity": (-0.0146657, 0, 0.824742),
+        "acceleration": (0.510225, 0, -9.55839),
+        "orientation": (0.00628621, -0.00628621, 0.707079, 0.707079),
+        "angular_velocity": (0, 0.412436, 0),
+        "angular_acceleration": (0, -4.78297, 0),
+        "joint force": (-0.510225, 0, -0.248259),
+        "joint moment": (0, 0, 0),
+    },
+    "revolute_2": {
+        "position": (1.20996, 3.4064, 1.5936),
+        "velocity": (-5.15895, 0.385088, -0.385088),
+        "acceleration": (-2.11895, -9.40977, 9.40974),
+        "orientation": (0.686717, -0.284447, 0.256001, 0.61804),
+        "angular_velocity": (0, 1.8341, 1.8341),
+        "angular_acceleration": (0, 0.250944, 0.250944),
+        "joint force": (2.11895, 9.40977, -19.2164),
+        "joint moment": (-13.792, 1.0295, -1.0295),
+    },
+    "spherical_1": {
+        "position": (-1.99967, 0, -0.0361929),
+        "velocity": (-0.0148923, 0, 0.822711),
+        "acceleration": (0.511671, 0, -9.5582),
+        "orientation": (0.00904859, 0, 0.999959, 0),
+        "angular_velocity": (0, 0.411423, 0),
+        "angular_acceleration": (0, -4.78295, 0),
+        "joint force": (-0.511671, 0, -0.248448),
+        "joint moment": (0, 0, 0),
+    },
+    "spherical_2": {
+        "position": (-0.999684, 2, 2.96444),
+        "acceleration": (0.510211, -8.33421e-06, -9.5584),
+        "orientation": (0.00821332, -0.00340207, 0.923843, 0.382668),
+        "angular_acceleration": (2.96352e-06, -4.78286, -0.000166657),
+        "joint force": (-0.510211, 8.33421e-06, -0.248253),
+        "velocity": (-0.0146657, 0, 0.824742),
+        "angular_velocity": (0, 0.412436, 0),
+    },
+    "universal_1": {
+        "position": (0, -1.99967, -0.0361929),
+        "acceleration": (0, 0.511669, -9.5582),
+        "orientation": (0.713476, -0.70068, 0, 0),
+        "angular_acceleration": (4.78295, 0, 0),
+        "joint force": (0, -0.511669, -0.248448),
+        "joint moment": (0, 0, 0),
+    },
+    "universal_2": {
+        "position": (1.99967, 0, -0.0361929),
+        "orientation": (0.713476, 0, -0.70068, 0),
+        "joint force": (0.511671, 0, -0.248448),
+    },
+    "universal_3": {
+        "position": (-1.43495, -1.39257, -0.041018),
+        "velocity": (-0.0141272, -0.0112754, 0.876924),
+        "acceleration": (0.416737, 0.40461, -9.55549),
+        "orientation": (0.501354, -0.699798, 0.00531497, -0.508821),
+        "angular_velocity": (-0.311008, 0.309296, -0.00103342),
+        "angular_acceleration": (3.46081, -3.30601, 0.00707699),
+        "joint force": (-0.416737, -0.40461, -0.251164),
+        "joint moment": (-0.00511434, -0.00514269, -2.00451e-05),
+    },
+    "cylindrical_1": {
+        "position": (2, 0, -122.583),
+        "joint force": (0, 0, 0),
+        "joint moment": (0, 0, 0),
+    },
+    "cylindrical_2": {
+        "position": (-1.99968, 0, -0.0355587),
+        "joint force": (-0.510231, 0, -0.248259),
+        "joint moment": (0, 0, 0),
+    },
+    "cylindrical_3": {
+        "position": (1.20996, -57.8852, -59.698),
+        "velocity": (-5.15895, -24.1315, -24.9017),
+        "acceleration": (-2.11887, -14.3128, 4.50612),
+        "orientation": (0.686717, -0.284447, 0.256001, 0.61804),
+        "angular_velocity": (0, 1.8341, 1.8341),
+        "angular_acceleration": (0, 0.251339, 0.251339),
+        "joint force": (2.11887, 14.3128, -14.3128),
+        "joint moment": (1754.5, -129.869, 129.869),
+    },
+    "prismatic_1": {
+        "position": (2, 0, -122.583),
+        "joint moment": (0, 0, 0),
+    },
+    "prismatic_2": {
+        "position": (3, -59.2916, -58.2916),
+        "velocity": (0, -24.5166, -24.5166),
+        "acceleration": (0, -4.90332, -4.90333),
+        "orientation": (0.92388, -0.382683, 0, 0),
+        "joint force": (0, 4.90332, -4.90332),
+        "joint moment": (601.064, 9.80664, 9.80664),
+    },
+    "prismatic_3": {
+        "joint force": (0, 0, -9.80665),
+        "joint moment": (0, 19.6133, 0),
+    },
+    "distance_1": {
+        "position": (0, -1.999998, -0.002779575),
+        "joint force": (0, -0.04099856, -5.697934e-05),
+    },
+    "distance_2": {
+        "position": (0.3652558, 2.66491, -0.7909707),
+        "orientation": (0.6396194, -0.4893494, -0.4731699, -0.3571197),
+        "angular_acceleration": (175.1892, -138.4459, -53.6154),
+        "joint force": (-0.537911, 9.010248, -25.02392),
+        "velocity": (3.343841, -3.542206, -6.61872),
+        "angular_velocity": (0.9769322, -8.194841, -0.2503987),
+        "acceleration": (0.537911, -9.010248, 15.21727),
+    },
+    "distance_3": {
+        "position": (0, 3.955759, -0.3015866),
+        "velocity": (0, -0.174412, -2.417635),
+        "acceleration": (0, -0.948915, -9.610176),
+        "orientation": (0.706868, 0.01837603, 0.01837603, -0.706868),
+        "angular_velocity": (-0.6303161, 0, 0),
+        "angular_acceleration": (-4.910245, 0, 0),
+        "joint force": (0, 0.948915, -0.1964742),
+        "joint moment": (0, 0, 0),
+    },
+    "torsion_spring_1": {
+        "position": (1.990439, 0, -0.1953254),
+        "orientation": (0.7062612, -0.7062612, 0.03457031, 0.03457031),
+        "acceleration": (0.002108525, 0, 0.02148667),
+        "joint force": (-0.002108525, 0, -9.828137),
+        "spring moment": (19.5638,),
+    },
+    "torsion_spring_2": {
+        "position": (1.882432, 0, -0.6756116),
+        "angular_acceleration": (0, 0.01223448, 0),
+        "joint force": (0.008265755, 0, -9.783619),
+        "spring moment": (18.41019,),
+        "velocity": (0.0004345283, 0, 0.00121071),
+    },
+    "spring_1": {
+        "position": (0, 0, -1.26242),
+        "spring force": (0, 0, -12.6002),
+        "velocity": (0, 0, 0.0480496),
+    },
+    "spring_2": {
+        "position": (0, -1.945198, -0.767401),
+        "spring force": (0, -6.49326, -2.561659),
+        "velocity": (0, -0.652462, 2.8145),
+        "acceleration": (0, 6.49326, -7.244991),
+    },
+    "spring_3": {
+        "position": (-1.444917, 4.419559, 1.322425),
+        "orientation": (0.2925514, -0.7801378, 0.2213414, -0.5067609),
+        "spring force": (-1.556888, 1.060104, -0.3315315),
+        "velocity": (0.5729712, -0.5010744, -1.437158),
+        "acceleration": (1.556888, -1.060104, -9.475118),
+        "angular_velocity": (-2.718256, 0.01618426, 1.612521),
+        "angular_acceleration": (9.762428, 18.01229, 11.75116),
+    },
+    "spring_4": {
+        "position": (0, 3.974236, -0.5858086),
+        "velocity": (0, -0.1599512, 0.04460954),
+        "acceleration": (0, -0.914778, -9.629119),
+        "orientation": (0.7062138, -0.03552558, -0.03552558, -0.7062138),
+        "angular_velocity": (0.7547505, 0, 0),
+        "angular_acceleration": (-1.69665, 0, 0),
+        "spring force": (0, 0.914778, -0.1775309),
+    },
+    "actuator_1": {
+        "position": (0, 0, 5),
+        "drive force": (9.80665,),
+    },
+    "actuator_2": {
+        "position": (1.76777, 0, 1.76777),
+        "joint force": (4.90332, 0, -4.90332),
+        "joint moment": (0, 17.3359, 0),
+        "drive force": (6.934349,),
+        "orientation": (0.92388, 0, 0.382683, 0),
+    },
+}
+
+# (s, value): where the motion is swift, in the middle of the series
+BETWEEN = {
+    "distance_2": {"position": ((2.5, (2.439854, 0.5960968, 2.308729)), (3.15, (1.025832, 1.978556, -0.9997619)),
+                                (4.38, (-1.675249, 4.697826, 1.802664)))},
+    "universal_3": {"joint moment": ((2.4, (8.79579e-3, -3.80028e-1, -2.7494e-1)), (2.7, (-3.80923e-1, -1.41103e-3, 2.68355e-1)),
+                                     (4.1, (-3.77407e-1, 1.41732e-2, 2.76889e-1)))},
+}

@@ -1,0 +1,130 @@
+"""Figures that draw the mechanism: places in their data against closed forms, frames, pages, mistakes."""
+
+import json
+import re
+
+import h5py
+import numpy as np
+import pytest
+from support import DECK, call, changed, written
+from test_motion_file import CRANK
+
+STYLES = ("ground", "body", "line", "path", "pin", "symbol", "hole", "journal", "arrow")
+TITLE = r"""a </script><script>alert(1)</script> & 'b' \"c\" `id`"""
+
+
+def run(gudgeon, directory, text, figures, *options):
+    """The directory of the figures of a deck."""
+    call(gudgeon, "run", written(directory, changed(text, "output", figures=figures, motion=None)), "--out", directory / "run",
+         "--quiet", *options)
+    return directory / "run" / "figures"
+
+
+def strokes(path):
+    """Polylines by style, of each frame, in metres."""
+    text = path.read_text(encoding="utf-8")
+    unit = {"mm": 1e-3, "m": 1.0, "µm": 1e-6}[re.search(r"x \[(.*?)\]", text).group(1)]
+    blocks = [block for block in text.split("\n", 1)[1].split("\n\n\n") if block.strip()]
+    lines = [[np.loadtxt(part.splitlines(), ndmin=2)[:, :2] * unit for part in block.split("\n\n") if part.strip()] for block in blocks]
+    assert len(lines) % len(STYLES) == 0
+    return [dict(zip(STYLES, lines[k : k + len(STYLES)])) for k in range(0, len(lines), len(STYLES))]
+
+
+def test_path_of_a_point(gudgeon, tmp_path):
+    """The tip of a crank goes on its circle, all the way; the mechanism stands where the run ends."""
+    found = strokes(run(gudgeon, tmp_path, CRANK, "coupler(tip)") / "coupler.tip.dat")
+    assert len(found) == 1 and len(found[0]["path"]) == 1
+    path = found[0]["path"][0]
+    np.testing.assert_allclose(np.hypot(*path.T), 0.5, rtol=1e-5)
+    np.testing.assert_allclose(np.unwrap(np.arctan2(path[:, 1], path[:, 0])), 7 * np.arange(101) * 0.01, atol=1e-4)
+    np.testing.assert_allclose(found[0]["line"][0], [[0, 0], [0.5 * np.cos(7), 0.5 * np.sin(7)]], atol=1e-5)
+
+
+def test_strip_over_the_last_turn(gudgeon, tmp_path):
+    """Positions at equal parts of the last turn, at the output instants nearest to them."""
+    found = strokes(run(gudgeon, tmp_path, CRANK, "strip(n=5)") / "strip.n.5.dat")
+    turn = 2 * np.pi / 7
+    times = np.round((1 - turn + turn * np.arange(5) / 5) / 0.01) * 0.01
+    tips = np.array([line[1] for line in found[0]["line"]])
+    np.testing.assert_allclose(tips, 0.5 * np.stack([np.cos(7 * times), np.sin(7 * times)], axis=1), atol=1e-5)
+
+
+def test_animation(gudgeon, tmp_path):
+    """As many pictures as asked for in the GIF and in the page, at their times; text of the deck stays text."""
+    folder = run(gudgeon, tmp_path, changed(CRANK, "scene", title=f'"{TITLE}"'), "animation(n=12, last = 1 turns of motor)")
+    name = "animation.n.12.last.1turnsofmotor"
+    found = strokes(folder / f"{name}.dat")
+    assert len(found) == 12
+    turn = 2 * np.pi / 7
+    for k, frame in enumerate(found):
+        t = np.round((1 - turn + turn * k / 12) / 0.01) * 0.01
+        np.testing.assert_allclose(frame["line"][0][1], [0.5 * np.cos(7 * t), 0.5 * np.sin(7 * t)], atol=1e-5)
+    picture = (folder / f"{name}.gif").read_bytes()
+    assert picture[:6] == b"GIF89a" and picture.count(b"\x21\xf9\x04") == 12 and len(picture) < 2_000_000
+    page = (folder / f"{name}.html").read_text(encoding="utf-8")
+    assert page.count("<script") == 1 and "alert(1)</script>" not in page and "http" not in page
+    assert page.count(",r:[") == 12
+    listed = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
+    assert [f"figures/{name}.gif", f"figures/{name}.html"] == listed["figures"] and not listed["warnings"]
+    assert not list(folder.glob("*.png")) and not list(folder.glob("*.log"))
+
+
+def test_loose_joint_is_magnified(gudgeon, tmp_path):
+    """The journal lies in its symbol as in run.h5, magnified by the factor that the picture states; the arrow is the force."""
+    text = changed(DECK.read_text(encoding="utf-8"), "analysis.dynamic", end="3 ms")
+    folder = run(gudgeon, tmp_path, text, "mechanism(t=2ms)")
+    frame = strokes(folder / "mechanism.t.2ms.dat")[0]
+    script = (folder / "mechanism.t.2ms.gp").read_text(encoding="utf-8")
+    factor = float(re.search(r"clearance × ([0-9.e+]+)", script).group(1))
+    with h5py.File(tmp_path / "run" / "run.h5") as file:
+        row = np.flatnonzero((file["row_kind"][:] == 0) & (abs(file["time"][:] - 2e-3) < 1e-9))[0]
+        eccentricity = file["clearances/eccentricity"][row, 0]
+        force = file["clearances/force"][row, 0]
+    hole, journal = (frame[style][0][:-1].mean(axis=0) for style in ("hole", "journal"))
+    np.testing.assert_allclose(journal - hole, factor * eccentricity, rtol=0.02)
+    arrow = frame["arrow"][0][1] - frame["arrow"][0][0]
+    np.testing.assert_allclose(arrow / np.hypot(*arrow), force / np.hypot(*force), atol=1e-3)
+    assert float(re.search(r"longest arrow ([0-9.]+) N", script).group(1)) == float(f"{np.hypot(*force):.3g}")
+
+
+def test_space_in_four_views(gudgeon, tmp_path):
+    """A spatial scene stands in four views; the last is along z, the second along y."""
+    text = (DECK.parent / "four_bar_spatial.deck").read_text(encoding="utf-8")
+    text = changed(text, "analysis.dynamic", end="10 ms")
+    folder = run(gudgeon, tmp_path, text, "mechanism(t=0s)")
+    lines = strokes(folder / "mechanism.t.0s.dat")[0]["line"]
+    assert len(lines) == 12  # three bodies in four views
+    crank, coupler = lines[3:5]
+    np.testing.assert_allclose(crank[1] - crank[0], [0, 0.02], atol=1e-6)
+    np.testing.assert_allclose(coupler[1] - coupler[0], [-0.0749111544, 0.0452473088], atol=1e-5)
+    np.testing.assert_allclose(lines[10][1] - lines[10][0], [-0.0749111544, -0.085], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("figure", "message"),
+    [
+        ("coupler(tipp)", "unknown point 'tipp'"),
+        ("coupler()", "write mechanism("),
+        ("mechanism(t=2s)", "not among what is written"),
+        ("mechanism(t=2ms,1ms)", "instants must increase"),
+        ("mechanism(t=2)", "no time of a run"),
+        ("strip(n=1)", "no number of pictures"),
+        ("animation(last = 1 turns of moter)", "unknown driver 'moter'"),
+        ("animation(last = 9 turns of motor)", "never makes so many turns"),
+        ("strip(last = 3 s)", "before the first output instant"),
+    ],
+)
+def test_mistakes(gudgeon, tmp_path, figure, message):
+    """Each is told at its word."""
+    deck = written(tmp_path, changed(CRANK, "output", figures=figure))
+    done = call(gudgeon, "check", deck, expect=3)
+    assert message in done.stderr and "scene.deck:21" in done.stderr, done.stderr
+
+
+def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
+    """Frames after a stop are left out, and a figure without any is told."""
+    text = CRANK + "[guards]\nstop = crank.angle > 3 rad\n"
+    folder = run(gudgeon, tmp_path, text, "animation(n=10, last=1s) mechanism(t=0.9s)")
+    assert len(strokes(folder / "animation.n.10.last.1s.dat")) == 4
+    listed = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
+    assert listed["warnings"] == ["figure mechanism(t=0.9s): no numbers to draw"]
