@@ -385,7 +385,8 @@ contains
       do c = 1, size(bench%info%channels)
          associate (channel => bench%info%channels(c))
             if (index(film_channels, " "//channel%name//" ") > 0) cycle
-            is_of_contact = index(" penetration penetration_rate normal_force friction_force state ", " "//channel%name//" ") > 0
+            is_of_contact = index(" penetration penetration_rate normal_force friction_force state contact_point ", &
+                                  " "//channel%name//" ") > 0
             allocate (values(merge(3, 1, channel%components == 2), merge(bench%set%n_contact, 1, is_of_contact)), &
                       source=not_a_number())
             call read_loose(bench%set, channel%name, bench%motion, values)

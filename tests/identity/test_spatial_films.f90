@@ -267,6 +267,7 @@ contains
          at_point = loads%moment(:, 2) - cross(matmul(motion%rot(:, :, 2), set%items%s_j(:, 1)), loads%force(:, 2))
          do c = 1, size(info%channels)
             associate (channel => info%channels(c))
+               if (channel%name == "contact_point") cycle  ! nothing touches
                if (channel%name == "film_pressure" .and. .not. set%laws%films%law%has_field()) cycle
                is_of_contact = index(" penetration penetration_rate normal_force friction_force state ", &
                                      " "//channel%name//" ") > 0
