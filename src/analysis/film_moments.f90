@@ -4,7 +4,7 @@
 !> that of the least film kept.
 module film_moments
    use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_least
-   use film_law, only: film_motion_t
+   use film_law, only: film_motion_t, greatest_eccentricity
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use recorder, only: recorder_t
@@ -100,7 +100,7 @@ contains
          call find_film(part, self%films(k)%request%joint, slot, item)
          if (slot == 0) cycle
          motion = motion_of(part, slot, item)
-         distance = norm2(motion%e)
+         distance = greatest_eccentricity(motion)
          if (distance <= self%films(k)%distance) cycle
          self%films(k)%distance = distance
          self%films(k)%t = t

@@ -7,9 +7,11 @@
 !> R. M. Phelan, Fundamentals of Mechanical Design (1970), for that of the diameter. Limits: of steps, so that a least film between
 !> two ends is told a little too thick.
 module film_watch
+   use clearance_set, only: clearance_set_t
    use film_law, only: film_motion_t, parameter_radius
    use kinds, only: wp
    use mechanism, only: mechanism_t
+   use motion, only: motion_t
    use text, only: append_text, real_text, text_t
    implicit none (type, external)
    private
@@ -24,8 +26,19 @@ module film_watch
    real(wp), parameter :: of_diameter = 1.5e-4_wp  !! least film over the journal's diameter [1]
    real(wp), parameter :: of_roughness = 20.0_wp   !! least film over the roughness [1]
 
+   real(wp), parameter :: most_tilt = 0.3_wp        !! tilt up to which films of aligned journals hold, of the gap in the middle [1]
+   real(wp), parameter :: least_engaged = 0.99_wp   !! part of the length that is all of it [1]
+
    real(wp), parameter :: stiff_from = 0.1_wp    !! step over the time of a decay, from which on the decay decides the step [1]
    real(wp), parameter :: stiff_to = 20.0_wp    !! beyond what explicit methods can bear: the step was not one of theirs [1]
+
+   !> How a pin in a bushing has lain where the film does not hold: of each the worst, and when.
+   type :: lean_t
+      real(wp) :: tilt = 0.0_wp            !! what the tilt adds to the eccentricity at an end, of the gap left in the middle [1]
+      real(wp) :: tilt_time = 0.0_wp       !! when that was [s]
+      real(wp) :: engaged = 1.0_wp         !! part of the film's length that the pin is in [1]
+      real(wp) :: engaged_time = 0.0_wp    !! when that was [s]
+   end type lean_t
 
    !> The film of a joint.
    type :: thin_film_t
@@ -38,11 +51,12 @@ module film_watch
       real(wp) :: time = 0.0_wp                        !! when that was [s]
       real(wp) :: step = 0.0_wp                        !! step that ended then [s]
       type(film_motion_t) :: motion                    !! motion of the bearing then
+      type(lean_t) :: lean                             !! how its pin has lain
    end type thin_film_t
 
    !> The films of all loose joints.
    type :: film_watch_t
-      type(thin_film_t), allocatable :: joint(:)   !! (contacts) films, each of one contact; unallocated: no joint has one
+      type(thin_film_t), allocatable :: joint(:)   !! (contacts) films, at first contacts of joints; unallocated: there is none
       real(wp), allocatable :: delta(:), rate(:)   !! (contacts) penetrations [m] and their rates [m/s]
       real(wp) :: t = 0.0_wp                       !! end of the last step [s]
    contains
@@ -60,7 +74,7 @@ contains
       class(film_watch_t), intent(out) :: self   !! the watch
       type(mechanism_t), intent(in) :: system    !! the system
 
-      integer :: i, k
+      integer :: first, i, k
 
       if (.not. system%loose%has_films) return
       allocate (self%joint(system%loose%n_contact), self%delta(system%loose%n_contact), self%rate(system%loose%n_contact))
@@ -68,7 +82,8 @@ contains
          associate (set => system%loose%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
-               associate (joint => self%joint(set%before%contacts + i), films => set%laws%films)
+               first = place_of(set, i)
+               associate (joint => self%joint(first), films => set%laws%films)
                   joint%is_watched = films%acts
                   if (films%is_alone) joint%film_at_end = set%items%clearance(i)*(1.0_wp - films%eps_max(i))
                   joint%limit(limit_machined) = machined
@@ -87,7 +102,7 @@ contains
       real(wp), intent(in) :: t                    !! time there [s]
 
       real(wp) :: thickness
-      integer :: i, k, limit
+      integer :: first, i, k, limit
 
       if (.not. allocated(self%joint)) return
       do k = 1, size(system%loose%sets)
@@ -95,8 +110,10 @@ contains
             if (.not. allocated(set%laws%films)) cycle
             call set%gaps(system%linkage%motion, self%delta, self%rate)
             do i = 1, set%n
-               associate (joint => self%joint(set%before%contacts + i))
-                  thickness = joint%film_at_end - self%delta(set%before%contacts + i)
+               first = place_of(set, i)
+               associate (joint => self%joint(first))
+                 if (set%laws%films%may_tilt .and. joint%is_watched) call look_at_tilt(set, i, system%linkage%motion, t, joint%lean)
+                  thickness = joint%film_at_end - maxval(self%delta(first:first + set%n_contact_item - 1))
                   if (.not. joint%is_watched .or. thickness >= joint%least) cycle
                   joint%least = thickness
                   joint%time = t
@@ -115,6 +132,54 @@ contains
       self%t = t
    end subroutine watch_look
 
+   !> Where the film of a joint stands: at its first contact.
+   pure integer function place_of(set, item) result(place)
+      class(clearance_set_t), intent(in) :: set  !! its set
+      integer, intent(in) :: item                !! item of the set
+
+      place = set%before%contacts + (item - 1)*set%n_contact_item + 1
+   end function place_of
+
+   !> Note how the pin of a joint lies.
+   subroutine look_at_tilt(set, item, motion, t, lean)
+      class(clearance_set_t), intent(in) :: set  !! its set
+      integer, intent(in) :: item                !! item of the set
+      type(motion_t), intent(in) :: motion       !! of the bodies
+      real(wp), intent(in) :: t                  !! time [s]
+      type(lean_t), intent(inout) :: lean        !! what was seen so far
+
+      type(film_motion_t) :: film
+      real(wp) :: tilt
+
+      film = set%laws%films%motion_of(item, set%items%body(:, item), set%items%s_i(:, item), set%items%s_j(:, item), motion)
+      tilt = norm2(film%tilt)/max(set%items%clearance(item) - norm2(film%e), tiny(1.0_wp))
+      if (tilt > lean%tilt) then
+         lean%tilt = tilt
+         lean%tilt_time = t
+      end if
+      if (film%engaged < lean%engaged) then
+         lean%engaged = film%engaged
+         lean%engaged_time = t
+      end if
+   end subroutine look_at_tilt
+
+   !> Append a warning where a pin lay so that its film does not hold.
+   subroutine warn_of_lean(joint, film, lean, warnings)
+      character(*), intent(in) :: joint, film                    !! names of the joint and of its film
+      type(lean_t), intent(in) :: lean                           !! how the pin has lain
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+
+      if (lean%tilt > most_tilt) then
+         call append_text(warnings, "joint '"//joint//"', film '"//film//"': a tilt that adds "//real_text(lean%tilt, 2)// &
+                          " of the gap left in the middle at an end, at t = "//real_text(lean%tilt_time, 6)// &
+                          " s; it holds for tilts up to "//real_text(most_tilt, 1)//", film.grid for any")
+      end if
+      if (lean%engaged < least_engaged) then
+         call append_text(warnings, "joint '"//joint//"': the pin fills only "//real_text(lean%engaged, 3)// &
+                          " of the length of its film, at t = "//real_text(lean%engaged_time, 6)//" s; the film acts by that part")
+      end if
+   end subroutine warn_of_lean
+
    !> What the watch of a part of the mechanism has seen.
    subroutine watch_gather(self, part, contacts)
       class(film_watch_t), intent(inout) :: self   !! watch of the whole, begun
@@ -131,14 +196,16 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
       character(:), allocatable :: words
-      integer :: i, k, limit
+      integer :: first, i, k, limit
 
       if (.not. allocated(self%joint)) return
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
-               associate (joint => self%joint(set%before%contacts + i))
+               first = place_of(set, i)
+               associate (joint => self%joint(first))
+                  call warn_of_lean(set%names(i)%s, set%laws%films%law%name, joint%lean, warnings)
                   if (set%laws%films%place(i)%is_heated) call append_text(warnings, "joint '"//set%names(i)%s// &
                      "': heat = balance is for a static analysis; in this run the film keeps the temperature of its lubricant")
                   if (.not. any(joint%is_below)) cycle
@@ -164,14 +231,15 @@ contains
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
 
       real(wp) :: decay
-      integer :: i, k
+      integer :: first, i, k
 
       if (.not. allocated(self%joint)) return
       do k = 1, size(system%loose%sets)
          associate (set => system%loose%sets(k)%set)
             if (.not. allocated(set%laws%films)) cycle
             do i = 1, set%n
-               associate (joint => self%joint(set%before%contacts + i), &
+               first = place_of(set, i)
+               associate (joint => self%joint(first), &
                           inverse => system%linkage%inverse_mass(1, set%items%body(1, i)) &
                                      + system%linkage%inverse_mass(1, set%items%body(2, i)))
                   if (.not. joint%is_watched .or. .not. joint%step > 0.0_wp) cycle

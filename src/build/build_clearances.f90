@@ -3,7 +3,7 @@
 !> Rows that say `level = ideal`, or all of them in the ideal twin, become the joint that their geometry is without
 !> clearance; a geometry that is none keeps its contact.
 module build_clearances
-   use bearing_films, only: new_bearing_films
+   use bearing_films, only: bearing_films_t, new_bearing_films
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t, clearance_slot_t
    use columns, only: cell_index, cell_text, find_column
@@ -11,7 +11,7 @@ module build_clearances
    use item, only: item_t, take_items
    use joint_registry, only: new_joint_set
    use joint_set, only: joint_set_t, joint_slot_t
-   use kind_info, only: kind_info_t
+   use kind_info, only: in_space, kind_info_t
    use kinds, only: wp
    use law_absent, only: law_absent_t
    use law_faded, only: law_faded_t, new_law_faded
@@ -20,6 +20,7 @@ module build_clearances
    use motion, only: motion_t
    use normal_law, only: normal_law_t
    use scene, only: scene_t
+   use socket_films, only: socket_films_t
    use ties, only: find_joint, kind_number, tie_of, tie_set, tie_t
    implicit none (type, external)
    private
@@ -196,7 +197,11 @@ contains
       system%loose%n_contact = system%loose%n_contact + slot%set%n_contact
       film = cell_index(scene%clearances(kind)%info, items(1), "film")
       if (film > 0) then
-         allocate (slot%set%laws%films)
+         if (scene%clearances(kind)%info%space == in_space) then
+            allocate (socket_films_t :: slot%set%laws%films)
+         else
+            allocate (bearing_films_t :: slot%set%laws%films)
+         end if
          call new_bearing_films(items, scene%lubrication%films(film)%law, scene%lubrication%oils, slot%set%laws%films)
          system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
       end if
@@ -205,14 +210,15 @@ contains
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set
 
-   !> The normal law of a row: none where a film alone holds the surfaces apart, or the row names none; one that comes in by degrees
-   !> where a film goes out by degrees; half of one at each of two bases that carry together.
+   !> The normal law of a row: none where a film alone holds the surfaces apart, or the row names none; half of one at each of two
+   !> bases that carry together; one that comes in by degrees where a film goes out by degrees.
    subroutine choose_law(scene, info, item, law)
       type(scene_t), intent(in) :: scene                     !! the scene
       type(kind_info_t), intent(in) :: info                  !! the geometry
       type(item_t), intent(in) :: item                       !! the row
       class(normal_law_t), allocatable, intent(out) :: law   !! its law
 
+      class(normal_law_t), allocatable :: whole
       type(law_faded_t), allocatable :: faded
       type(law_part_t), allocatable :: part
       integer :: number
@@ -224,21 +230,18 @@ contains
          law%name = "none"
          return
       end if
-      if (cell_text(info, item, "level") == "hybrid") then
-         if (item%number("e_t0") > 0.0_wp) then
-            allocate (faded)
-            call new_law_faded(scene%laws(number)%law, item%number("e_t0"), faded)
-            call move_alloc(faded, law)
-            return
-         end if
-      end if
+      allocate (law, source=scene%laws(number)%law)
       if (cell_text(info, item, "stiffness") == "half") then
          allocate (part)
-         call new_law_part(scene%laws(number)%law, 0.5_wp, part)
+         call new_law_part(law, 0.5_wp, part)
          call move_alloc(part, law)
-         return
       end if
-      allocate (law, source=scene%laws(number)%law)
+      if (cell_text(info, item, "level") /= "hybrid") return
+      if (.not. item%number("e_t0") > 0.0_wp) return
+      call move_alloc(law, whole)
+      allocate (faded)
+      call new_law_faded(whole, item%number("e_t0"), faded)
+      call move_alloc(faded, law)
    end subroutine choose_law
 
    !> What a joint leaves of the freedom of its bodies.

@@ -13,45 +13,23 @@ module bearing_films
    use film_fields, only: film_field_t
    use film_law, only: film_bearing_t, film_law_t, film_motion_t, film_slopes_t, n_film_parameter, parameter_clearance, &
       parameter_length
+   use film_places, only: film_bearing_of, film_place_t, film_state_t, finish_state, place_of_film, share_of
    use item, only: item_t
    use kinds, only: two_pi, wp
    use lubricant, only: oil_t, viscosity_at
    use motion, only: loads_t, motion_t
    implicit none (type, external)
    private
-   public :: bearing_films_t, film_bearing_of, film_state_t, new_bearing_films
+   public :: bearing_films_t, new_bearing_films
 
    integer, parameter :: n_around = 360, n_along = 40  !! parts of the angle and of the length of an unwrapped film
-   real(wp), parameter :: least_flow = 1.0e-3_wp  !! side flow that is next to none, of L R c and both angular speeds [1]
-
-   !> How a film acts in a joint.
-   type :: film_place_t
-      real(wp) :: clearance = 0.0_wp      !! c of the joint [m]
-      real(wp) :: depth = 0.0_wp          !! d: of the transition to dry contact; 0: there is none [m]
-      logical :: has_torque = .false.     !! moments of shear act too
-      logical :: is_relative = .false.    !! entrained by the difference of the speeds, as the book has it, not by their sum
-      logical :: is_heated = .false.      !! a static analysis finds the temperature by a balance of heat
-      real(wp) :: temperature = 0.0_wp    !! of the film, whose viscosity it has [K]
-   end type film_place_t
-
-   !> What a film does at a motion.
-   type :: film_state_t
-      real(wp) :: force(2) = 0.0_wp       !! (2) on the journal, world frame [N]
-      real(wp) :: torque = 0.0_wp         !! moment of shear on the journal, where it acts [N.m]
-      real(wp) :: share = 0.0_wp          !! part of the film in the transition [1]
-      real(wp) :: drag_journal = 0.0_wp   !! moment of shear on the journal, whether it acts or not [N.m]
-      real(wp) :: drag_bearing = 0.0_wp   !! the same on the bearing [N.m]
-      real(wp) :: power = 0.0_wp          !! that the film turns into heat [W]
-      real(wp) :: side_flow = 0.0_wp      !! that leaves at both ends [m^3/s]
-      logical :: has_flow = .false.       !! that is enough to carry heat away
-      real(wp) :: rise = 0.0_wp           !! of the temperature, if the side flow, at least next to none, takes all heat along [K]
-   end type film_state_t
 
    !> Films of the items of a set.
    type :: bearing_films_t
       class(film_law_t), allocatable :: law           !! the film of all items
       logical :: acts = .false.                       !! it acts; otherwise it is there for its channels only
       logical :: is_alone = .false.                   !! there is no dry contact
+      logical :: may_tilt = .false.                   !! journals may be tilted, and the film holds for small tilts only
       real(wp) :: power = 0.0_wp                      !! taken in the last evaluation by all items [W]
       real(wp), allocatable :: eps_max(:)             !! (n) eccentricity over clearance where it ends if it is alone [1]
       real(wp), allocatable :: roughness(:)           !! (n) of the surfaces, 0: not known [m]
@@ -66,6 +44,7 @@ module bearing_films
       procedure :: bear => films_bear
       procedure :: state_of => films_state_of
       procedure :: slopes_of => films_slopes_of
+      procedure, non_overridable :: slopes_at => films_slopes_at
       procedure :: fades => films_fade
       procedure :: warm => films_warm
       procedure :: greatest_pressure => films_greatest_pressure
@@ -76,26 +55,12 @@ module bearing_films
 
 contains
 
-   !> The bearing that a row describes, as films see it.
-   pure function film_bearing_of(item, oils) result(bearing)
-      type(item_t), intent(in) :: item        !! the row of a revolute joint with clearance
-      type(oil_t), intent(in) :: oils(:)      !! (lubricants) all of them
-      type(film_bearing_t) :: bearing         !! the bearing
-
-      bearing%radius = item%number("bearing_radius") - item%number("clearance")
-      bearing%clearance = item%number("clearance")
-      if (item%word("level") == "hybrid") bearing%clearance = bearing%clearance + item%number("e_t1")
-      bearing%length = item%number("length")
-      if (item%reference("lubricant") > 0) bearing%viscosity = oils(item%reference("lubricant"))%viscosity
-      bearing%eps_max = item%number("eps_max")
-   end function film_bearing_of
-
    !> Films of the rows of a set.
    subroutine new_bearing_films(items, law, oils, films)
       type(item_t), intent(in) :: items(:)       !! (n) rows
       class(film_law_t), intent(in) :: law       !! their film
       type(oil_t), intent(in) :: oils(:)         !! (lubricants) all of them
-      type(bearing_films_t), intent(out) :: films !! the films
+      class(bearing_films_t), intent(inout) :: films !! the films, new
 
       character(:), allocatable :: help, message
       integer :: k, n
@@ -109,15 +74,10 @@ contains
       do k = 1, n
          films%bearing(k) = film_bearing_of(items(k), oils)
          if (items(k)%reference("lubricant") > 0) films%oil(k) = oils(items(k)%reference("lubricant"))
-         films%place(k)%temperature = films%oil(k)%temperature
-         films%place(k)%is_heated = items(k)%word("heat") == "balance" .and. films%acts
+         films%place(k) = place_of_film(items(k), films%oil(k), films%acts)
          call law%fit(films%bearing(k), films%parameters(:, k), message, help)
          films%roughness(k) = items(k)%number("roughness")
          films%eps_max(k) = items(k)%number("eps_max")
-         films%place(k)%clearance = items(k)%number("clearance")
-         if (items(k)%word("level") == "hybrid") films%place(k)%depth = items(k)%number("e_t0")
-         films%place(k)%has_torque = items(k)%flag("film_torque")
-         films%place(k)%is_relative = items(k)%word("entrain") == "book"
       end do
    end subroutine new_bearing_films
 
@@ -209,7 +169,7 @@ contains
       do k = 1, n
          i = body(1, k)
          j = body(2, k)
-         share = share_of(place(k), films(k)%e)
+         share = share_of(place(k), films(k))
          if (.not. share > 0.0_wp) cycle
          f_j(1) = share*f(1, k)
          f_j(2) = share*f(2, k)
@@ -251,17 +211,6 @@ contains
       films_fade = self%acts .and. self%place(1)%depth > 0.0_wp
    end function films_fade
 
-   !> Part of a film in the transition to dry contact.
-   pure real(wp) function share_of(place, e) result(share)
-      type(film_place_t), intent(in) :: place  !! how the film acts
-      real(wp), intent(in) :: e(2)             !! (2) eccentricity [m]
-
-      share = 1.0_wp
-      if (place%depth > 0.0_wp) then
-         share = min(max((place%clearance + place%depth - sqrt(e(1)**2 + e(2)**2))/place%depth, 0.0_wp), 1.0_wp)
-      end if
-   end function share_of
-
    !> What the film of one item does at a motion.
    function films_state_of(self, k, body, film, motion) result(state)
       class(bearing_films_t), intent(in) :: self  !! the films
@@ -271,10 +220,10 @@ contains
       type(motion_t), intent(in) :: motion        !! that of the bodies
       type(film_state_t) :: state                 !! what it does
 
-      real(wp) :: f(2, 1), least
+      real(wp) :: f(2, 1)
 
       if (.not. self%acts) return
-      state%share = share_of(self%place(k), film%e)
+      state%share = share_of(self%place(k), film)
       call self%law%force(1, [film], self%parameters(:, k:k), f)
       call self%law%torques(film, self%parameters(:, k), f(:, 1), state%drag_journal, state%drag_bearing)
       state%force = state%share*f(:, 1)
@@ -284,9 +233,7 @@ contains
       state%power = -dot_product(state%force, film%e_dot) - state%drag_journal*motion%omega(3, body(2)) &
                     - state%drag_bearing*motion%omega(3, body(1))
       state%side_flow = state%share*self%law%side_flow(film, self%parameters(:, k))
-      least = least_flow*self%bearing(k)%length*self%bearing(k)%radius*self%bearing(k)%clearance*sum(abs(motion%omega(3, body)))
-      state%has_flow = state%side_flow > least
-      if (max(state%side_flow, least) > 0.0_wp) state%rise = state%power/(self%oil(k)%heat*max(state%side_flow, least))
+      call finish_state(self%bearing(k), self%oil(k)%heat, sum(abs(motion%omega(3, body))), state)
    end function films_state_of
 
    !> Greatest pressure in the middle of the length, at whole degrees around the bearing; 0 of a film that does not act.
@@ -302,7 +249,7 @@ contains
       if (.not. self%acts) return
       theta = [(two_pi*i/n_around, i=1, n_around)]
       call self%law%field(motion, self%parameters(:, k), theta, [0.0_wp], p, h)
-      pressure = share_of(self%place(k), motion%e)*maxval(p)
+      pressure = share_of(self%place(k), motion)*maxval(p)
    end function films_greatest_pressure
 
    !> How fast the film of one item brings the way of the journal along the line of centres to rest, while it approaches [1/s].
@@ -323,7 +270,7 @@ contains
       two = motion
       two(2)%e_dot = motion%e_dot + change*n
       call self%law%force(2, two, self%parameters(:, [k, k]), f)
-      decay = share_of(self%place(k), motion%e)*abs(dot_product(f(:, 2) - f(:, 1), n))/change*inverse_mass
+      decay = share_of(self%place(k), motion)*abs(dot_product(f(:, 2) - f(:, 1), n))/change*inverse_mass
    end function films_decay_of
 
    !> The motion of one item.
@@ -362,7 +309,7 @@ contains
       field%y = [(real(2*i - n_along, wp)/n_along, i=0, n_along)]
       allocate (field%pressure(n_along + 1, n_around + 1), field%gap(n_along + 1, n_around + 1))
       call self%law%field(motion, self%parameters(:, k), field%theta, field%y, field%pressure, field%gap)
-      field%pressure = share_of(self%place(k), motion%e)*field%pressure
+      field%pressure = share_of(self%place(k), motion)*field%pressure
       field%y = 0.5_wp*self%parameters(parameter_length, k)*field%y
    end subroutine films_unwrap
 
@@ -378,23 +325,30 @@ contains
       type(film_motion_t), intent(out) :: one     !! motion of the bearing
       type(film_slopes_t), intent(out) :: slopes  !! stiffness and damping
 
-      type(film_motion_t) :: films(1)
-      real(wp) :: distance, f(2, 1), s(2, 2, 1), share
+      one = self%motion_of(k, body, s_i, s_j, motion)
+      call self%slopes_at(k, one, slopes)
+   end subroutine films_slopes_of
+
+   !> The same, of a motion of the bearing.
+   subroutine films_slopes_at(self, k, one, slopes)
+      class(bearing_films_t), intent(in) :: self  !! the films
+      integer, intent(in) :: k                    !! item
+      type(film_motion_t), intent(in) :: one      !! motion of the bearing
+      type(film_slopes_t), intent(out) :: slopes  !! stiffness and damping
+
+      real(wp) :: distance, f(2, 1), share
       integer :: i
 
-      call measure_films(1, self%place(k:k), reshape(body, [2, 1]), reshape(s_i, [3, 1]), reshape(s_j, [3, 1]), &
-                         ubound(motion%angle, 1), motion%r, motion%rot, motion%v, motion%omega, motion%angle, films, s)
-      one = films(1)
       call self%law%linearise(one, self%parameters(:, k), slopes)
-      share = share_of(self%place(k), one%e)
+      share = share_of(self%place(k), one)
       slopes%stiffness = share*slopes%stiffness
       slopes%damping = share*slopes%damping
       if (.not. (share > 0.0_wp .and. share < 1.0_wp)) return
       distance = norm2(one%e)
-      call self%law%force(1, films, self%parameters(:, k:k), f)
+      call self%law%force(1, [one], self%parameters(:, k:k), f)
       do i = 1, 2
          slopes%stiffness(:, i) = slopes%stiffness(:, i) + f(:, 1)*one%e(i)/(distance*self%place(k)%depth)
       end do
-   end subroutine films_slopes_of
+   end subroutine films_slopes_at
 
 end module bearing_films

@@ -1,10 +1,10 @@
 !> A translational joint with clearance in space: a block of body j loose in a straight guide of rectangular section of body i.
 !>
 !> The guide's line goes through its point along z, its four surfaces lie on both sides of it along x and y, at half the
-!> The guide's line goes through its point along z, its four surfaces lie on both sides of it along x and y, at half the
-!> block's width (x) and height (y) plus the gap. The block has the same axes in body j where the deck puts the bodies, and is `length` long.
-!> may touch the surface on its side along x and along y: contacts A_x, A_y ... H_y. With a = +-x or +-y, fixed in i, and d from the
-!> point of the guide to a corner
+!> block's width (x) and height (y) plus the gap. The block has the same axes in body j where the deck puts the bodies, and is
+!> `length` long. Its corners are A, B, C, D, counter-clockwise about z from the one at -x, -y, at the end of -z, and E, F, G, H at
+!> the other. Each may touch the surface on its side along x and along y: contacts A_x, A_y ... H_y. With a = +-x or +-y, fixed in
+!> i, and d from the point of the guide to a corner
 !>
 !> n = a,   delta = a . d - (half + gap),   rate = a . w,   w = d' - omega_i x d,   delta'' = a . (w' as body i sees it),
 !>

@@ -1,10 +1,11 @@
-!> A revolute joint with clearance in space: a pin of body j loose in a bushing of body i, with a contact at each of its two bases.
+!> A revolute joint with clearance in space: a pin of body j loose in a bushing of body i, with a contact at each of its two bases,
+!> a film, or both.
 !>
-!> Equations: `socket_contacts`; forces: `point_contacts`. The bases are half of `journal_length` either side of the pin's point,
-!> along its axis; the bushing's ends half of `length` either side of its point. With `ends = clipped` a base beyond an end of the
-!> bushing counts where the pin passes the end; with `endless` the bushing has none, as in the book. Left out, axes are those of
-!> `spatial_joint`. Each base has half of the stiffness, so that both together carry what the planar pin does (`half`); `full` is
-!> the book's: shorter and harder impacts.
+!> Equations: `socket_contacts`; forces: `point_contacts`; films: `socket_films`. The bases are half of `journal_length` either side
+!> of the pin's point, along its axis; the bushing's ends half of `length` either side of its point. With `ends = clipped` a base
+!> beyond an end of the bushing counts where the pin passes the end; with `endless` the bushing has none, as in the book. Left out,
+!> axes are those of `spatial_joint`. Each base has half of the stiffness, so that both together carry what the planar pin does
+!> (`half`); `full` is the book's: shorter and harder impacts.
 !>
 !> Signs: the reported force is that on the pin, its moment is about the pin's point; the eccentricity is the pin's point from the
 !> bushing's axis, across it, world frame. Source: Flores et al. (2008), section 6.3, corrected: see `socket_contacts`.
@@ -17,7 +18,9 @@ module clearance_bushing
    use kinds, only: wp
    use motion, only: motion_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
-   use socket_contacts, only: of_axial_displacement, of_engagement, of_tilt, socket_contacts_t
+   use revolute_level, only: add_film_columns, add_spatial_film_channels
+   use socket_contacts, only: of_axial_displacement, of_engagement, of_tilt
+   use socket_joints, only: socket_joints_t
    use surfaces, only: surfaces_t
    use text, only: text_t
    implicit none (type, external)
@@ -25,7 +28,7 @@ module clearance_bushing
    public :: clearance_bushing_t
 
    !> Pins in bushings.
-   type, extends(socket_contacts_t) :: clearance_bushing_t
+   type, extends(socket_joints_t) :: clearance_bushing_t
    contains
       procedure, nopass :: info => bushing_info
       procedure, nopass :: contact_labels => bushing_labels
@@ -45,7 +48,7 @@ contains
 
       info%name = "clearance.revolute"
       info%space = in_space
-      info%help = "a pin loose in a bushing, with a contact at each of its two bases"
+      info%help = "a pin loose in a bushing: dry contact at each of its two bases, or lubricant film"
       info%source = "Flores et al. (2008), section 6.3"
       call add_reference(info, "bearing", "points", "middle of the bushing, on its axis")
       call add_reference(info, "journal", "points", "middle of the pin, on its axis")
@@ -60,14 +63,16 @@ contains
                     choices="clipped endless")
       call add_word(info, "stiffness", "of each base: half that of the pin, or all of it as in the book", default="half", &
                     choices="half full")
+      call add_film_columns(info, .false.)
       call add_channel(info, "eccentricity", "m", "world", 2, "middle of the pin from the axis of the bushing", of_eccentricity)
-      call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases", of_force)
+      call add_channel(info, "force", "N", "world", 2, "force on the pin, of both bases and of the film", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the pin about its middle", of_moment)
       call add_channel(info, "tilt", "rad", "joint", 1, "angle between the axes of pin and bushing", of_tilt)
       call add_channel(info, "axial_displacement", "m", "joint", 1, "middle of the pin from that of the bushing, along its axis", &
                        of_axial_displacement)
       call add_channel(info, "engagement", "m", "joint", 1, "length of the pin that is in the bushing, along its axis", &
                        of_engagement)
+      call add_spatial_film_channels(info, .false.)
       call add_contact_channels(info, "pin", "its sliding velocity")
    end function bushing_info
 
@@ -112,6 +117,7 @@ contains
             socket%axis_j = item%direction("axis_j")
          end associate
       end do
+      call self%take_level(items)
    end subroutine bushing_prepare
 
    !> Axes in the frames of the bodies.
@@ -131,6 +137,7 @@ contains
             end if
          end associate
       end do
+      call self%seat_films()
    end subroutine bushing_set_start
 
    !> A pin in a hole, half as long at each base.

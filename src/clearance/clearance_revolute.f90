@@ -59,7 +59,7 @@ contains
                     choices="corrected book")
       call add_number(info, "length", dim_length, "length of the bearing along its axis, for laws of cylinders; 0: not known", &
                       default="0 m", lower=0.0_wp)
-      call add_film_columns(info)
+      call add_film_columns(info, .false.)
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the journal from that of the bearing", &
                        of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the journal", of_force)

@@ -53,7 +53,7 @@ module clearance_set
       class(normal_law_t), allocatable :: normal       !! normal law of all items
       class(normal_law_t), allocatable :: face         !! normal law of faces, where the geometry has some; unallocated: none
       class(friction_law_t), allocatable :: friction   !! friction law of all items; unallocated: none
-      type(bearing_films_t), allocatable :: films      !! lubricant films of the items; unallocated: none
+      class(bearing_films_t), allocatable :: films     !! lubricant films of the items; unallocated: none
    end type clearance_laws_t
 
    !> All items that share a geometry and its laws.

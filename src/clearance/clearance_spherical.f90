@@ -1,6 +1,7 @@
-!> A spherical joint with clearance: a ball of body j loose in a socket of body i, in space.
+!> A spherical joint with clearance: a ball of body j loose in a socket of body i, in space: dry contact, a film, or both.
 !>
-!> Equations: `socket_contacts`; forces: `point_contacts`. The law is fitted to an internal contact of radii R and R - c.
+!> Equations: `socket_contacts`, `socket_films`; forces: `point_contacts`. The law is fitted to an internal contact of radii R and R
+!> - c.
 !>
 !> Signs: the reported force is that on the ball, its moment is about the ball's centre; the eccentricity is the ball's centre from
 !> the socket's, world frame. Source: Flores et al. (2008), section 6.2, corrected: see `socket_contacts`.
@@ -10,8 +11,10 @@ module clearance_spherical
    use item, only: item_t, place_of
    use kind_info, only: add_channel, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
+   use motion, only: motion_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
-   use socket_contacts, only: socket_contacts_t
+   use revolute_level, only: add_film_columns, add_spatial_film_channels, find_level_mistake
+   use socket_joints, only: socket_joints_t
    use surfaces, only: set_materials, shape_internal, surfaces_t
    use text, only: to_text
    implicit none (type, external)
@@ -19,11 +22,12 @@ module clearance_spherical
    public :: add_socket_columns, check_socket, clearance_spherical_t, describe_socket
 
    !> Balls in sockets.
-   type, extends(socket_contacts_t) :: clearance_spherical_t
+   type, extends(socket_joints_t) :: clearance_spherical_t
    contains
       procedure, nopass :: info => spherical_info
       procedure, nopass :: ideal_kind => spherical_ideal_kind
       procedure :: prepare => spherical_prepare
+      procedure :: set_start => spherical_set_start
       procedure, nopass :: mistake => check_socket
       procedure, nopass :: describe => describe_socket
    end type clearance_spherical_t
@@ -41,9 +45,11 @@ contains
       call add_reference(info, "bearing", "points", "centre of the socket")
       call add_reference(info, "journal", "points", "centre of the ball")
       call add_socket_columns(info, "socket", "ball")
+      call add_film_columns(info, .true.)
       call add_channel(info, "eccentricity", "m", "world", 2, "centre of the ball from that of the socket", of_eccentricity)
       call add_channel(info, "force", "N", "world", 2, "force on the ball", of_force)
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the ball about its centre", of_moment)
+      call add_spatial_film_channels(info, .true.)
       call add_contact_channels(info, "ball", "its sliding velocity")
    end function spherical_info
 
@@ -58,7 +64,8 @@ contains
                       lower=0.0_wp, open_lower=.true.)
       call add_reference(info, "material", "material", "material of "//hole//" and "//pin, default="none")
       call add_reference(info, "journal_material", "material", "material of the "//pin//", if another", default="none")
-      call add_word(info, "level", "fidelity: an ideal joint, or dry contact", default="clearance", choices="ideal clearance")
+      call add_word(info, "level", "fidelity: an ideal joint, dry contact, a film, or a film and dry contact", &
+                    default="clearance", choices="ideal clearance lubricated hybrid")
       call add_reference(info, "law", "contact.", "normal law of dry contact, a row of a contact table", default="none")
       call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
    end subroutine add_socket_columns
@@ -86,7 +93,16 @@ contains
          self%socket(k)%clearance = self%items%clearance(k)
          self%socket(k)%radius_j = self%socket(k)%radius_i - self%items%clearance(k)
       end do
+      call self%take_level(items)
    end subroutine spherical_prepare
+
+   !> Nothing but where the films are.
+   subroutine spherical_set_start(self, motion)
+      class(clearance_spherical_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion                 !! bodies where the deck puts them
+
+      call self%seat_films()
+   end subroutine spherical_set_start
 
    !> A ball in a socket, or a pin in a bushing.
    pure subroutine describe_socket(item, materials, pair)
@@ -107,7 +123,7 @@ contains
       call set_materials(pair, materials(material), materials(journal_material))
    end subroutine describe_socket
 
-   !> The inner part must have a radius, and a loose joint a law.
+   !> The inner part must have a radius, and the row what its level needs.
    subroutine check_socket(item, column, message, help)
       type(item_t), intent(in) :: item                       !! the row
       integer, intent(out) :: column                         !! column at fault, 0: all is well
@@ -122,12 +138,10 @@ contains
             column = place_of(item, "clearance")
             message = "clearance must be less than bearing_radius"
             help = "the inner radius is bearing_radius less clearance: here "//to_text(1.0e3_wp*(radius - clearance))//" mm"
-         else if (item%word("level") == "clearance" .and. item%reference("law") == 0) then
-            column = place_of(item, "law")
-            message = "a joint with dry contact needs a normal law"
-            help = "name a row of a contact table, or say level = ideal"
+            return
          end if
       end associate
+      call find_level_mistake(item, column, message, help)
    end subroutine check_socket
 
 end module clearance_spherical

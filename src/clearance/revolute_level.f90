@@ -1,12 +1,12 @@
 !> What the levels of a revolute joint with clearance need: columns and channels of films, and what a row must have.
 module revolute_level
-   use item, only: item_t, place_of
+   use item, only: find_place, item_t, place_of
    use kind_info, only: add_channel, add_flag, add_number, add_reference, add_word, dim_length, dim_none, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: add_film_channels, add_film_columns, film_channels, find_level_mistake, pressure_channels
-   public :: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_power, of_film_pressure
+   public :: add_film_channels, add_film_columns, add_spatial_film_channels, film_channels, find_level_mistake, pressure_channels
+   public :: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_moment, of_film_power, of_film_pressure
    public :: of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
 
    ! channels, behind those of `point_contacts`
@@ -21,23 +21,31 @@ module revolute_level
    integer, parameter :: of_side_flow = 29           !! what leaves at the ends
    integer, parameter :: of_temperature_rise = 30    !! of the lubricant
 
-   character(*), parameter :: film_channels = " film_force film_torque film_thickness film_pressure eccentricity_ratio "// &
-                              "drag_journal drag_bearing film_power side_flow temperature_rise "  !! channels of films
+   integer, parameter :: of_film_moment = 31         !! in space: of the film on the pin
+
+   character(*), parameter :: film_channels = " film_force film_moment film_torque film_thickness film_pressure "// &
+                              "eccentricity_ratio drag_journal drag_bearing film_power side_flow temperature_rise "
+      !! channels of films
    character(*), parameter :: pressure_channels = " film_pressure "  !! channels of joints whose film has pressures
 
 contains
 
    !> Columns of a film.
-   subroutine add_film_columns(info)
+   subroutine add_film_columns(info, is_sphere)
       type(kind_info_t), intent(inout) :: info  !! the geometry
+      logical, intent(in) :: is_sphere          !! that of a ball in a socket
 
       call add_reference(info, "film", "film.", "lubricant film, a row of a film table, or none", default="none")
       call add_reference(info, "lubricant", "lubricant", "what the film consists of, a row of [lubricant]", default="none")
-      call add_word(info, "entrain", "speed that entrains the film: sum of the inertial speeds, or that of journal against " &
-                    //"bearing, as in the book", default="inertial", choices="inertial book")
+      if (.not. is_sphere) then
+         call add_word(info, "entrain", "speed that entrains the film: sum of the inertial speeds, or that of journal against " &
+                       //"bearing, as in the book", default="inertial", choices="inertial book")
+      end if
       call add_flag(info, "film_torque", "moments of the shear in the film on journal and bearing", default="off")
-      call add_word(info, "heat", "off: the film has the temperature of the lubricant; balance: in a static analysis half of the " &
-                    //"rise by its heat more", default="off", choices="off balance")
+      if (.not. is_sphere) then
+         call add_word(info, "heat", "off: the film has the temperature of the lubricant; balance: in a static analysis half of " &
+                       //"the rise by its heat more", default="off", choices="off balance")
+      end if
       call add_number(info, "eps_max", dim_none, "eccentricity over clearance where a lubricated run ends, and beyond which a " &
                       //"film keeps its shape", default="0.99999", lower=0.0_wp, upper=1.0_wp, open_lower=.true., open_upper=.true.)
       call add_number(info, "roughness", dim_length, "roughness of the surfaces, a twentieth of the least film that is safe; " &
@@ -70,6 +78,38 @@ contains
                        //"below L R c (|w_i| + |w_j|)/1000 counts as that", of_temperature_rise)
    end subroutine add_film_channels
 
+   !> Channels of a film in space.
+   subroutine add_spatial_film_channels(info, is_sphere)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+      logical, intent(in) :: is_sphere          !! a ball in a socket, not a pin in a bushing
+
+      if (is_sphere) then
+         call add_channel(info, "film_force", "N", "world", 2, "force of the film on the ball", of_film_force)
+         call add_channel(info, "film_torque", "N.m", "world", 2, "moment of the shear in the film on the ball, where it acts", &
+                          of_film_torque)
+      else
+         call add_channel(info, "film_force", "N", "world", 2, "force of the film on the pin", of_film_force)
+         call add_channel(info, "film_moment", "N.m", "world", 2, "moment of the film on the pin about its middle", of_film_moment)
+         call add_channel(info, "film_torque", "N.m", "joint", 1, "moment of the shear in the film on the pin about the axis of " &
+                          //"the bushing, where it acts", of_film_torque)
+      end if
+      call add_channel(info, "film_thickness", "m", "none", 1, "least thickness of the film, at the end where it is thinner", &
+                       of_film_thickness)
+      call add_channel(info, "eccentricity_ratio", "1", "none", 1, "eccentricity over clearance, of the middle of the film", &
+                       of_eccentricity_ratio)
+      call add_channel(info, "film_power", "W", "none", 1, "power that the film turns into heat", of_film_power)
+      if (is_sphere) return
+      call add_channel(info, "film_pressure", "Pa", "none", 1, "greatest pressure of the film at mid-length, at whole degrees", &
+                       of_film_pressure)
+      call add_channel(info, "drag_journal", "N.m", "joint", 1, "moment of the shear on the pin, whether it acts or not", &
+                       of_drag_journal)
+      call add_channel(info, "drag_bearing", "N.m", "joint", 1, "moment of the shear on the bushing, whether it acts or not", &
+                       of_drag_bearing)
+      call add_channel(info, "side_flow", "m^3/s", "none", 1, "lubricant that leaves at both ends of the bushing", of_side_flow)
+      call add_channel(info, "temperature_rise", "K", "none", 1, "of the lubricant, if the side flow takes all heat along; one " &
+                       //"below L R c (|w_i| + |w_j|)/1000 counts as that", of_temperature_rise)
+   end subroutine add_spatial_film_channels
+
    !> What is wrong with a row as to its level: contact needs a material and a law, a film a lubricant and a length.
    subroutine find_level_mistake(item, column, message, help)
       type(item_t), intent(in) :: item                       !! the row
@@ -93,7 +133,11 @@ contains
          if (item%reference("lubricant") == 0) then
             call find("lubricant", "no lubricant", "name a row of [lubricant] in column lubricant")
          end if
-         if (.not. item%number("length") > 0.0_wp) call find("length", "no length", "give the length of the bearing along its axis")
+         if (find_place(item, "length") > 0) then  ! of a ball there is none
+            if (.not. item%number("length") > 0.0_wp) then
+               call find("length", "no length", "give the length of the bearing along its axis")
+            end if
+         end if
       end if
       if (level /= "hybrid") return
       if (.not. item%number("e_t1") > item%number("e_t0") .and. item%number("e_t0") > 0.0_wp) then

@@ -11,12 +11,12 @@
 !> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
 !> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
 module round_contacts
-   use bearing_films, only: film_state_t
    use catalogue, only: group_t, state_contact, state_film, state_mixed
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use film_law, only: film_motion_t
+   use film_places, only: film_state_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t

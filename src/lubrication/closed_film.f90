@@ -38,6 +38,7 @@ module closed_film
    type, abstract, extends(closed_film_t) :: long_film_t
    contains
       procedure :: fit => fit_long
+      procedure :: halves => long_halves
       procedure, nopass :: profile => long_profile
    end type long_film_t
 
@@ -46,6 +47,7 @@ module closed_film
    contains
       procedure :: fit => fit_short
       procedure :: side_flow => short_side_flow
+      procedure :: halves => short_halves
       procedure, nopass :: profile => short_profile
    end type short_film_t
 
@@ -113,6 +115,29 @@ contains
 
       flow = 2.0_wp*parameters(parameter_length)*parameters(parameter_radius)*norm2(squeezing_velocity(motion))
    end function short_side_flow
+
+   !> Tilted: sections of a long bearing are independent of one another, and Gauss' rule of two of them is exact to third order.
+   subroutine long_halves(self, parameters, of_tilt, of_rate)
+      class(long_film_t), intent(in) :: self                !! the film
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(out) :: of_tilt                      !! see `film_halves` [1]
+      real(wp), intent(out) :: of_rate                      !! see `film_halves` [1]
+
+      of_tilt = 1.0_wp/sqrt(3.0_wp)
+      of_rate = of_tilt
+   end subroutine long_halves
+
+   !> Tilted: (h^3 p')' = -s with a gap and a source that change along the axis has the first moment of two such halves, to first
+   !> order of the tilt.
+   subroutine short_halves(self, parameters, of_tilt, of_rate)
+      class(short_film_t), intent(in) :: self               !! the film
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(out) :: of_tilt                      !! see `film_halves` [1]
+      real(wp), intent(out) :: of_rate                      !! see `film_halves` [1]
+
+      of_rate = 1.0_wp/sqrt(15.0_wp)
+      of_tilt = 2.0_wp*of_rate
+   end subroutine short_halves
 
    !> Forces of n bearings.
    pure subroutine closed_force(self, n, motion, parameters, f)

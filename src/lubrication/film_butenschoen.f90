@@ -15,7 +15,7 @@
 !> gap while it turns. Forces of rotation and squeeze are no sum: where the journal parts fast, the film may feed energy in.
 module film_butenschoen
    use closed_film, only: fit_long, long_film_t
-   use film_law, only: film_bearing_t, n_film_parameter, own_parameters
+   use film_law, only: film_bearing_t, film_halves, n_film_parameter, own_parameters
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
    use text, only: to_text
@@ -42,6 +42,7 @@ module film_butenschoen
       procedure, nopass :: info => butenschoen_info
       procedure :: fit => butenschoen_fit
       procedure :: components => butenschoen_components
+      procedure :: halves => butenschoen_halves
       procedure :: story => butenschoen_story
    end type film_butenschoen_t
 
@@ -56,6 +57,16 @@ contains
       info%source = "Butenschoen (1976)"
       allocate (info%columns(0))
    end function butenschoen_info
+
+   !> Tilted: as any film of finite length.
+   subroutine butenschoen_halves(self, parameters, of_tilt, of_rate)
+      class(film_butenschoen_t), intent(in) :: self         !! the film
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(out) :: of_tilt                      !! see `film_halves` [1]
+      real(wp), intent(out) :: of_rate                      !! see `film_halves` [1]
+
+      call film_halves(self, parameters, of_tilt, of_rate)
+   end subroutine butenschoen_halves
 
    !> Parameters for a bearing.
    subroutine butenschoen_fit(self, bearing, parameters, message, help)

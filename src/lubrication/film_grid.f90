@@ -7,14 +7,18 @@
 !> distances around the bearing, fixed in it, as grooves (length 1) or holes (length and width the same way along the surface); with
 !> `both` the line has no pressure and the fixed ones have that of the row. Published tables of grooved bearings mean `both`.
 !>
-!> Signs: on the journal; angles in the frame of the bearing's body. Beyond eps_max the film has the shape of eps_max in the
-!> direction of e, and v as it is. Source: Reynolds (1886). Limits: any L/D; some hundred times as dear as `finite`.
+!> A tilted journal has rows over the whole length, see `reynolds_grid`.
 !>
-!> Grids are made when the film is fitted to a bearing, one for each L/D, and stay as long as the program: all copies of the film
-!> share them, each solution begins with the wet cells of the one before and does not depend on it.
+!> Signs: on the journal; angles in the frame of the bearing's body. Beyond eps_max, at either end, the film has the shape that it
+!> has with e and tilt made smaller in proportion, and v as it is. Source: Reynolds (1886). Limits: any L/D; some hundred times as
+!> dear as `finite`.
+!>
+!> Grids are made when the film is fitted to a bearing, one for each L/D (with tilt, when it is first asked for), and stay as long
+!> as the program: all copies of the film share them, each solution begins with the wet cells of the one before and does not depend
+!> on it.
 module film_grid
-   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, n_film_parameter, own_parameters, &
-      parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
+   use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, greatest_eccentricity, n_film_parameter, &
+      own_parameters, parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
    use item, only: item_t
    use kind_info, only: add_number, add_word, dim_angle, dim_none, dim_pressure, kind_info_t
    use kinds, only: not_a_number, two_pi, wp
@@ -51,8 +55,10 @@ module film_grid
       procedure :: prepare => grid_prepare
       procedure :: fit => grid_fit
       procedure :: force => grid_force
+      procedure :: tilted_force => grid_tilted_force
       procedure :: side_flow => grid_side_flow
-      procedure, nopass :: has_field => grid_has_field
+      procedure, nopass :: has_field => grid_has
+      procedure, nopass :: knows_tilt => grid_has
       procedure :: field => grid_field
       procedure :: mistake => grid_mistake
       procedure :: story => grid_story
@@ -134,13 +140,14 @@ contains
       if (size(self%supply) > 0) parameters(parameter_pressure) = self%supply(1)%pressure*bearing%clearance**2 &
                                                                   /(bearing%viscosity*bearing%radius**2)
       parameters(parameter_ratio) = 0.5_wp*bearing%length/bearing%radius
-      call find_grid(self, parameters(parameter_ratio), number)
+      call find_grid(self, parameters(parameter_ratio), .false., number)
    end subroutine grid_fit
 
    !> Number of the grid of an L/D; it is made if it is not there.
-   subroutine find_grid(self, ratio, number)
+   subroutine find_grid(self, ratio, is_tilted, number)
       class(film_grid_t), intent(in) :: self  !! the film
       real(wp), intent(in) :: ratio           !! L/D [1]
+      logical, intent(in) :: is_tilted        !! over the whole length
       integer, intent(out) :: number          !! of the grid
 
       type(reynolds_grid_t), allocatable :: grids(:)
@@ -148,12 +155,13 @@ contains
 
       n = size(self%pool%grid)
       do number = 1, n
+         if (self%pool%grid(number)%is_whole .neqv. is_tilted) cycle
          if (abs(self%pool%grid(number)%ratio - ratio) <= same_ratio*ratio) return
       end do
       allocate (grids(n + 1))
       grids(:n) = self%pool%grid
       call new_reynolds_grid(grids(number), ratio, columns_of(self%resolution), rows_of(self%resolution), self%boundary, &
-                             self%supply, .false.)
+                             self%supply, is_tilted)
       call move_alloc(grids, self%pool%grid)
       self%pool%pressure = [self%pool%pressure, huge(1.0_wp)]
    end subroutine find_grid
@@ -166,19 +174,32 @@ contains
       real(wp), intent(in) :: parameters(n_film_parameter, n)  !! (n_film_parameter, n) from `fit` [any]
       real(wp), intent(out) :: f(2, n)                         !! (2, n) forces on the journals, world frame [N]
 
-      type(film_result_t) :: film
-      real(wp) :: cosine, sine
-      integer :: k, number, status
+      real(wp) :: f_1(2)
+      integer :: k
 
       do k = 1, n
-         call solve_one(self, motion(k), parameters(:, k), number, status)
-         call get_result(self%pool%grid(number), film)
-         cosine = cos(motion(k)%angle)
-         sine = sin(motion(k)%angle)
-         f(1, k) = parameters(parameter_scale, k)*(cosine*film%f(1) - sine*film%f(2))
-         f(2, k) = parameters(parameter_scale, k)*(sine*film%f(1) + cosine*film%f(2))
+         call grid_tilted_force(self, motion(k), parameters(:, k), f(:, k), f_1)
       end do
    end subroutine grid_force
+
+   !> Force of one bearing, its journal tilted or not, and its first moment over half the length.
+   subroutine grid_tilted_force(self, motion, parameters, f, f_1)
+      class(film_grid_t), intent(in) :: self                !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(out) :: f(2)                         !! (2) force on the journal, frame of the motion [N]
+      real(wp), intent(out) :: f_1(2)                       !! (2) its moment along the axis, over half the length [N]
+
+      type(film_result_t) :: film
+      integer :: number, status
+
+      call solve_one(self, motion, parameters, number, status)
+      call get_result(self%pool%grid(number), film)
+      associate (cosine => cos(motion%angle), sine => sin(motion%angle), scale => parameters(parameter_scale))
+         f = scale*[cosine*film%f(1) - sine*film%f(2), sine*film%f(1) + cosine*film%f(2)]
+         f_1 = scale*[cosine*film%f_1(1) - sine*film%f_1(2), sine*film%f_1(1) + cosine*film%f_1(2)]
+      end associate
+   end subroutine grid_tilted_force
 
    !> What leaves at the ends less what comes in there: c R^3/(3 L) times that of the grid; none of a full film.
    function grid_side_flow(self, motion, parameters) result(flow)
@@ -207,11 +228,12 @@ contains
       type(journal_state_t) :: state
 
       status = 0
-      call find_grid(self, parameters(parameter_ratio), number)
       state = state_of(motion, parameters)
+      call find_grid(self, parameters(parameter_ratio), any(abs([state%g, state%w]) > 0.0_wp), number)
       associate (grid => self%pool%grid(number), solved => self%pool%pressure(number), pressure => parameters(parameter_pressure))
          if (.not. abs(solved - pressure) > 0.0_wp) then
-            if (.not. any(abs([grid%state%e - state%e, grid%state%v - state%v]) > 0.0_wp)) return
+            if (.not. any(abs([grid%state%e - state%e, grid%state%v - state%v, grid%state%g - state%g, grid%state%w - state%w]) &
+                          > 0.0_wp)) return
          end if
          grid%supply%pressure = pressure
          if (size(grid%supply) > 1) where (grid%supply%is_at_widest_gap) grid%supply%pressure = 0.0_wp
@@ -220,10 +242,10 @@ contains
       end associate
    end subroutine solve_one
 
-   !> It has pressures.
-   pure logical function grid_has_field() result(has)
+   !> It has pressures, at any tilt.
+   pure logical function grid_has() result(has)
       has = .true.
-   end function grid_has_field
+   end function grid_has
 
    !> Pressures and gaps of one bearing; no numbers should the pressures not be found.
    subroutine grid_field(self, motion, parameters, theta, y, p, h)
@@ -244,23 +266,36 @@ contains
       h = h*parameters(parameter_clearance)
    end subroutine grid_field
 
-   !> The motion in the frame of the bearing's body and parts of the clearance, the journal within eps_max.
+   !> The motion in the frame of the bearing's body and parts of the clearance, the journal within eps_max at both ends.
    pure function state_of(motion, parameters) result(state)
       type(film_motion_t), intent(in) :: motion             !! the motion
       real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) of the bearing [any]
       type(journal_state_t) :: state                        !! the state
 
-      real(wp) :: e(2), size_of_e, v(2)
+      real(wp) :: half_speed, longest, part, reach
 
-      associate (c => parameters(parameter_clearance), eps_max => parameters(parameter_eps_max), cosine => cos(motion%angle), &
-                 sine => sin(motion%angle))
-         v = [motion%e_dot(1) + 0.5_wp*motion%speed_sum*motion%e(2), motion%e_dot(2) - 0.5_wp*motion%speed_sum*motion%e(1)]/c
-         e = motion%e/c
-         size_of_e = norm2(e)
-         if (size_of_e > eps_max) e = e*(eps_max/size_of_e)
-         state%e = [cosine*e(1) + sine*e(2), cosine*e(2) - sine*e(1)]
-         state%v = [cosine*v(1) + sine*v(2), cosine*v(2) - sine*v(1)]
+      half_speed = 0.5_wp*motion%speed_sum
+      associate (c => parameters(parameter_clearance), g => motion%tilt, e => motion%e)
+         part = 1.0_wp/c
+         longest = parameters(parameter_eps_max)*c
+         reach = greatest_eccentricity(motion)
+         if (reach > longest) part = part*longest/reach
+         state%e = turned(part*e)
+         state%g = turned(part*g)
+         state%v = turned([motion%e_dot(1) + half_speed*e(2), motion%e_dot(2) - half_speed*e(1)]/c)
+         state%w = turned([motion%tilt_dot(1) + half_speed*g(2), motion%tilt_dot(2) - half_speed*g(1)]/c)
       end associate
+
+   contains
+
+      !> A vector in the frame of the bearing's body.
+      pure function turned(x) result(y)
+         real(wp), intent(in) :: x(2)  !! (2) the vector, frame of the motion [any]
+         real(wp) :: y(2)              !! (2) frame of the body [any]
+
+         y = [cos(motion%angle)*x(1) + sin(motion%angle)*x(2), cos(motion%angle)*x(2) - sin(motion%angle)*x(1)]
+      end function turned
+
    end function state_of
 
    !> The grid of a bearing.

@@ -9,12 +9,13 @@
 !> so that a bearing which turns as a rigid body has no pressure, and no film divides by e. In terms of eps = |e|/c, n = e/|e| and
 !> t = z x n: v.n = c eps', v.t = -c eps Om/2 with Om = w_J + w_B - 2 gamma'. A film that is dissipative has F.v <= 0.
 !>
-!> Signs: forces are those on the journal, world frame; the bearing gets the opposite ones. Moments: `torques`.
+!> Signs: forces are those on the journal, world frame; the bearing gets the opposite ones. Moments: `torques`. In space the frame
+!> is one of the bearing, its third axis that of the bearing, and a journal may be tilted: see `tilted_force`.
 !>
 !> An object is one row of a deck table. What depends on the bearing is fitted once to a column of parameters, so that one row
 !> serves bearings of different sizes. Beyond eps_max (of the bearing) the film's shape stays that of eps_max: forces are finite at
 !> every eccentricity. Source: Flores et al. (2008), chapter 5, with w_J + w_B for its relative speed: measured in the frame of the
-!> bearing, gamma' would be another one. Limits: axes parallel; viscosity the same everywhere.
+!> bearing, gamma' would be another one. Limits: viscosity the same everywhere; `force` is that of parallel axes.
 module film_law
    use finite_flow, only: flow_part
    use item, only: item_t
@@ -23,7 +24,7 @@ module film_law
    implicit none (type, external)
    private
    public :: basic_parameters, film_bearing_t, film_law_t, film_motion_t, film_slopes_t, film_slot_t, gap_at, n_film_parameter
-   public :: own_parameters
+   public :: film_halves, greatest_eccentricity, own_parameters
    public :: squeezing_velocity
    public :: parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
 
@@ -42,6 +43,7 @@ module film_law
       real(wp) :: length = 0.0_wp      !! L: along the axis [m]
       real(wp) :: viscosity = 0.0_wp   !! mu: dynamic viscosity [Pa.s]
       real(wp) :: eps_max = 1.0_wp     !! eccentricity ratio beyond which the film's shape stays the same, below 1 [1]
+      logical :: is_sphere = .false.   !! a socket with a ball, which has no length
    end type film_bearing_t
 
    !> What a film knows of the motion of a bearing.
@@ -51,6 +53,9 @@ module film_law
       real(wp) :: speed_sum = 0.0_wp       !! w_J + w_B: inertial angular speeds of the bodies of journal and bearing [rad/s]
       real(wp) :: speed_difference = 0.0_wp !! w_J - w_B [rad/s]
       real(wp) :: angle = 0.0_wp           !! of the bearing's body [rad]
+      real(wp) :: tilt(2) = 0.0_wp         !! (2) g: what a tilt of the journal adds to e at the end y = 1 [m]
+      real(wp) :: tilt_dot(2) = 0.0_wp     !! (2) its rate, as e_dot that of e [m/s]
+      real(wp) :: engaged = 1.0_wp         !! part of the film's length that the journal is in [1]
    end type film_motion_t
 
    !> How the force changes with a small motion of the journal: F = F_0 - K de - B de'.
@@ -68,10 +73,15 @@ module film_law
       procedure(prepare_interface), deferred :: prepare
       procedure(fit_interface), deferred :: fit
       procedure(force_interface), deferred :: force
+      procedure, non_overridable :: force_of_one
+      procedure :: tilted_force => film_tilted_force
+      procedure :: halves => film_halves
+      procedure, nopass :: is_of_sphere => film_false
+      procedure, nopass :: knows_tilt => film_false
       procedure :: torques => film_torques
       procedure :: side_flow => film_side_flow
       procedure :: linearise => film_linearise
-      procedure, nopass :: has_field => film_has_field
+      procedure, nopass :: has_field => film_false
       procedure :: field => film_field
       procedure :: mistake => film_mistake
       procedure :: story => film_story
@@ -122,7 +132,73 @@ module film_law
       end subroutine force_interface
    end interface
 
+   interface
+      !> Force of one bearing whose journal is tilted, e(y) = e + y g between the ends y = -1 and 1, and its first moment over half
+      !> the length, f_1: that about the middle is (L/2) f_1. Of a film that knows aligned journals only: two aligned halves,
+      !>
+      !> F = (F_+ + F_-)/2,   f_1 = b (F_+ - F_-)/2,   F_+ at e + a g, v + b w,   F_- at e - a g, v - b w,
+      !> w = g' - (w_J + w_B)/2 z x g
+      !>
+      !> with a and b of `halves`. So F.v + f_1.w <= 0 wherever that holds for each half. Source: own derivation; long films: Gauss'
+      !> rule of two points. Limits: tilts that are small beside the gap that is left, see docs/films.md; a film that knows
+      !> better overrides this.
+      module subroutine film_tilted_force(self, motion, parameters, f, f_1)
+         implicit none (type, external)
+         class(film_law_t), intent(in) :: self                 !! the film
+         type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+         real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+         real(wp), intent(out) :: f(2)                         !! (2) force on the journal, frame of the motion [N]
+         real(wp), intent(out) :: f_1(2)                       !! (2) its moment along the axis, over half the length [N]
+      end subroutine film_tilted_force
+
+      !> Where the aligned halves of a film of finite length are that stand for a tilted one: from the middle, over half the length.
+      !>
+      !> b^2 = [1/3 - (x coth(x) - 1)/x^2]/[1 - tanh(x)/x],   x = L/D,   a = b [2 - (b^2 - 1/15)/(4/15)]
+      !>
+      !> b is exact where the journal is in the middle; between short films (b^2 = 1/15, a = 2 b) and long ones (b^2 = 1/3,
+      !> a = b), where both are exact to first order of the tilt, a goes with b^2.
+      module subroutine film_halves(self, parameters, of_tilt, of_rate)
+         implicit none (type, external)
+         class(film_law_t), intent(in) :: self                 !! the film
+         real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+         real(wp), intent(out) :: of_tilt                      !! a [1]
+         real(wp), intent(out) :: of_rate                      !! b [1]
+      end subroutine film_halves
+   end interface
+
 contains
+
+   !> The force of one bearing, tilted or not.
+   subroutine force_of_one(self, motion, parameters, f, f_1)
+      class(film_law_t), intent(in) :: self                 !! the film
+      type(film_motion_t), intent(in) :: motion             !! motion of the bearing
+      real(wp), intent(in) :: parameters(n_film_parameter)  !! (n_film_parameter) from `fit` [any]
+      real(wp), intent(out) :: f(2)                         !! (2) force on the journal, frame of the motion [N]
+      real(wp), intent(out) :: f_1(2)                       !! (2) its moment along the axis, over half the length [N]
+
+      real(wp) :: one(2, 1)
+
+      if (any(abs([motion%tilt, motion%tilt_dot]) > 0.0_wp)) then
+         call self%tilted_force(motion, parameters, f, f_1)
+      else
+         call self%force(1, [motion], reshape(parameters, [n_film_parameter, 1]), one)
+         f = one(:, 1)
+         f_1 = 0.0_wp
+      end if
+   end subroutine force_of_one
+
+   !> Eccentricity of the journal at the end where it is greater.
+   pure real(wp) function greatest_eccentricity(motion) result(distance)
+      type(film_motion_t), intent(in) :: motion  !! motion of the bearing
+
+      distance = max(norm2(motion%e + motion%tilt), norm2(motion%e - motion%tilt))
+   end function greatest_eccentricity
+
+   !> Whether the film is that of a ball in a socket, whether its `tilted_force` is right for any tilt, whether it has
+   !> pressures that `field` gives, not only a force: one for which that holds overrides this.
+   pure logical function film_false()
+      film_false = .false.
+   end function film_false
 
    !> The parameters that every film has; the others are zero.
    pure subroutine basic_parameters(bearing, parameters)
@@ -262,11 +338,6 @@ contains
       end do
       slope = slope/(step_e + step_e_dot)
    end function film_slope
-
-   !> Whether the film has pressures of its own that `field` gives, not only a force; one that has them overrides this.
-   pure logical function film_has_field()
-      film_has_field = .false.
-   end function film_has_field
 
    !> Pressure and gap of one bearing at places of one's own. A film without pressures gives the gap, and pressures that are no
    !> numbers. Not pure, as `force`.

@@ -11,12 +11,14 @@ module film_registry
    use film_short_exact, only: film_short_exact_t
    use film_short_gumbel, only: film_short_gumbel_t
    use film_short_sommerfeld, only: film_short_sommerfeld_t
+   use film_spherical, only: film_spherical_t
    use film_squeeze, only: film_squeeze_t
    implicit none (type, external)
    private
-   public :: n_film_kinds, new_film_law
+   public :: n_film_kinds, n_journal_film_kinds, new_film_law
 
-   integer, parameter :: n_film_kinds = 11  !! number of films
+   integer, parameter :: n_film_kinds = 12  !! number of films
+   integer, parameter :: n_journal_film_kinds = n_film_kinds - 1  !! the first of them, of journals; the last one is of a ball
 
 contains
 
@@ -37,6 +39,7 @@ contains
       case (9); allocate (film_butenschoen_t :: law)
       case (10); allocate (film_finite_t :: law)
       case (11); allocate (film_grid_t :: law)
+      case (12); allocate (film_spherical_t :: law)
       end select
    end subroutine new_film_law
 

@@ -1,12 +1,12 @@
 !> What tables cannot say of themselves: names that are doubled or reserved, joints of a body with itself, journals that do not fit.
 module scene_checks
-   use bearing_films, only: film_bearing_of
    use clearance_registry, only: n_clearance_kinds, new_clearance_set
    use clearance_set, only: clearance_set_t
    use columns, only: cell_index, cell_text, column_of, find_column
    use deck_types, only: add_default, deck_t
    use diagnostics, only: diagnostics_t
-   use film_law, only: n_film_parameter
+   use film_law, only: film_bearing_t, n_film_parameter
+   use film_places, only: film_bearing_of
    use friction_law, only: memory_slip
    use force_registry, only: n_force_kinds
    use item, only: item_t
@@ -279,14 +279,25 @@ contains
       character(:), allocatable, intent(inout) :: message   !! what is wrong
       character(:), allocatable, intent(inout) :: help      !! what would be right
 
+      type(film_bearing_t) :: bearing
       real(wp) :: parameters(n_film_parameter)
       integer :: film
 
       film = cell_index(info, item, "film")
       if (film == 0 .or. cell_text(info, item, "level") == "clearance") return
-      call scene%lubrication%films(film)%law%fit(film_bearing_of(item, scene%lubrication%oils), parameters, message, help)
+      bearing = film_bearing_of(item, scene%lubrication%oils)
+      associate (law => scene%lubrication%films(film)%law)
+         call law%fit(bearing, parameters, message, help)
+         if (law%is_of_sphere() .neqv. bearing%is_sphere) then
+            message = "film '"//law%name//"' is that of a ball in a socket"
+            help = "name a row of another film table, as film.finite"
+            if (bearing%is_sphere) message = "film '"//law%name//"' is that of a journal in a bearing"
+            if (bearing%is_sphere) help = "name a row of film.spherical"
+         end if
+      end associate
       if (message /= "") column = column_of(info, "film")
-      if (message /= "" .or. item%word("heat") == "off") return
+      if (message /= "" .or. bearing%is_sphere) return
+      if (item%word("heat") == "off") return
       if (item%reference("lubricant") == 0) return
       if (scene%lubrication%oils(item%reference("lubricant"))%grade /= "none") return
       column = column_of(info, "heat")

@@ -2,7 +2,7 @@
 program film_errors
    use, intrinsic :: iso_fortran_env, only: output_unit
    use film_comparison, only: column_names, error_row_t, grid_force, motion_names, ratios, row_of, steps_of_eps
-   use film_registry, only: n_film_kinds
+   use film_registry, only: n_journal_film_kinds
    use kinds, only: wp
    implicit none (type, external)
 
@@ -19,7 +19,7 @@ program film_errors
       end do
    end do
    write (output_unit, "(a)") column_names
-   do kind = 1, n_film_kinds
+   do kind = 1, n_journal_film_kinds
       do k = 1, size(motion_names)
          do i = 1, size(ratios)
             do j = 1, size(steps_of_eps)

@@ -20,7 +20,9 @@ module test_spatial_clearances
    use law_fixture, only: steel, tame
    use motion, only: cross, loads_t, motion_t, new_loads, new_motion
    use normal_law, only: n_law_parameter, normal_law_t
+   use point_contact, only: most_of_item
    use read_channel, only: read_loose
+   use revolute_level, only: film_channels
    use rotations, only: rate_of_parameters, rotation_of_parameters, second_rate_of_parameters, turned_by
    use spatial_coordinates, only: new_spatial_coordinates, spatial_coordinates_t
    implicit none (type, external)
@@ -139,6 +141,10 @@ contains
       call fill_item(bench%info, 1, random, item(1))
       call set_number(bench%info, "bearing_radius", 10.0e-3_wp, item(1))
       call set_number(bench%info, "clearance", 0.5e-3_wp, item(1))
+      call set_number(bench%info, "gap", 0.5e-3_wp, item(1))
+      call set_number(bench%info, "width", 15.0e-3_wp, item(1))
+      call set_number(bench%info, "height", 10.0e-3_wp, item(1))
+      call set_number(bench%info, "corner_radius", 1.0e-3_wp, item(1))
       call set_number(bench%info, "length", 20.0e-3_wp, item(1))
       call set_number(bench%info, "journal_length", merge(30.0e-3_wp, 18.0e-3_wp, ends == 2), item(1))
       c = column_number(bench%info, "ends")
@@ -172,12 +178,13 @@ contains
       call bring_into_contact(random, bench)
    end subroutine make_bench
 
-   !> Tilt the journal and shift it so that all its contacts overlap.
+   !> Tilt the journal and shift it so that two of its contacts overlap, or its only one.
    subroutine bring_into_contact(random, bench)
       type(random_t), intent(inout) :: random   !! where numbers come from
       type(bench_t), intent(inout) :: bench     !! the set; contacts begin
 
-      real(wp) :: delta(4), rate(4), shift(3), start(3)
+      real(wp) :: delta(most_of_item), rate(most_of_item), shift(3), start(3)
+      logical :: is_deep(most_of_item)
       integer :: k
 
       bench%q(4:, 2) = turned_by(bench%q(4:, 2), 2.0e-3_wp*random%vector(3, -1.0_wp, 1.0_wp))
@@ -188,10 +195,14 @@ contains
          bench%q(:3, 2) = start + shift
          call move(bench, 0.0_wp)
          call bench%set%gaps(bench%motion, delta, rate)
-         if (all(delta(:bench%set%n_contact) > 2.0e-5_wp)) exit
+         associate (n => bench%set%n_contact)
+            is_deep(:n) = delta(:n) > 2.0e-5_wp
+            if (count(is_deep(:n)) >= min(n, 2)) exit
+         end associate
       end do
       bench%fits = k <= 1000
       do k = 1, bench%set%n_contact
+         if (.not. is_deep(k)) cycle
          call bench%set%begin_contact(k, 0.0_wp, 5.0_wp, 0.0_wp)
          call let_slip(bench, k)
       end do
@@ -257,7 +268,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error  !! what failed
       type(bench_t), intent(inout) :: bench               !! the combination
 
-      real(wp) :: delta(4, 4), now(4), rate(4)
+      real(wp) :: delta(most_of_item, 4), now(most_of_item), rate(most_of_item)
       integer :: k
 
       do k = 1, 4
@@ -283,7 +294,7 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp) :: losses(2, 4), moment(3), scale
+      real(wp) :: losses(2, most_of_item), moment(3), scale
       integer :: k
 
       call new_loads(n_body, loads)
@@ -311,7 +322,7 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp) :: given, losses(2, 4), scale, stored(4)
+      real(wp) :: given, losses(2, most_of_item), scale, stored(4)
       integer :: k
 
       call new_loads(n_body, loads)
@@ -350,13 +361,15 @@ contains
 
       if (bench%set%laws%normal%jumps_at_turn) return
       do c = 1, bench%set%n_contact
+         if (.not. bench%set%contact(c)%is_touching) cycle
          do k = 1, 4
             call move(bench, places(k)*tick)
             call bench%set%watch(c, bench%motion, delta, rate, f(k), slope)
          end do
          call move(bench, 0.0_wp)
          call bench%set%watch(c, bench%motion, delta, rate, force, slope)
-         call check_close(error, slope/force, five_point(f, tick)/force, 1.0e-3_wp, bench%name//": rate of the force")
+         call check_close(error, slope/force, five_point(f, tick)/force, 1.0e-3_wp + 3.0e-7_wp*abs(slope/force), &
+                          bench%name//": rate of the force")
       end do
    end subroutine force_rate
 
@@ -366,14 +379,14 @@ contains
       call claim_all(error, channels)
    end subroutine test_channels
 
-   !> Every channel that a geometry announces is filled; the force on the journal is that of the loads.
+   !> Every channel that a geometry announces is filled, but those of films; the force on the journal is that of the loads.
    subroutine channels(error, bench)
       type(error_t), allocatable, intent(inout) :: error  !! what failed
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
       real(wp), allocatable :: values(:, :)
-      real(wp) :: losses(2, 4), scale
+      real(wp) :: losses(2, most_of_item), scale
       logical :: is_of_contact
       integer :: c
 
@@ -382,6 +395,7 @@ contains
       scale = sum(abs(loads%force))
       do c = 1, size(bench%info%channels)
          associate (channel => bench%info%channels(c))
+            if (index(film_channels, " "//channel%name//" ") > 0) cycle
             is_of_contact = index(" penetration penetration_rate normal_force friction_force state contact_point ", &
                                   " "//channel%name//" ") > 0
             allocate (values(merge(3, 1, channel%components == 2), merge(bench%set%n_contact, 1, is_of_contact)), &

@@ -5,7 +5,7 @@ module test_bearing_films
    use differences, only: five_point, places
    use errors, only: error_t
    use film_law, only: film_law_t, film_motion_t, film_slopes_t
-   use film_registry, only: n_film_kinds, new_film_law
+   use film_registry, only: n_journal_film_kinds, new_film_law
    use fixed_random, only: random_t
    use kind_info, only: kind_info_t
    use kinds, only: pi, wp
@@ -100,7 +100,7 @@ contains
                                               "lubricated on inertial 0mm 0mm", &
                                               "lubricated on book 0mm 0mm", "hybrid on inertial 5um 10um"]
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_journal_film_kinds
          call new_film_law(kind, law)
          info = law%info()
          do option = 1, size(values)

@@ -3,7 +3,7 @@ module test_film_errors
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use film_comparison, only: column_names, error_row_t, grid_force, motion_names, ratios, row_of, steps_of_eps
-   use film_registry, only: n_film_kinds
+   use film_registry, only: n_journal_film_kinds
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -18,7 +18,7 @@ module test_film_errors
       type(error_row_t) :: row       !! errors
    end type line_t
 
-   integer, parameter :: n_line = n_film_kinds*size(motion_names)*size(ratios)*size(steps_of_eps)  !! rows of the file
+   integer, parameter :: n_line = n_journal_film_kinds*size(motion_names)*size(ratios)*size(steps_of_eps)  !! rows of the file
 
 contains
 
@@ -67,7 +67,7 @@ contains
       if (allocated(error)) return
       do k = 7, n_line, 53
          associate (line => lines(k))
-            kind = 1 + (k - 1)/(n_line/n_film_kinds)
+            kind = 1 + (k - 1)/(n_line/n_journal_film_kinds)
             motion = findloc(motion_names == line%motion, .true., dim=1)
             call row_of(kind, line%ratio, line%eps, motion, grid_force(line%ratio, line%eps, motion), name, row)
             call check_equal(error, trim(line%film), name, "film")
@@ -89,8 +89,8 @@ contains
       allocate (lines(n_line))
       call read_lines(error, lines)
       if (allocated(error)) return
-      n = n_line/n_film_kinds
-      do kind = 1, n_film_kinds
+      n = n_line/n_journal_film_kinds
+      do kind = 1, n_journal_film_kinds
          k = (kind - 1)*n
          greatest = maxval(lines(k + 1:k + n)%row%error)
          select case (lines(k + 1)%film)

@@ -5,7 +5,7 @@ module test_journal_whirl
    use errors, only: error_t
    use film_case, only: film_case_t, force_of, make_film, make_film_kind, motion_of
    use film_law, only: film_bearing_t, film_motion_t, film_slopes_t
-   use film_registry, only: n_film_kinds
+   use film_registry, only: n_journal_film_kinds
    use journal_whirl, only: find_whirl, whirl_t
    use kinds, only: pi, wp
    use text, only: to_text
@@ -102,7 +102,7 @@ contains
       real(wp) :: e, f(2), size_b, size_k, tolerance
       integer :: i, kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_journal_film_kinds
          call make_film_kind(kind, bearing, case)
          if (case%name == "squeeze") cycle  ! no force of rotation
          tolerance = merge(2.0e-4_wp, 1.0e-7_wp, case%name == "grid")
@@ -162,7 +162,7 @@ contains
       type(film_slopes_t) :: slopes
       integer :: i, kind
 
-      do kind = 1, n_film_kinds
+      do kind = 1, n_journal_film_kinds
          call make_film_kind(kind, bearing, case)
          do i = 0, 1
             call case%law%linearise(motion_of(case, 0.6_wp*i, 0.0_wp, 0.0_wp, 0.0_wp), case%parameters, slopes)
