@@ -6,16 +6,19 @@ module reduction_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use catalogue, only: catalogue_t
    use check, only: check_close, check_equal, check_true
+   use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
+   use mechanism_energy, only: energy_of, energy_t
    use mechanism_report, only: build_catalogue, report_state
+   use recorder, only: summary_t
    use scene_fixture, only: nl, start_text, system_of_text
    use text, only: replace, to_text
    implicit none (type, external)
    private
-   public :: both_systems, compare_at, compare_often, complete_state, with_word, words
+   public :: both_systems, compare_at, compare_often, compare_works, complete_state, with_word
 
    character(*), parameter :: words(2) = ["full  ", "fewest"]  !! words of `coordinates`
 
@@ -149,5 +152,39 @@ contains
          call compare_at(full, small, random%between(0.0_wp, t_end), y, error)
       end do
    end subroutine compare_often
+
+   !> Works and energies after a run agree, and the ledger closes, with all coordinates and without.
+   subroutine compare_works(deck, end, least_work, error)
+      character(*), intent(in) :: deck                        !! the deck, without its analysis
+      real(wp), intent(in) :: end                             !! of the run [s]
+      real(wp), intent(in) :: least_work                      !! that the drivers do [J]
+      type(error_t), allocatable, intent(inout) :: error      !! first failure
+
+      type(energy_t) :: energy(2)
+      type(keeper_t) :: keeper(2)
+      type(loaded_t), allocatable :: loaded(:)
+      type(summary_t) :: summary(2)
+      integer :: k
+
+      allocate (loaded(2))
+      do k = 1, 2
+         call load_text("deck = 1"//nl//with_word(deck//"[analysis.dynamic]"//nl//"end = "//to_text(end)//" s"//nl// &
+                                                "tolerance = 1e-11", words(k))//nl, loaded(k), error)
+         if (allocated(error)) return
+         call run_to_end(loaded(k), keeper(k), summary(k), error)
+         if (allocated(error)) return
+         energy(k) = energy_of(loaded(k)%system, loaded(k)%method%step%y1)
+         associate (quality => summary(k)%quality)
+            call check_true(error, quality%energy_residual_max < 1.0e-8_wp*quality%energy_max, "the ledger closes, "//words(k))
+         end associate
+      end do
+      associate (a => energy(1), b => energy(2))
+         call check_close(error, [b%kinetic, b%potential, b%elastic, b%drive_work, b%load_work, b%dissipated_damper], &
+                          [a%kinetic, a%potential, a%elastic, a%drive_work, a%load_work, a%dissipated_damper], 1.0e-7_wp, &
+                          "energies and works", relative=.true.)
+         call check_true(error, abs(a%drive_work) > least_work, "the drivers work")
+         call check_true(error, abs(b%stabilisation_work) < 1.0e-9_wp*abs(b%drive_work), "nothing is left to the stabilisation")
+      end associate
+   end subroutine compare_works
 
 end module reduction_comparison

@@ -14,7 +14,7 @@
 !> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits: the
 !> guide has no ends; faces and edges that lie flat touch with their corners.
 module clearance_block
-   use bodies, only: material_t
+   use clearance_translational, only: describe_corner
    use clearance_set, only: loss_contact, loss_friction, no_mistake
    use contact_grip, only: tangent_t
    use contact_laws, only: press_in_course
@@ -27,8 +27,8 @@ module clearance_block
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment, point_contacts_t
-   use space_tangents, only: lie_in_space, set_sliding
-   use surfaces, only: set_materials, shape_plane, surfaces_t
+   use space_tangents, only: lie_in_space, set_sliding, spatial_force
+   use spatial_rows, only: axis_of
    use text, only: text_t
    implicit none (type, external)
    private
@@ -61,13 +61,13 @@ module clearance_block
       procedure :: prepare => block_prepare
       procedure :: set_start => block_set_start
       procedure, nopass :: mistake => no_mistake
-      procedure, nopass :: describe => block_describe
+      procedure, nopass :: describe => describe_corner
       procedure :: span_of => block_span_of
       procedure :: evaluate => block_evaluate
       procedure :: measure => block_measure
       procedure :: penetration_acceleration => block_penetration_acceleration
       procedure :: lie => block_lie
-      procedure, nopass :: force_on_j => block_force_on_j
+      procedure, nopass :: force_on_j => spatial_force
       procedure :: report_item => block_report_item
    end type clearance_block_t
 
@@ -170,24 +170,6 @@ contains
       end do
    end subroutine block_set_start
 
-   !> A rounded corner on a plane.
-   pure subroutine block_describe(item, materials, pair)
-      type(item_t), intent(in) :: item              !! the row
-      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
-      type(surfaces_t), intent(out) :: pair         !! its surfaces
-
-      integer :: guide_material, material
-
-      pair%shape = shape_plane
-      pair%radius_j = item%number("corner_radius")
-      pair%length = item%number("length")
-      pair%width = item%number("width")
-      material = item%reference("material")
-      guide_material = item%reference("guide_material")
-      if (guide_material == 0) guide_material = material
-      call set_materials(pair, materials(guide_material), materials(material))
-   end subroutine block_describe
-
    !> How far what takes part in a contact is from the centres of mass of both bodies.
    pure function block_span_of(self, contact) result(span)
       class(clearance_block_t), intent(in) :: self    !! the set
@@ -241,11 +223,11 @@ contains
       corner = (k - (item - 1)*n_each + 1)/2
       across = k - (item - 1)*n_each - 2*(corner - 1)
       associate (block => self%block(item), i => self%items%body(1, item), j => self%items%body(2, item))
-         contact%normal = turned(motion, i, side(across, corner)*block%frame_i(:, across))
+         contact%normal = axis_of(motion, i, side(across, corner)*block%frame_i(:, across))
          arm = self%items%s_j(:, item) + matmul(block%frame_j, side(:, corner)*block%half)
-         contact%arm_j = turned(motion, j, arm)
+         contact%arm_j = axis_of(motion, j, arm)
          contact%arm_i = motion%r(:, j) + contact%arm_j - motion%r(:, i)
-         d = contact%arm_i - turned(motion, i, self%items%s_i(:, item))
+         d = contact%arm_i - axis_of(motion, i, self%items%s_i(:, item))
          w = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
          contact%delta = dot_product(contact%normal, d) - block%half(across) - self%items%clearance(item)
          contact%rate = dot_product(contact%normal, w)
@@ -292,16 +274,6 @@ contains
       end associate
    end subroutine block_lie
 
-   !> Force of a contact on body j.
-   pure function block_force_on_j(contact, f_n, f_t) result(f)
-      type(point_contact_t), intent(in) :: contact  !! its kinematics
-      real(wp), intent(in) :: f_n                   !! normal force [N]
-      real(wp), intent(in) :: f_t                   !! friction force on j along t [N]
-      real(wp) :: f(3)                              !! (3) world frame [N]
-
-      f = -f_n*contact%normal + f_t*contact%tangent
-   end function block_force_on_j
-
    !> Centre of the block from the guide's line, moment of the forces about it, and tilt.
    subroutine block_report_item(self, code, item, motion, contacts, f_n, f_t, value)
       class(clearance_block_t), intent(in) :: self        !! the set
@@ -317,11 +289,11 @@ contains
       integer :: c
 
       associate (i => self%items%body(1, item), j => self%items%body(2, item))
-         centre = turned(motion, j, self%items%s_j(:, item))
-         u = turned(motion, i, self%block(item)%frame_i(:, 3))
+         centre = axis_of(motion, j, self%items%s_j(:, item))
+         u = axis_of(motion, i, self%block(item)%frame_i(:, 3))
          select case (code)
          case (of_eccentricity)
-            d = motion%r(:, j) + centre - motion%r(:, i) - turned(motion, i, self%items%s_i(:, item))
+            d = motion%r(:, j) + centre - motion%r(:, i) - axis_of(motion, i, self%items%s_i(:, item))
             value = d - dot_product(d, u)*u
          case (of_moment)
             value = 0.0_wp
@@ -329,20 +301,10 @@ contains
                value = value + cross(contacts(c)%arm_j - centre, self%force_on_j(contacts(c), f_n(c), f_t(c)))
             end do
          case (of_tilt)
-            d = turned(motion, j, self%block(item)%frame_j(:, 3))
+            d = axis_of(motion, j, self%block(item)%frame_j(:, 3))
             value = atan2(norm2(cross(u, d)), dot_product(u, d))
          end select
       end associate
    end subroutine block_report_item
-
-   !> A vector of a body in the world.
-   pure function turned(motion, body, s) result(a)
-      type(motion_t), intent(in) :: motion   !! positions
-      integer, intent(in) :: body            !! the body
-      real(wp), intent(in) :: s(3)           !! (3) body's frame [any]
-      real(wp) :: a(3)                       !! (3) world frame [any]
-
-      a = motion%rot(:, 1, body)*s(1) + motion%rot(:, 2, body)*s(2) + motion%rot(:, 3, body)*s(3)
-   end function turned
 
 end module clearance_block

@@ -31,7 +31,7 @@ module clearance_translational
    use surfaces, only: set_materials, shape_face, shape_plane, surfaces_t
    implicit none (type, external)
    private
-   public :: clearance_translational_t
+   public :: clearance_translational_t, describe_corner
 
    real(wp), parameter :: corner_x(n_corner) = [-0.5_wp, 0.5_wp, 0.5_wp, -0.5_wp]   !! of the length [1]
    real(wp), parameter :: corner_y(n_corner) = [-0.5_wp, -0.5_wp, 0.5_wp, 0.5_wp]   !! of the height [1]
@@ -43,7 +43,7 @@ module clearance_translational
       procedure, nopass :: ideal_kind => translational_ideal_kind
       procedure :: prepare => translational_prepare
       procedure, nopass :: mistake => translational_mistake
-      procedure, nopass :: describe => translational_describe
+      procedure, nopass :: describe => describe_corner
       procedure :: fit_law => translational_fit_law
    end type clearance_translational_t
 
@@ -179,8 +179,8 @@ contains
       end if
    end subroutine translational_mistake
 
-   !> A rounded corner on a plane, with the sides of the face it belongs to.
-   pure subroutine translational_describe(item, materials, pair)
+   !> A rounded corner of a slider on a plane, with the sides of the face it belongs to.
+   pure subroutine describe_corner(item, materials, pair)
       type(item_t), intent(in) :: item              !! the row
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
@@ -195,7 +195,7 @@ contains
       guide_material = item%reference("guide_material")
       if (guide_material == 0) guide_material = material
       call set_materials(pair, materials(guide_material), materials(material))
-   end subroutine translational_describe
+   end subroutine describe_corner
 
    !> Fit the corner law, and the face law if there is one.
    subroutine translational_fit_law(self, items, materials, mass, is_driven)

@@ -29,7 +29,7 @@ module socket_contacts
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
    use point_contacts, only: of_eccentricity, of_moment, point_contacts_t
-   use space_tangents, only: set_sliding
+   use space_tangents, only: set_sliding, spatial_force
    implicit none (type, external)
    private
    public :: direction_of, measure_one, station_of  ! for its submodule
@@ -72,7 +72,7 @@ module socket_contacts
       procedure :: measure => socket_measure
       procedure :: penetration_acceleration => socket_penetration_acceleration
       procedure :: lie => socket_lie
-      procedure, nopass :: force_on_j => socket_force_on_j
+      procedure, nopass :: force_on_j => spatial_force
       procedure :: report_item => socket_report_item
    end type socket_contacts_t
 
@@ -271,16 +271,6 @@ contains
       w_e = w - dot_product(w, at%u)*at%u
       acceleration = dot_product(at%e/distance, a) + (dot_product(w_e, w_e) - contact%rate**2)/distance
    end function socket_penetration_acceleration
-
-   !> Force of a contact on body j.
-   pure function socket_force_on_j(contact, f_n, f_t) result(f)
-      type(point_contact_t), intent(in) :: contact  !! its kinematics
-      real(wp), intent(in) :: f_n                   !! normal force [N]
-      real(wp), intent(in) :: f_t                   !! friction force on j along t [N]
-      real(wp) :: f(3)                              !! (3) world frame [N]
-
-      f = -f_n*contact%normal + f_t*contact%tangent
-   end function socket_force_on_j
 
    !> Eccentricity of centres, tilt, and how much of the pin is in the bushing.
    subroutine socket_report_item(self, code, item, motion, contacts, f_n, f_t, value)

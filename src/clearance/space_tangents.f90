@@ -12,9 +12,19 @@ module space_tangents
    use point_contact, only: point_contact_t
    implicit none (type, external)
    private
-   public :: lie_in_space, set_sliding
+   public :: lie_in_space, set_sliding, spatial_force
 
 contains
+
+   !> Force of a contact on body j.
+   pure function spatial_force(contact, f_n, f_t) result(f)
+      type(point_contact_t), intent(in) :: contact  !! its kinematics
+      real(wp), intent(in) :: f_n                   !! normal force [N]
+      real(wp), intent(in) :: f_t                   !! friction force on j along t [N]
+      real(wp) :: f(3)                              !! (3) world frame [N]
+
+      f = -f_n*contact%normal + f_t*contact%tangent
+   end function spatial_force
 
    !> Sliding velocity of a contact at its arms, and its direction; normals may have any length.
    pure subroutine set_sliding(motion, i, j, contact)

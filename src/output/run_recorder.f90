@@ -22,15 +22,16 @@ module run_recorder
    use motion_writer, only: motion_name, motion_writer_t
    use output_plan, only: output_plan_t, show_json, show_summary
    use plot_table, only: plot_table_t
-   use posix, only: is_pipe_gone, write_error, write_output
+   use posix, only: write_error
    use progress, only: progress_t
    use recorder, only: event_t, recorder_t, row_instant, status_failed, summary_t
    use scene_poses, only: pose_reader_t
+   use standard_output, only: print_text
    use statistics, only: number_t, statistics_t
    use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
    use text, only: append_text, printable, text_t, to_text
-   use text_file, only: fail_file, replace_file, write_file
+   use text_file, only: replace_file, write_file
    use text_table, only: file_heading
    use text_writer, only: text_writer_t
    implicit none (type, external)
@@ -322,8 +323,7 @@ contains
       outcome%extremes = self%extremes
       call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
       allocate (outcome%pictures(0), outcome%warnings(0))
-      call append_all(outcome%warnings, self%plan%warnings)
-      call append_all(outcome%warnings, full%warnings)
+      call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
       if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
       if (self%plan%with%hdf5) then
          call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, self%extremes, outcome%joints, &
@@ -396,18 +396,5 @@ contains
          call write_error("warning: "//printable(outcome%warnings(k)%s)//new_line("a"))
       end do
    end subroutine write_summary
-
-   !> Print on the standard output, which may be a full disk; a reader that has seen enough is none.
-   subroutine print_text(text, error)
-      character(*), intent(in) :: text                   !! whole lines
-      type(error_t), allocatable, intent(out) :: error   !! it cannot be written
-
-      integer :: code
-
-      code = write_output(text)
-      if (is_pipe_gone(code)) return
-      if (code /= 0) call fail_file(error, "cannot write the summary to", "the standard output", code, &
-                                    "It is in the output directory.")
-   end subroutine print_text
 
 end module run_recorder

@@ -11,6 +11,7 @@ module animation_page
    use kinds, only: wp
    use plot_text, only: valid_utf8
    use scene_plot, only: new_symbols
+   use scene_legends, only: long_legend
    use scene_strokes, only: symbols_t
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
@@ -44,7 +45,7 @@ contains
       end do
       call page%line("const D={spatial:"//trim(merge("true ", "false", drawing%is_spatial))//",size:"//number(symbols%size)// &
                      ",magnified:"//number(symbols%magnified)//",force:"//number(symbols%force)//",legend:"""// &
-                     escaped(legend(symbols), .false.)//""",")
+                     escaped(long_legend(symbols), .false.)//""",")
       call add_parts(page, drawing)
       call add_marks(page, drawing, symbols)
       call add_frames(page, list)
@@ -55,21 +56,6 @@ contains
       end do
       text = page%get()
    end function page_text
-
-   !> What scales mean, in words.
-   function legend(symbols) result(words)
-      type(symbols_t), intent(in) :: symbols   !! scales
-      character(:), allocatable :: words       !! a line
-
-      type(display_unit_t) :: unit
-
-      words = "bodies in their size"
-      if (symbols%magnified > 0.0_wp) words = words//"; clearance of loose joints magnified "//real_text(symbols%magnified, 2)// &
-                                              " times"
-      if (.not. symbols%force > 0.0_wp) return
-      unit = choose_unit("N", symbols%force)
-      words = words//"; arrows: forces on journals, the longest "//real_text(unit%factor*symbols%force, 3)//" "//unit%symbol
-   end function legend
 
    !> Outlines.
    subroutine add_parts(page, drawing)

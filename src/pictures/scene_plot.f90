@@ -11,6 +11,7 @@ module scene_plot
    use frames, only: frame_t, track_t
    use kinds, only: wp
    use plot_text, only: quoted
+   use scene_legends, only: short_legend, time_text
    use scene_strokes, only: canvas_t, draw_scene, largest_force, magnification, n_style, style_arrow, style_body, style_ground, &
       style_hole, style_journal, style_line, style_path, style_pin, style_symbol, symbols_t
    use scene_views, only: extents_t, lay_out_views, projected, view_t
@@ -222,22 +223,6 @@ contains
       call canvas%styles(style_path)%line("")
    end subroutine draw_path
 
-   !> What scales mean, in words.
-   function legend(plot) result(words)
-      type(scene_figure_t), intent(in) :: plot    !! the plan
-      character(:), allocatable :: words          !! one line, perhaps blank
-
-      type(display_unit_t) :: unit
-
-      words = ""
-      if (plot%symbols%magnified > 0.0_wp) words = "clearance × "//real_text(plot%symbols%magnified, 2)
-      if (plot%symbols%force > 0.0_wp) then
-         unit = choose_unit("N", plot%symbols%force)
-         if (len(words) > 0) words = words//",  "
-         words = words//"longest arrow "//real_text(unit%factor*plot%symbols%force, 3)//" "//unit%symbol
-      end if
-   end function legend
-
    !> Frame of the picture, in its unit.
    subroutine frame_lines(script, plot)
       type(buffer_t), intent(inout) :: script      !! the script
@@ -329,7 +314,7 @@ contains
       call preamble(script, figure%name, width_still, height_of(plot, width_still))
       call script%line("set title "//quoted(title)//" font ',17'")
       call frame_lines(script, plot)
-      words = legend(plot)
+      words = short_legend(plot%symbols)
       if (figure%kind == figure_coupler) words = "path of "//figure%motion%point
       if (plot%cells == 1 .and. figure%kind /= figure_coupler) then
          if (len(words) > 0) words = ",  "//words
@@ -351,17 +336,6 @@ contains
       call plot_lines(script, figure%name, "0", 3, has_style)
       call script%line("unset output")
    end subroutine still_script
-
-   !> A time that reads well.
-   function time_text(t) result(words)
-      real(wp), intent(in) :: t                !! the time [s]
-      character(:), allocatable :: words       !! with its unit
-
-      type(display_unit_t) :: unit
-
-      unit = choose_unit("s", abs(t))
-      words = real_text(unit%factor*t, 4)//" "//unit%symbol
-   end function time_text
 
    !> An animation.
    subroutine moving_script(figure, title, list, plot, has_style, script)
@@ -386,7 +360,9 @@ contains
       call script%line("set tics nomirror")
       call script%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
       call frame_lines(script, plot)
-      if (len(legend(plot)) > 0) call script%line("set label "//quoted(legend(plot))//" at graph 0.01, graph 0.97 front")
+      if (len(short_legend(plot%symbols)) > 0) then
+         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.01, graph 0.97 front")
+      end if
       unit = choose_unit("s", list(size(list))%t)
       call script%add("times = '")
       do f = 1, size(list)

@@ -3,13 +3,10 @@
 module test_known_bodies
    use augmented, only: augmented_t
    use check, only: check_close, check_equal, check_true, suite_t
-   use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t
    use kinds, only: two_pi, wp
    use mechanism, only: mechanism_t
-   use mechanism_energy, only: energy_of, energy_t
-   use recorder, only: summary_t
-   use reduction_comparison, only: both_systems, compare_at, compare_often, complete_state, with_word, words
+   use reduction_comparison, only: both_systems, compare_at, compare_often, compare_works, complete_state, with_word
    use scene_fixture, only: nl, slider_crank, start_text, system_of_text
    use solver_registry, only: n_solver_kinds, new_solver
    use text, only: replace
@@ -296,31 +293,7 @@ contains
    subroutine test_works(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(energy_t) :: energy(2)
-      type(keeper_t) :: keeper(2)
-      type(loaded_t), allocatable :: loaded(:)
-      type(summary_t) :: summary(2)
-      integer :: k
-
-      allocate (loaded(2))
-      do k = 1, 2
-         call load_text("deck = 1"//nl//with_word(arm//"[analysis.dynamic]"//nl//"end = 1 s"//nl//"tolerance = 1e-11", words(k)) &
-                        //nl, loaded(k), error)
-         if (allocated(error)) return
-         call run_to_end(loaded(k), keeper(k), summary(k), error)
-         if (allocated(error)) return
-         energy(k) = energy_of(loaded(k)%system, loaded(k)%method%step%y1)
-         associate (quality => summary(k)%quality)
-            call check_true(error, quality%energy_residual_max < 1.0e-8_wp*quality%energy_max, "the ledger closes, "//words(k))
-         end associate
-      end do
-      associate (a => energy(1), b => energy(2))
-         call check_close(error, [b%kinetic, b%potential, b%elastic, b%drive_work, b%load_work, b%dissipated_damper], &
-                          [a%kinetic, a%potential, a%elastic, a%drive_work, a%load_work, a%dissipated_damper], 1.0e-7_wp, &
-                          "energies and works", relative=.true.)
-         call check_true(error, abs(a%drive_work) > 1.0_wp, "the drivers work")
-         call check_true(error, abs(b%stabilisation_work) < 1.0e-9_wp*abs(b%drive_work), "nothing is left to the stabilisation")
-      end associate
+      call compare_works(arm, 1.0_wp, 1.0_wp, error)
    end subroutine test_works
 
 end module test_known_bodies

@@ -1,13 +1,10 @@
 !> Known and guided bodies of space against the same deck with all bodies among the unknowns: see `reduction_comparison`.
 module test_reduced_in_space
-   use check, only: check_close, check_equal, check_true, suite_t
-   use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
+   use check, only: check_equal, check_true, suite_t
    use errors, only: error_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
-   use mechanism_energy, only: energy_of, energy_t
-   use recorder, only: summary_t
-   use reduction_comparison, only: both_systems, compare_at, compare_often, with_word, words
+   use reduction_comparison, only: both_systems, compare_at, compare_often, compare_works
    use scene_fixture, only: nl
    implicit none (type, external)
    private
@@ -141,40 +138,8 @@ contains
    subroutine test_works(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      call compare_works(arm, error)
-      if (.not. allocated(error)) call compare_works(carousel, error)
+      call compare_works(arm, 0.5_wp, 0.1_wp, error)
+      if (.not. allocated(error)) call compare_works(carousel, 0.5_wp, 0.1_wp, error)
    end subroutine test_works
-
-   !> The same for one deck.
-   subroutine compare_works(deck, error)
-      character(*), intent(in) :: deck                        !! the deck, without its analysis
-      type(error_t), allocatable, intent(inout) :: error      !! first failure
-
-      type(energy_t) :: energy(2)
-      type(keeper_t) :: keeper(2)
-      type(loaded_t), allocatable :: loaded(:)
-      type(summary_t) :: summary(2)
-      integer :: k
-
-      allocate (loaded(2))
-      do k = 1, 2
-         call load_text("deck = 1"//nl//with_word(deck//"[analysis.dynamic]"//nl//"end = 0.5 s"//nl//"tolerance = 1e-11", &
-                                                words(k))//nl, loaded(k), error)
-         if (allocated(error)) return
-         call run_to_end(loaded(k), keeper(k), summary(k), error)
-         if (allocated(error)) return
-         energy(k) = energy_of(loaded(k)%system, loaded(k)%method%step%y1)
-         associate (quality => summary(k)%quality)
-            call check_true(error, quality%energy_residual_max < 1.0e-8_wp*quality%energy_max, "the ledger closes, "//words(k))
-         end associate
-      end do
-      associate (a => energy(1), b => energy(2))
-         call check_close(error, [b%kinetic, b%potential, b%elastic, b%drive_work, b%load_work, b%dissipated_damper], &
-                          [a%kinetic, a%potential, a%elastic, a%drive_work, a%load_work, a%dissipated_damper], 1.0e-7_wp, &
-                          "energies and works", relative=.true.)
-         call check_true(error, abs(a%drive_work) > 0.1_wp, "the drivers work")
-         call check_true(error, abs(b%stabilisation_work) < 1.0e-9_wp*abs(b%drive_work), "nothing is left to the stabilisation")
-      end associate
-   end subroutine compare_works
 
 end module test_reduced_in_space
