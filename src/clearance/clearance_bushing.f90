@@ -17,9 +17,9 @@ module clearance_bushing
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
-   use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
+   use point_contacts, only: add_contact_channels, of_axial_displacement, of_eccentricity, of_force, of_moment, of_tilt
    use revolute_level, only: add_film_columns, add_spatial_film_channels
-   use socket_contacts, only: of_axial_displacement, of_engagement, of_tilt
+   use socket_contacts, only: of_engagement
    use socket_joints, only: socket_joints_t
    use surfaces, only: surfaces_t
    use text, only: text_t

@@ -14,7 +14,7 @@ module clearance_discs
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force
    use round_contacts, only: round_contacts_t
-   use surfaces, only: set_materials, shape_external, surfaces_t
+   use surfaces, only: shape_external, surfaces_t, take_materials
    implicit none (type, external)
    private
    public :: clearance_discs_t
@@ -79,15 +79,10 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: material, material_j
-
       pair%shape = shape_external
       pair%radius_i = item%number("radius_i")
       pair%radius_j = item%number("radius_j")
-      material = item%reference("material")
-      material_j = item%reference("material_j")
-      if (material_j == 0) material_j = material
-      call set_materials(pair, materials(material), materials(material_j))
+      call take_materials(pair, materials, item%reference("material"), item%reference("material_j"))
    end subroutine discs_describe
 
 end module clearance_discs

@@ -16,7 +16,7 @@ module clearance_plane
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
    use point_contacts, only: add_contact_channels, of_force
-   use surfaces, only: set_materials, shape_plane, surfaces_t
+   use surfaces, only: shape_plane, surfaces_t, take_materials
    implicit none (type, external)
    private
    public :: clearance_plane_t
@@ -81,14 +81,9 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: ball_material, material
-
       pair%shape = shape_plane
       pair%radius_j = item%number("radius")
-      material = item%reference("material")
-      ball_material = item%reference("ball_material")
-      if (ball_material == 0) ball_material = material
-      call set_materials(pair, materials(material), materials(ball_material))
+      call take_materials(pair, materials, item%reference("material"), item%reference("ball_material"))
    end subroutine plane_describe
 
 end module clearance_plane

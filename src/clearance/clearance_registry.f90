@@ -8,12 +8,13 @@ module clearance_registry
    use clearance_set, only: clearance_set_t
    use clearance_spherical, only: clearance_spherical_t
    use clearance_stop, only: clearance_stop_t
+   use clearance_thrust, only: clearance_thrust_t
    use clearance_translational, only: clearance_translational_t
    implicit none (type, external)
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 8  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 9  !! number of geometries
 
 contains
 
@@ -31,6 +32,7 @@ contains
       case (6); allocate (clearance_spherical_t :: set)
       case (7); allocate (clearance_bushing_t :: set)
       case (8); allocate (clearance_block_t :: set)
+      case (9); allocate (clearance_thrust_t :: set)
       end select
    end subroutine new_clearance_set
 

@@ -18,7 +18,7 @@ module clearance_revolute
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force
    use revolute_level, only: add_film_channels, add_film_columns, find_level_mistake
    use round_contacts, only: round_contacts_t
-   use surfaces, only: set_materials, shape_internal, surfaces_t
+   use surfaces, only: shape_internal, surfaces_t, take_materials
    use text, only: to_text
    implicit none (type, external)
    private
@@ -103,18 +103,12 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: journal_material, material
-
       pair%shape = shape_internal
       pair%radius_i = item%number("bearing_radius")
       pair%clearance = item%number("clearance")
       pair%radius_j = pair%radius_i - pair%clearance
       pair%length = item%number("length")
-      material = item%reference("material")
-      journal_material = item%reference("journal_material")
-      if (journal_material == 0) journal_material = material
-      if (material == 0) return
-      call set_materials(pair, materials(material), materials(journal_material))
+      call take_materials(pair, materials, item%reference("material"), item%reference("journal_material"))
    end subroutine revolute_describe
 
    !> The journal must have a radius, and the row what its level needs.

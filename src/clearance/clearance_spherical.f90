@@ -15,7 +15,7 @@ module clearance_spherical
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
    use revolute_level, only: add_film_columns, add_spatial_film_channels, find_level_mistake
    use socket_joints, only: socket_joints_t
-   use surfaces, only: set_materials, shape_internal, surfaces_t
+   use surfaces, only: shape_internal, surfaces_t, take_materials
    use text, only: to_text
    implicit none (type, external)
    private
@@ -110,17 +110,11 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: journal_material, material
-
       pair%shape = shape_internal
       pair%radius_i = item%number("bearing_radius")
       pair%clearance = item%number("clearance")
       pair%radius_j = pair%radius_i - pair%clearance
-      material = item%reference("material")
-      journal_material = item%reference("journal_material")
-      if (journal_material == 0) journal_material = material
-      if (material == 0) return
-      call set_materials(pair, materials(material), materials(journal_material))
+      call take_materials(pair, materials, item%reference("material"), item%reference("journal_material"))
    end subroutine describe_socket
 
    !> The inner part must have a radius, and the row what its level needs.

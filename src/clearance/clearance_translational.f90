@@ -28,7 +28,7 @@ module clearance_translational
    use normal_law, only: n_law_parameter, parameter_gentle
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
    use slider_contacts, only: faces_blend, faces_book, faces_corners, faces_foundation, lower, n_corner, slider_contacts_t, upper
-   use surfaces, only: set_materials, shape_face, shape_plane, surfaces_t
+   use surfaces, only: shape_face, shape_plane, surfaces_t, take_materials
    implicit none (type, external)
    private
    public :: clearance_translational_t, describe_corner
@@ -185,16 +185,11 @@ contains
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
 
-      integer :: guide_material, material
-
       pair%shape = shape_plane
       pair%radius_j = item%number("corner_radius")
       pair%length = item%number("length")
       pair%width = item%number("width")
-      material = item%reference("material")
-      guide_material = item%reference("guide_material")
-      if (guide_material == 0) guide_material = material
-      call set_materials(pair, materials(guide_material), materials(material))
+      call take_materials(pair, materials, item%reference("guide_material"), item%reference("material"))
    end subroutine describe_corner
 
    !> Fit the corner law, and the face law if there is one.

@@ -27,7 +27,7 @@ module point_contacts
    private
    public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
    public :: take_friction  ! for its submodule
-   public :: of_contact_point, of_eccentricity, of_force, of_moment, of_state
+   public :: of_axial_displacement, of_contact_point, of_eccentricity, of_force, of_moment, of_state, of_tilt
 
    ! channels
    integer, parameter :: of_force = 1             !! force on j
@@ -39,6 +39,8 @@ module point_contacts
    integer, parameter :: of_contact_point = 7     !! of a contact
    integer, parameter :: of_eccentricity = 8      !! a geometry's own
    integer, parameter :: of_moment = 9            !! a geometry's own
+   integer, parameter :: of_tilt = 41             !! a geometry's own
+   integer, parameter :: of_axial_displacement = 42 !! a geometry's own
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t

@@ -28,17 +28,14 @@ module socket_contacts
    use motion, only: cross, loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
-   use point_contacts, only: of_eccentricity, of_moment, point_contacts_t
+   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt, point_contacts_t
    use space_tangents, only: set_sliding, spatial_force
    implicit none (type, external)
    private
    public :: direction_of, measure_one, station_of  ! for its submodule
-   public :: of_axial_displacement, of_engagement, of_tilt, socket_contacts_t, socket_t
+   public :: of_engagement, socket_contacts_t, socket_t
 
-   ! channels of a bushing
-   integer, parameter :: of_tilt = 41                !! angle between the axes
-   integer, parameter :: of_axial_displacement = 42  !! along the axis
-   integer, parameter :: of_engagement = 43          !! length of the pin in the bushing
+   integer, parameter :: of_engagement = 43          !! channel: length of the pin in the bushing
 
    !> The surfaces of one joint.
    type :: socket_t

@@ -9,7 +9,7 @@ module surfaces
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t
+   public :: set_materials, shape_external, shape_face, shape_internal, shape_plane, surfaces_t, take_materials
 
    integer, parameter :: shape_internal = 1  !! a pin in a hole, a ball in a socket
    integer, parameter :: shape_external = 2  !! two pins or balls side by side
@@ -46,6 +46,17 @@ contains
       if (material_i%strength > 0.0_wp) surfaces%strength = material_i%strength
       if (material_j%strength > 0.0_wp) surfaces%strength = min(surfaces%strength, material_j%strength)
    end subroutine set_materials
+
+   !> Compliances and speed limit from materials by number, of which one may be left out; without any the pair is left alone.
+   pure subroutine take_materials(surfaces, materials, of_i, of_j)
+      type(surfaces_t), intent(inout) :: surfaces   !! the pair
+      type(material_t), intent(in) :: materials(:)  !! (materials) all materials
+      integer, intent(in) :: of_i                   !! that of the surface of i, 0: as j
+      integer, intent(in) :: of_j                   !! that of the surface of j, 0: as i
+
+      if (max(of_i, of_j) == 0) return
+      call set_materials(surfaces, materials(merge(of_i, of_j, of_i > 0)), materials(merge(of_j, of_i, of_j > 0)))
+   end subroutine take_materials
 
    !> Impact speed up to which contact is quasi-static.
    pure real(wp) function speed_limit(material) result(speed)

@@ -20,7 +20,7 @@ module kind_info
    public :: dim_pressure, dim_speed, dim_stiffness, dim_temperature, dim_time, dim_viscosity
    public :: longest_column, no_bound
    public :: in_any_space, in_plane, in_space, is_of_space
-   public :: leaves_more, leaves_nothing, leaves_turn, leaves_way
+   public :: leaves_angles, leaves_more, leaves_nothing, leaves_turn, leaves_way
 
    !> Physical dimension as exponents of kg, m, s, rad and K.
    !> They are real because a contact stiffness is N/m^1.5, or N/m^n with any n.
@@ -80,6 +80,7 @@ module kind_info
    integer, parameter :: leaves_more = 0     !! a joint leaves more, or what nobody asks for
    integer, parameter :: leaves_nothing = 1  !! bodies i and j move as one
    integer, parameter :: leaves_turn = 2     !! j turns about the point of i
+   integer, parameter :: leaves_angles = 4   !! the points of i and j coincide, j turns about them in several ways
    integer, parameter :: leaves_way = 3      !! j slides along an axis of i, and does not turn against it
 
    real(wp), parameter :: no_bound = huge(1.0_wp)  !! marks a bound that is not there [any]

@@ -6,7 +6,7 @@
 !> Limits: the axis of j must be given, since that of i is not it.
 module spatial_universal
    use item, only: item_t
-   use kind_info, only: add_direction, kind_info_t
+   use kind_info, only: add_direction, kind_info_t, leaves_angles
    use kinds, only: wp
    use spatial_joint, only: across, add_joint_columns, add_spatial_channels, at_point, spatial_joint_t
    implicit none (type, external)
@@ -30,6 +30,7 @@ contains
       info%help = "universal joint: two points coincide and two axes stay at right angles"
       info%source = "Nikravesh (1988), section 7.2.3"
       info%n_row = 4
+      info%leaves = leaves_angles
       call add_joint_columns(info)
       call add_direction(info, "axis_i", "arm of the cross, in the frame of the body of i")
       call add_direction(info, "axis_j", "arm of the cross, in the frame of the body of j")

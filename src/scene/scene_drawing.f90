@@ -10,7 +10,7 @@ module scene_drawing
       mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
    use body_outline, only: distinct_points, outline, same_place
    use item, only: find_place, item_t
-   use kind_info, only: kind_info_t, leaves_more, leaves_way
+   use kind_info, only: kind_info_t, leaves_angles, leaves_more, leaves_turn, leaves_way
    use kinds, only: wp
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
    use scene, only: scene_t, table_shapes, table_t
@@ -270,7 +270,9 @@ contains
       if (find_place(item, "level") > 0) is_ideal = item%word("level") == "ideal"
       is_round = info%leaves == leaves_more .and. (find_place(item, "radius") > 0 .or. find_place(item, "radius_i") > 0)
       are_apart = .false.
-      if (all(tie%point > 0)) are_apart = norm2(start_position(scene, tie%point(1)) - start_position(scene, tie%point(2))) > near
+      if (all(tie%point > 0) .and. .not. any(info%leaves == [leaves_angles, leaves_turn])) then
+         are_apart = norm2(start_position(scene, tie%point(1)) - start_position(scene, tie%point(2))) > near
+      end if
       if (is_force) then
          kind = mark_spring
       else if (find_place(item, "bearing_radius") > 0) then

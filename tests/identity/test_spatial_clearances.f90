@@ -144,6 +144,8 @@ contains
       call set_number(bench%info, "gap", 0.5e-3_wp, item(1))
       call set_number(bench%info, "width", 15.0e-3_wp, item(1))
       call set_number(bench%info, "height", 10.0e-3_wp, item(1))
+      call set_number(bench%info, "face_radius", 15.0e-3_wp, item(1))
+      call set_number(bench%info, "edge_radius", 1.0e-3_wp, item(1))
       call set_number(bench%info, "corner_radius", 1.0e-3_wp, item(1))
       call set_number(bench%info, "length", 20.0e-3_wp, item(1))
       call set_number(bench%info, "journal_length", merge(30.0e-3_wp, 18.0e-3_wp, ends == 2), item(1))
