@@ -101,7 +101,7 @@ contains
          call set%set_start(linkage%motion)
          call take_joints(scene, scene%joints(k)%info, items, linkage%motion, set)
          if (is_solved .and. find_column(scene%joints(k)%info, "friction") > 0) then
-            call new_joint_friction(items, scene%frictions, set%friction_length(), &
+            call new_joint_friction(items, scene%frictions, set%friction_lengths(), &
                                     linkage%coordinates%n_v, set%friction)
          end if
          m = merge(2, 1, set%is_driver)

@@ -4,19 +4,21 @@ module explain_friction
    use echo, only: item_words
    use mechanism, only: mechanism_t
    use scene, only: scene_t
-   use text, only: to_text
+   use text, only: split_blank, text_t, to_text
    implicit none (type, external)
    private
    public :: explain_rubbing_joints
 
 contains
 
-   !> Ideal joints that rub: the law and its parameters, the length that the friction acts on, and the preload.
+   !> Ideal joints that rub: the law and its parameters, the lengths that the friction acts on, and the preload.
    subroutine explain_rubbing_joints(scene, system)
       type(scene_t), intent(in) :: scene         !! the scene
       type(mechanism_t), intent(in) :: system    !! its system
 
-      integer :: k, m
+      type(text_t), allocatable :: names(:)
+      character(:), allocatable :: lengths
+      integer :: c, k, m
 
       if (system%friction%rubbing%n == 0) return
       call say("")
@@ -25,8 +27,12 @@ contains
          associate (set => system%linkage%joints(k)%set)
             do m = 1, set%friction%n
                call say(set%names(set%friction%item(m))%s//": friction "//law_words(scene, set%friction%law(m)%law%name), 2)
-               call say(set%friction_length()//" "//to_text(set%friction%length(m))//" m, preload "// &
-                        to_text(set%friction%preload(m))//" N", 4)
+               names = split_blank(set%friction_lengths())
+               lengths = ""
+               do c = 1, size(names)
+                  lengths = lengths//names(c)%s//" "//to_text(set%friction%length(c, m))//" m, "
+               end do
+               call say(lengths//"preload "//to_text(set%friction%preload(m))//" N", 4)
             end do
          end associate
       end do

@@ -48,7 +48,7 @@ contains
          do i = 1, self%friction%n
             if (self%friction%item(i) /= k) cycle
             value(1) = self%friction%force(i)
-            if (code == of_friction_moment) value(1) = self%friction%length(i)*self%friction%force(i)
+            if (code == of_friction_moment) value(1) = self%friction%length(1, i)*self%friction%force(i)
          end do
       end select
    end procedure report_shared

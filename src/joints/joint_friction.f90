@@ -13,12 +13,14 @@ module joint_friction
    use item, only: item_t
    use kind_info, only: add_channel, add_number, add_reference, dim_force, dim_length, kind_info_t
    use kinds, only: wp
+   use text, only: split_blank, text_t
    implicit none (type, external)
    private
    public :: add_friction_columns, friction_channels, joint_friction_t, law_force, most_rows, new_joint_friction
    public :: of_friction_force, of_friction_moment
 
-   integer, parameter :: most_rows = 3   !! rows of an item, at most
+   integer, parameter :: most_rows = 5     !! rows of an item, at most
+   integer, parameter :: most_lengths = 3  !! lengths that a kind needs, at most
 
    integer, parameter :: of_friction_moment = 7  !! channel of what turns against friction
    integer, parameter :: of_friction_force = 8   !! channel of what slides
@@ -30,19 +32,20 @@ module joint_friction
       integer :: n = 0                               !! items that rub
       integer, allocatable :: item(:)                !! (n) the items
       type(friction_slot_t), allocatable :: law(:)   !! (n) their laws
-      real(wp), allocatable :: length(:)             !! (n) length that the kind's `press` and `slide` need, as of its column [m]
+      real(wp), allocatable :: length(:, :)          !! (most_lengths, n) that the kind's `press` and `slide` need [m]
       real(wp), allocatable :: preload(:)            !! (n) normal force without load [N]
       real(wp), allocatable :: z(:)                  !! (n) deflections of bristles [m]
       real(wp), allocatable :: z_rate(:)             !! (n) their rates [m/s]
       ! of the last evaluation
       real(wp), allocatable :: v(:)                  !! (n) sliding velocities [m/s]
       real(wp), allocatable :: row(:, :)             !! (2 n_v, n) what the rates of i and j add to them [1 or m]
+      real(wp), allocatable :: frame(:, :, :)        !! (3, 3, n) in space: axes of the joint as columns, world frame [1]
       real(wp), allocatable :: force(:)              !! (n) friction force on body j [N]
    end type joint_friction_t
 
 contains
 
-   !> The columns of friction in a joint, and the channel of an item that rubs.
+   !> The columns of friction in a joint, but for further lengths, and the channel of an item that rubs.
    subroutine add_friction_columns(info, length, length_help, preload_help, channel, unit, channel_help)
       type(kind_info_t), intent(inout) :: info     !! the kind
       character(*), intent(in) :: length           !! column of the length
@@ -59,15 +62,17 @@ contains
    end subroutine add_friction_columns
 
    !> Room for the items that rub.
-   subroutine new_joint_friction(items, laws, length, n_v, friction)
+   subroutine new_joint_friction(items, laws, lengths, n_v, friction)
       type(item_t), intent(in) :: items(:)               !! (items) rows of the table; it has the columns of friction
       type(friction_slot_t), intent(in) :: laws(:)       !! (laws) friction laws
-      character(*), intent(in) :: length                 !! column of the length
+      character(*), intent(in) :: lengths                !! blank-separated columns of lengths
       integer, intent(in) :: n_v                         !! rates of a body
       type(joint_friction_t), intent(out) :: friction    !! friction of those that rub
 
-      integer :: k, law, n
+      type(text_t), allocatable :: names(:)
+      integer :: c, k, law, n
 
+      names = split_blank(lengths)
       allocate (friction%item(size(items)), source=0)
       do k = 1, size(items)
          law = items(k)%reference("friction")
@@ -78,8 +83,10 @@ contains
       end do
       n = friction%n
       friction%item = friction%item(:n)
-      allocate (friction%law(n), friction%length(n), friction%preload(n), friction%z(n), friction%z_rate(n), friction%v(n), &
-                friction%force(n), friction%row(2*n_v, n))
+      allocate (friction%law(n), friction%length(most_lengths, n), friction%preload(n), friction%z(n), friction%z_rate(n), &
+                friction%v(n), friction%force(n), friction%row(2*n_v, n), friction%frame(3, 3, n))
+      friction%length = 0.0_wp
+      friction%frame = 0.0_wp
       friction%z = 0.0_wp
       friction%z_rate = 0.0_wp
       friction%v = 0.0_wp
@@ -89,7 +96,9 @@ contains
          associate (item => items(friction%item(k)))
             law = item%reference("friction")
             allocate (friction%law(k)%law, source=laws(law)%law)
-            friction%length(k) = item%number(length)
+            do c = 1, size(names)
+               friction%length(c, k) = item%number(names(c)%s)
+            end do
             friction%preload(k) = item%number("preload")
          end associate
       end do

@@ -25,7 +25,7 @@ module joint_revolute
       procedure, nopass :: info => revolute_info
       procedure :: prepare => revolute_prepare
       procedure :: evaluate => revolute_evaluate
-      procedure, nopass :: friction_length => revolute_friction_length
+      procedure, nopass :: friction_lengths => revolute_friction_lengths
       procedure :: slide => revolute_slide
       procedure :: press => revolute_press
    end type joint_revolute_t
@@ -60,11 +60,11 @@ contains
    end subroutine revolute_prepare
 
    !> Column of the pin's radius.
-   function revolute_friction_length() result(name)
+   function revolute_friction_lengths() result(name)
       character(:), allocatable :: name   !! the column
 
       name = "radius"
-   end function revolute_friction_length
+   end function revolute_friction_lengths
 
    !> Sliding velocities of the pins that rub.
    subroutine revolute_slide(self, motion)
@@ -74,7 +74,7 @@ contains
       integer :: m
 
       do m = 1, self%friction%n
-         associate (item => self%friction%item(m), radius => self%friction%length(m))
+         associate (item => self%friction%item(m), radius => self%friction%length(1, m))
             self%friction%row(:, m) = [0.0_wp, 0.0_wp, -radius, 0.0_wp, 0.0_wp, radius]
             self%friction%v(m) = radius*(motion%omega(3, self%body(2, item)) - motion%omega(3, self%body(1, item)))
          end associate

@@ -57,7 +57,7 @@ module joint_set
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
       procedure :: way_of => joint_way_of
-      procedure, nopass :: friction_length => joint_friction_length
+      procedure, nopass :: friction_lengths => joint_friction_lengths
       procedure :: slide => joint_slide
       procedure :: press => joint_press
       procedure :: report => report_shared
@@ -223,12 +223,12 @@ contains
       p = point_position(motion, self%body(1, k), self%s_i(:, k))
    end function joint_reaction_point
 
-   !> Column of the length that friction needs, of a kind with the columns of friction.
-   function joint_friction_length() result(name)
-      character(:), allocatable :: name   !! the column
+   !> Columns of the lengths that friction needs, of a kind with the columns of friction: blank-separated, that of its moment first.
+   function joint_friction_lengths() result(name)
+      character(:), allocatable :: name   !! the columns
 
       name = ""
-   end function joint_friction_length
+   end function joint_friction_lengths
 
    !> How the items that rub lie: sliding velocities, and what the rates of both bodies add to them. No allocation.
    subroutine joint_slide(self, motion)

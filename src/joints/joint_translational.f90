@@ -41,7 +41,7 @@ module joint_translational
       procedure :: evaluate => translational_evaluate
       procedure :: reaction_point => translational_reaction_point
       procedure :: way_of => translational_way_of
-      procedure, nopass :: friction_length => translational_friction_length
+      procedure, nopass :: friction_lengths => translational_friction_lengths
       procedure :: slide => translational_slide
       procedure :: press => translational_press
    end type joint_translational_t
@@ -124,11 +124,11 @@ contains
    end function translational_way_of
 
    !> Column of the slider's length.
-   function translational_friction_length() result(name)
+   function translational_friction_lengths() result(name)
       character(:), allocatable :: name   !! the column
 
       name = "slider_length"
-   end function translational_friction_length
+   end function translational_friction_lengths
 
    !> Sliding velocities of the guides that rub.
    subroutine translational_slide(self, motion)
@@ -165,7 +165,7 @@ contains
       real(wp) :: behind, before, turn
 
       turn = 0.0_wp
-      if (self%friction%length(m) > 0.0_wp) turn = 1.0_wp/self%friction%length(m)
+      if (self%friction%length(1, m) > 0.0_wp) turn = 1.0_wp/self%friction%length(1, m)
       before = 0.5_wp*lambda(1) + turn*lambda(2)
       behind = 0.5_wp*lambda(1) - turn*lambda(2)
       normal = abs(before) + abs(behind) + self%friction%preload(m)

@@ -26,7 +26,7 @@ module spatial_joint
    private
    public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
    public :: element_t, set_joint_frames
-   public :: add_slide_channels, add_turn_channels, spatial_joint_t
+   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
    integer, parameter :: is_across = 2   !! two axes at right angles
@@ -238,6 +238,34 @@ contains
       is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 1, k)), &
                             axis_of(motion, self%body(2, k), self%axes%frame_j(:, 1, k))) < 0.0_wp
    end function spatial_is_turned_over
+
+   !> What presses the two ends of a bearing or slider: N = |f/2 + m/L| + |f/2 - m/L|, with the multipliers f of rows that hold x and
+   !> y of the points, and m of rows x_i . z_j and y_i . z_j.
+   pure subroutine press_ends(f, m, length, normal, by_f, by_m)
+      real(wp), intent(in) :: f(2)          !! (2) of the points [N]
+      real(wp), intent(in) :: m(2)          !! (2) of the axes [N.m]
+      real(wp), intent(in) :: length        !! distance of the ends; 0: the moment is left out [m]
+      real(wp), intent(out) :: normal       !! the sum of both ends [N]
+      real(wp), intent(out) :: by_f(2)      !! (2) its derivatives by f [1]
+      real(wp), intent(out) :: by_m(2)      !! (2) its derivatives by m [1/m]
+
+      real(wp) :: arm, end(2), size_of
+      integer :: side
+
+      arm = 0.0_wp
+      if (length > 0.0_wp) arm = 1.0_wp/length
+      normal = 0.0_wp
+      by_f = 0.0_wp
+      by_m = 0.0_wp
+      do side = -1, 1, 2
+         end = 0.5_wp*f + real(side, wp)*arm*m
+         size_of = norm2(end)
+         normal = normal + size_of
+         if (.not. size_of > 0.0_wp) cycle
+         by_f = by_f + 0.5_wp*end/size_of
+         by_m = by_m + real(side, wp)*arm*end/size_of
+      end do
+   end subroutine press_ends
 
    !> The channels of a joint that turns about its axis, and where its angle is zero.
    subroutine add_turn_channels(info)

@@ -22,7 +22,7 @@ module spatial_rows
    implicit none (type, external)
    private
    public :: angle_between, angle_of, axis_of, dot_of_axes, dot_with_span, length_of_span, put_across_rows, put_row, &
-      put_vector_rows, scalar_t, seen_from_other, wrapped
+      put_vector_rows, row_of, scalar_t, seen_from_other, wrapped
 
    !> A scalar of two bodies, and what moves it.
    type :: scalar_t
@@ -196,18 +196,28 @@ contains
       real(wp), intent(in) :: f_dot          !! first time derivative of that [m/s, rad/s or 1/s]
       real(wp), intent(in) :: f_dot_dot      !! second time derivative [m/s^2, rad/s^2 or 1/s^2]
 
-      integer :: c
-
       rows%phi(row) = x%value - f
       rows%phi_t(row) = -f_dot
       rows%gam(row) = f_dot_dot - x%bend
-      do c = 1, 3
-         rows%jac(c, row) = -x%force(c)
-         rows%jac(c + 3, row) = dot_product(motion%rot(:, c, body(1)), x%turn_i)
-         rows%jac(c + 6, row) = x%force(c)
-         rows%jac(c + 9, row) = dot_product(motion%rot(:, c, body(2)), x%turn_j)
-      end do
+      rows%jac(:, row) = row_of(motion, body, x)
    end subroutine put_row
+
+   !> What the rates of both bodies add to the rate of a scalar.
+   pure function row_of(motion, body, x) result(row)
+      type(motion_t), intent(in) :: motion   !! positions
+      integer, intent(in) :: body(2)         !! (2) bodies i and j
+      type(scalar_t), intent(in) :: x        !! the scalar
+      real(wp) :: row(12)                    !! (12) the row [1 or m]
+
+      integer :: c
+
+      do c = 1, 3
+         row(c) = -x%force(c)
+         row(c + 3) = dot_product(motion%rot(:, c, body(1)), x%turn_i)
+         row(c + 6) = x%force(c)
+         row(c + 9) = dot_product(motion%rot(:, c, body(2)), x%turn_j)
+      end do
+   end function row_of
 
    !> Set a row each to a . b of an axis of i and one of j: kernel on plain arrays, for many joints. With v = a . b
    !>

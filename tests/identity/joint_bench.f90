@@ -75,7 +75,7 @@ contains
       call bench%set%new(items, reshape(points%body, [2, n_item]), points%s(:, 1::2), points%s(:, 2::2))
       call bench%set%prepare(items, angle)
       if (find_place(items(1), "friction") > 0) then
-         call new_joint_friction(items, friction_laws(), bench%set%friction_length(), n_v_planar, bench%set%friction)
+         call new_joint_friction(items, friction_laws(n_item), bench%set%friction_lengths(), n_v_planar, bench%set%friction)
       end if
       bench%set%first_row = before
       call new_rows(before + n_item*info%n_row + 1, bench%rows)
@@ -95,12 +95,13 @@ contains
    end subroutine make_bench
 
    !> A law of friction for each item.
-   function friction_laws() result(laws)
-      type(friction_slot_t) :: laws(n_item)  !! (items) the same law
+   function friction_laws(n) result(laws)
+      integer, intent(in) :: n          !! number of items
+      type(friction_slot_t) :: laws(n)  !! (n) the same law
 
       integer :: k
 
-      do k = 1, n_item
+      do k = 1, n
          allocate (laws(k)%law, source=friction_ambrosio_t(coefficient=0.3_wp, v0=0.0_wp, v1=1.0e-3_wp))
       end do
    end function friction_laws

@@ -4,6 +4,8 @@ module spatial_bench
    use fixed_random, only: random_t, seed_of
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
+   use joint_bench, only: friction_laws
+   use joint_friction, only: new_joint_friction
    use joint_registry, only: n_joint_kinds, new_joint_set
    use joint_set, only: joint_set_t
    use kind_info, only: is_of_space, kind_info_t
@@ -84,6 +86,9 @@ contains
       own(:, :, 0) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
       call bench%set%new(items, reshape([body_i, body_j], [2, n_item], order=[2, 1]), s(:, 1, :), s(:, 2, :))
       call bench%set%prepare(items, angle)
+      if (column_number(bench%info, "friction") > 0) then
+         call new_joint_friction(items, friction_laws(n_item), bench%set%friction_lengths(), n_v_spatial, bench%set%friction)
+      end if
       bench%set%first_row = before
       call new_rows(before + n_item*bench%info%n_row + 1, bench%rows, n_v_spatial)
       call bench%set%declare_rows(bench%rows)

@@ -88,8 +88,9 @@ contains
    subroutine test_normal_force(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      real(wp), parameter :: reactions(most_rows, 3) = reshape([3.0_wp, 1.0_wp, 0.0_wp, -0.7_wp, 2.0_wp, 0.0_wp, &
-                                                                5.0_wp, -0.1_wp, 0.0_wp], [most_rows, 3])
+      real(wp), parameter :: reactions(most_rows, 3) = reshape([3.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, -0.7_wp, 2.0_wp, 0.0_wp, &
+                                                                0.0_wp, 0.0_wp, 5.0_wp, -0.1_wp, 0.0_wp, 0.0_wp, 0.0_wp], &
+                                                               [most_rows, 3])
       type(bench_t) :: bench
       real(wp) :: above, below, lambda(most_rows), normal, slope(most_rows), unused(most_rows)
       integer :: c, k, kind, row
