@@ -18,7 +18,7 @@ module joint_bench
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: before, bench_t, evaluate_after, far, make_bench, n_body, n_item, now, span_between, &
+   public :: before, bench_t, evaluate_after, far, friction_laws, make_bench, n_body, n_item, now, span_between, &
       times_jacobian
 
    integer, parameter :: n_item = 3       !! joints: of two bodies, of ground and body, of body and ground
