@@ -1,4 +1,4 @@
-!> The layout of run.h5, format 2.0: root attributes, deck, names, one growing dataset per quantity.
+!> The layout of run.h5, format 2.1: root attributes, deck, names, one growing dataset per quantity.
 !>
 !> A room appears if some item of it has a chosen channel, with all such items; a quantity appears
 !> if it is chosen for some item, and its dataset then holds all items of the room that appear.
@@ -10,7 +10,7 @@ module hdf5_layout
    use hdf5_attributes, only: integer_attribute, text_attribute, word_attribute
    use hdf5_calls, only: new_dataset, new_group
    use hdf5_datasets, only: describe, text_dataset
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_int64_t, c_null_char
+   use hdf5_scales, only: add_scale, close_scales, scales_t, take_scales
    use kinds, only: wp
    use output_plan, only: output_plan_t
    use posix, only: host_name, utc_time
@@ -20,7 +20,7 @@ module hdf5_layout
    private
    public :: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
 
-   integer, parameter :: format_version(2) = [2, 0]  !! major, minor: a reader must know the major number
+   integer, parameter :: format_version(2) = [2, 1]  !! major, minor: a reader must know the major number
    integer, parameter :: longest_status = max(len(status_running), len(status_complete), len(status_stopped), len(status_failed))
 
    !> One quantity in the file, and its rows that are not yet there.
@@ -34,23 +34,9 @@ module hdf5_layout
       real(wp), allocatable :: rows(:, :)       !! (components*n, block) rows to be written [any]
    end type dataset_t
 
-   ! allow(assumed-size)
-   interface
-      integer(c_int) function c_set_scale(dataset, name) bind(c, name="H5DSset_scale")
-         import :: c_char, c_int, c_int64_t
-         implicit none (type, external)
-         integer(c_int64_t), value :: dataset           !! the scale
-         character(kind=c_char), intent(in) :: name(*)  !! (n) its name
-      end function c_set_scale
-
-      integer(c_int) function c_attach_scale(dataset, scale, dimension) bind(c, name="H5DSattach_scale")
-         import :: c_int, c_int64_t
-         implicit none (type, external)
-         integer(c_int64_t), value :: dataset  !! the dataset
-         integer(c_int64_t), value :: scale    !! the scale
-         integer(c_int), value :: dimension    !! of the dataset, from 0 in C's order
-      end function c_attach_scale
-   end interface
+   integer, parameter :: longest_scale = 32                               !! characters of the path of a scale
+   character(*), parameter :: axis_names(3) = [character(1) :: "x", "y", "z"]
+   character(*), parameter :: parameter_names(4) = [character(2) :: "e0", "e1", "e2", "e3"]
 
 contains
 
@@ -127,7 +113,7 @@ contains
       path = piece(path, 2)
    end function link_path
 
-   !> The time, a dimension scale for all that grows.
+   !> The time, the first dimension of all that grows.
    subroutine make_time(file, block, id, status)
       integer(hid_t), intent(in) :: file  !! the file
       integer, intent(in) :: block        !! rows of a chunk
@@ -135,15 +121,13 @@ contains
       integer, intent(inout) :: status    !! negative: failed
 
       call new_dataset(file, "time", h5t_ieee_f64le, [0_hsize_t], id, status, chunk=[int(block, hsize_t)])
-      if (status >= 0) status = c_set_scale(int(id, c_int64_t), "time"//c_null_char)
       call describe(id, "s", "time of the row", "none", status)
    end subroutine make_time
 
    !> What each row is.
-   subroutine make_row_kind(file, block, time, dataset, status)
+   subroutine make_row_kind(file, block, dataset, status)
       integer(hid_t), intent(in) :: file           !! the file
       integer, intent(in) :: block                 !! rows of a chunk
-      integer(hid_t), intent(in) :: time           !! the dimension scale
       type(dataset_t), intent(inout) :: dataset    !! the dataset
       integer, intent(inout) :: status             !! negative: failed
 
@@ -152,22 +136,24 @@ contains
       call new_dataset(file, "row_kind", h5t_std_i8le, [0_hsize_t], dataset%id, status, chunk=[int(block, hsize_t)])
       call describe(dataset%id, "1", "what the row is", "none", status)
       call text_attribute(dataset%id, "kinds", row_kinds, status)
-      if (status >= 0) status = c_attach_scale(int(dataset%id, c_int64_t), int(time, c_int64_t), 0)
    end subroutine make_row_kind
 
-   !> Names and datasets of everything chosen.
-   subroutine make_quantities(file, catalogue, selection, block, time, datasets, status)
+   !> Names and datasets of everything chosen, and the scales of their dimensions and of the kinds of rows.
+   subroutine make_quantities(file, catalogue, selection, block, kinds, datasets, status)
       integer(hid_t), intent(in) :: file                            !! the file
       type(catalogue_t), intent(in) :: catalogue                    !! what can be recorded
       type(selection_t), intent(in) :: selection                    !! what is
       integer, intent(in) :: block                                  !! rows of a chunk
-      integer(hid_t), intent(in) :: time                            !! the dimension scale
+      type(dataset_t), intent(in) :: kinds                          !! what each row is
       type(dataset_t), allocatable, intent(out) :: datasets(:)      !! (n) open datasets
       integer, intent(inout) :: status                              !! negative: failed
 
+      type(scales_t) :: scales
       integer, allocatable :: items(:)
       integer :: group, k, n, room
 
+      call add_scale(scales, file, "time", status)
+      call take_scales(scales, file, kinds%id, "row_kind", ["time"], status)
       n = 0
       do group = 1, size(catalogue%groups)
          if (selection%has_group(group)) n = n + 1
@@ -178,22 +164,23 @@ contains
          items = pack([(k, k=1, size(catalogue%rooms(room)%names))], &
                       [(selection%has_item(catalogue, room, k), k=1, size(catalogue%rooms(room)%names))])
          if (size(items) == 0) cycle
-         call make_room(file, catalogue, room, items, status)
+         call make_room(file, catalogue, room, items, scales, status)
          do group = 1, size(catalogue%groups)
             if (catalogue%groups(group)%room /= room .or. .not. selection%has_group(group)) cycle
             n = n + 1
-            call make_quantity(file, catalogue, group, items, block, datasets(n), status)
-            if (status >= 0) status = c_attach_scale(int(datasets(n)%id, c_int64_t), int(time, c_int64_t), 0)
+            call make_quantity(file, catalogue, group, items, block, scales, datasets(n), status)
          end do
       end do
+      call close_scales(scales, file, status)
    end subroutine make_quantities
 
    !> The group of a room and the names of its items.
-   subroutine make_room(file, catalogue, room, items, status)
+   subroutine make_room(file, catalogue, room, items, scales, status)
       integer(hid_t), intent(in) :: file          !! the file
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
       integer, intent(in) :: room                 !! number of the room
       integer, intent(in) :: items(:)             !! (n) items that are kept
+      type(scales_t), intent(inout) :: scales     !! gets that of the items
       integer, intent(inout) :: status            !! negative: failed
 
       integer(hid_t) :: group, radius
@@ -215,6 +202,7 @@ contains
             call text_dataset(file, this%name//"/names", picked(this%names, items), .false., &
                               "name of each item", status)
          end select
+         if (room /= room_energy) call add_scale(scales, file, scale_of(catalogue, room), status)
          if (room /= room_clearances) return
          call new_dataset(file, this%name//"/clearance", h5t_ieee_f64le, [size(items, kind=hsize_t)], radius, status)
          if (status >= 0) call h5dwrite_f(radius, h5t_native_double, this%radius(items), &
@@ -223,6 +211,37 @@ contains
          if (radius >= 0) call h5dclose_f(radius, closed)
       end associate
    end subroutine make_room
+
+   !> Path of the scale of a room's items.
+   pure function scale_of(catalogue, room) result(path)
+      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
+      integer, intent(in) :: room                 !! number of the room
+      character(longest_scale) :: path            !! path in the file
+
+      path = trim(catalogue%rooms(room)%name)//"/names"
+      if (room == room_contacts) path = "clearances/contact_label"
+   end function scale_of
+
+   !> Path of the scale of an item's numbers, made when it is first wanted.
+   subroutine find_components(file, n, scales, path, status)
+      integer(hid_t), intent(in) :: file                 !! the file
+      integer, intent(in) :: n                           !! numbers of an item, more than one
+      type(scales_t), intent(inout) :: scales            !! gets it
+      character(longest_scale), intent(out) :: path      !! path in the file
+      integer, intent(inout) :: status                   !! negative: failed
+
+      integer :: k
+
+      path = "component"
+      if (n == size(parameter_names)) path = "parameter"
+      if (any([(scales%list(k)%path == path, k=1, size(scales%list))])) return
+      if (n == size(parameter_names)) then
+         call text_dataset(file, trim(path), [(text_t(parameter_names(k)), k=1, n)], .false., "Euler parameters", status)
+      else
+         call text_dataset(file, trim(path), [(text_t(axis_names(k)), k=1, n)], .false., "components of a vector", status)
+      end if
+      call add_scale(scales, file, trim(path), status)
+   end subroutine find_components
 
    !> Some of a list of strings.
    pure function picked(list, numbers) result(some)
@@ -239,15 +258,17 @@ contains
    end function picked
 
    !> The dataset of a quantity.
-   subroutine make_quantity(file, catalogue, group, items, block, dataset, status)
+   subroutine make_quantity(file, catalogue, group, items, block, scales, dataset, status)
       integer(hid_t), intent(in) :: file             !! the file
       type(catalogue_t), intent(in) :: catalogue     !! what can be recorded
       integer, intent(in) :: group                   !! number of the group
       integer, intent(in) :: items(:)                !! (n) items that are kept
       integer, intent(in) :: block                   !! rows of a chunk
+      type(scales_t), intent(inout) :: scales        !! those of the file
       type(dataset_t), intent(inout) :: dataset      !! the dataset
       integer, intent(inout) :: status               !! negative: failed
 
+      character(longest_scale) :: dimensions(3)
       character(:), allocatable :: path
       integer(hid_t) :: kind_of_number
       integer(hsize_t) :: rows
@@ -274,6 +295,10 @@ contains
          call describe(dataset%id, this%channel%unit, this%channel%help, this%channel%frame, status)
          if (dataset%is_state) call text_attribute(dataset%id, "states", &
             "0 free, 1 contact, 2 film, 3 mixed, -1 not known", status)
+         dimensions(1) = "time"
+         dimensions(2) = scale_of(catalogue, room)
+         if (size(dataset%shape) == 2) call find_components(file, dataset%components, scales, dimensions(3), status)
+         call take_scales(scales, file, dataset%id, path, dimensions(:size(dataset%shape) + 1), status)
       end associate
    end subroutine make_quantity
 

@@ -101,8 +101,8 @@ contains
       end if
       call make_root(self%file, plan, status)
       if (status >= 0) call make_time(self%file, block, self%time, status)
-      if (status >= 0) call make_row_kind(self%file, block, self%time, self%kinds, status)
-      if (status >= 0) call make_quantities(self%file, catalogue, selection, block, self%time, self%datasets, status)
+      if (status >= 0) call make_row_kind(self%file, block, self%kinds, status)
+      if (status >= 0) call make_quantities(self%file, catalogue, selection, block, self%kinds, self%datasets, status)
       call self%events%make(self%file, catalogue, status)
       call new_group(self%file, "summary", group, status)
       if (status >= 0) call h5gclose_f(group, closed)

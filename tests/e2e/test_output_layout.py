@@ -99,7 +99,7 @@ def test_every_attribute_is_as_documented(made, root):
                 assert is_of_type(handle.dtype, row["type"]), f"{path} {name}: {handle.dtype}"
                 assert handle.shape == ((2,) if row["shape"] == "(2)" else ()), f"{path} {name}"
         assert file.attrs["filetype"] == "gudgeon run"
-        assert list(file.attrs["format_version"]) == [2, 0]
+        assert list(file.attrs["format_version"]) == [2, 1]
         assert file.attrs["status"].decode() == "complete"
 
 
