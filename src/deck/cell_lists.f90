@@ -49,7 +49,7 @@ contains
                                             & "this is a number, not a word")
    end subroutine read_word
 
-   !> A list of words; what stands in parentheses is one word, blanks in it are dropped.
+   !> A list of words; what stands in parentheses is one word, with one blank between cells that are no equals signs.
    subroutine read_words(deck, place, list, value, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck
       character(*), intent(in) :: place               !! as `in key channels of output`
@@ -73,6 +73,9 @@ contains
             word = "="
          else
             call read_word(deck, place, list(k), word, mistakes)
+         end if
+         if (k > first) then
+            if (list(k)%kind /= token_equals .and. list(k - 1)%kind /= token_equals) whole = whole//" "
          end if
          whole = whole//word
          if (list(k)%kind == token_word) depth = depth + n_of(word, "(") - n_of(word, ")")

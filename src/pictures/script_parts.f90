@@ -7,7 +7,7 @@ module script_parts
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: axes_t, largest_y, preamble, source
+   public :: angle_tics, axes_t, largest, largest_y, preamble, scaled, source, with_unit
    public :: colours, key_below
 
    character(*), parameter :: colours(12) = &
@@ -53,6 +53,41 @@ contains
 
       largest_y = max(abs(minval(curves%y_range(1))), abs(maxval(curves%y_range(2))))
    end function largest_y
+
+   !> Greatest magnitude of a range.
+   pure real(wp) function largest(range)
+      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+
+      largest = maxval(abs(range))
+   end function largest
+
+   !> A name with the unit shown.
+   pure function with_unit(name, unit) result(label)
+      character(*), intent(in) :: name            !! what it is, may be blank
+      type(display_unit_t), intent(in) :: unit    !! its unit
+      character(:), allocatable :: label          !! as `velocity [m/s]`
+
+      label = name
+      if (len(unit%symbol) > 0) label = trim(label//" ["//unit%symbol//"]")
+      label = adjustl(label)
+   end function with_unit
+
+   !> Distance of the ticks of an axis in degrees: a part of a turn, or whole turns. 0: gnuplot's own are as good.
+   pure integer function angle_tics(span) result(step)
+      real(wp), intent(in) :: span  !! what the axis shows [deg]
+
+      integer, parameter :: steps(*) = [15, 30, 45, 90, 180, 360, 720, 1800, 3600, 7200, 18000, 36000]
+      integer, parameter :: most = 9  ! ticks of an axis
+      integer :: k
+
+      step = 0
+      if (span < 80.0_wp) return
+      do k = 1, size(steps)
+         step = steps(k)
+         if (span <= real(most*step, wp)) return
+      end do
+      step = 0
+   end function angle_tics
 
    !> File and columns of a curve, with the numbers scaled.
    function source(curve, axes) result(s)
