@@ -54,6 +54,7 @@ contains
       type(panel_t), allocatable :: panels(:)
       type(display_unit_t) :: x
       type(buffer_t) :: lines
+      character(:), allocatable :: label
       integer :: k, n
       logical :: with_zoom
 
@@ -75,9 +76,11 @@ contains
       else
          call lines%line("set title "//quoted(title)//" font ',17'")
       end if
-      call abscissa_lines(lines, figure, catalogue, curves, x)
+      call abscissa_lines(lines, figure, catalogue, curves, x, label)
+      if (n > 1) call lines%line("unset xlabel; set format x ''")
       do k = 1, n
-         call panel_lines(lines, figure%curves%panels(k), panels(k), x, envelope, k == n .and. .not. with_zoom)
+         if (k == n) call lines%line("set xlabel "//label//"; set format x '%h'")
+         call panel_lines(lines, figure%curves%panels(k), panels(k), x, envelope, n)
       end do
       if (with_zoom) call zoom_lines(lines, panels(1), x)
       if (n > 1 .or. with_zoom) call lines%line("unset multiplot")
@@ -189,20 +192,21 @@ contains
    end function shown
 
    !> The abscissa, which all panels have in common.
-   subroutine abscissa_lines(lines, figure, catalogue, curves, x)
+   subroutine abscissa_lines(lines, figure, catalogue, curves, x, label)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
       type(display_unit_t), intent(in) :: x       !! its unit
+      character(:), allocatable, intent(out) :: label  !! what stands below it, in quotes
 
       real(wp) :: range(2)
 
       associate (curve => figure%curves)
          if (curve%abscissa > 0) then
-            call lines%line("set xlabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(curve%abscissa)), x)))
+            label = quoted(with_unit(scalar_name(catalogue, figure%scalars(curve%abscissa)), x))
          else
-            call lines%line("set xlabel "//quoted(with_unit("time", x)))
+            label = quoted(with_unit("time", x))
          end if
          range = x%factor*curves(1)%x_range
          if (curve%x%has_range) then
@@ -211,29 +215,30 @@ contains
          else
             call lines%line("set autoscale xfix")
          end if
-         call angle_lines(lines, "x", x, range(2) - range(1))
+         call angle_lines(lines, "x", x, range(2) - range(1), 1)
       end associate
    end subroutine abscissa_lines
 
    !> Ticks of an axis in degrees.
-   subroutine angle_lines(lines, axis, unit, span)
+   subroutine angle_lines(lines, axis, unit, span, n)
       type(buffer_t), intent(inout) :: lines      !! the script
       character(*), intent(in) :: axis            !! x, y or y2
       type(display_unit_t), intent(in) :: unit    !! its unit
       real(wp), intent(in) :: span                !! what it shows [the unit]
+      integer, intent(in) :: n                    !! panels that share its length
 
       if (unit%symbol /= "deg") return
-      if (angle_tics(span) > 0) call lines%line("set "//axis//"tics "//to_text(angle_tics(span)))
+      if (angle_tics(span, n) > 0) call lines%line("set "//axis//"tics "//to_text(angle_tics(span, n)))
    end subroutine angle_lines
 
    !> One panel.
-   subroutine panel_lines(lines, words, panel, x, envelope, is_last)
+   subroutine panel_lines(lines, words, panel, x, envelope, n)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(panel_words_t), intent(in) :: words    !! what it is to show
       type(panel_t), intent(in) :: panel          !! what it draws
       type(display_unit_t), intent(in) :: x       !! unit of the abscissa
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
-      logical, intent(in) :: is_last              !! nothing comes below it
+      integer, intent(in) :: n                    !! panels of the figure
 
       logical :: grounded
 
@@ -244,7 +249,7 @@ contains
       call ordinate_lines("y", 1)
       if (len(panel%right_label) > 0) then
          call lines%line("set y2label "//quoted(panel%right_label))
-         call lines%line("set y2tics nomirror")
+         call lines%line("set y2tics nomirror textcolor rgb '#000000'")
          grounded = stands_on_zero(pack(panel%curves, panel%side == 2))
          call lines%line("set y2range "//trim(merge("[0:*]", "[*:*]", grounded)))
          call ordinate_lines("y2", 2)
@@ -252,7 +257,6 @@ contains
          call lines%line("unset y2label; unset y2tics")
       end if
       call plot_lines(lines, panel, x, envelope)
-      if (.not. is_last) call lines%line("unset title")
 
    contains
 
@@ -274,7 +278,7 @@ contains
                call lines%line("set yrange [*:*]")
             end if
             call lines%line("set "//axis//"tics autofreq")
-            call angle_lines(lines, axis, unit, range(2) - range(1))
+            call angle_lines(lines, axis, unit, range(2) - range(1), n)
             if (asked%si == "1" .and. panel%label == "state") call lines%line("set "//axis//"tics 1")
          end associate
       end subroutine ordinate_lines

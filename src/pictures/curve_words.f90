@@ -9,6 +9,7 @@ module curve_words
    use display_units, only: ask_unit, display_unit_t
    use figure_phrase, only: clause_t, phrase_t
    use kinds, only: wp
+   use text, only: text_t
    implicit none (type, external)
    private
    public :: axis_t, bind_curves, curves_t, panel_words_t, unit_of
@@ -63,7 +64,7 @@ contains
          call take_words(phrase%panels(k), catalogue, scalars, curves%is_exact, message, hint, bad)
          if (len(message) > 0) return
          curves%panels(k)%last = size(scalars)
-         call find_axes(catalogue, scalars, curves%panels(k), message, hint, bad)
+         call find_axes(catalogue, scalars, phrase%panels(k)%words, curves%panels(k), message, hint, bad)
          if (len(message) > 0) return
          call ask_axes(phrase%panels(k), curves%panels(k)%y, message, hint, bad)
          if (len(message) > 0) return
@@ -133,9 +134,10 @@ contains
    end subroutine take_words
 
    !> The ordinates of a panel: one for each of at most two units.
-   subroutine find_axes(catalogue, scalars, panel, message, hint, bad)
+   subroutine find_axes(catalogue, scalars, words, panel, message, hint, bad)
       type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
       type(scalar_t), intent(in) :: scalars(:)                !! (n) numbers of the figure
+      type(text_t), intent(in) :: words(:)                    !! (any) words that name those of the panel
       type(panel_words_t), intent(inout) :: panel             !! its axes are set
       character(:), allocatable, intent(inout) :: message     !! what is wrong, blank if nothing
       character(:), allocatable, intent(inout) :: hint        !! what may have been meant, may be blank
@@ -148,12 +150,18 @@ contains
       do k = panel%first + 1, panel%last
          si = unit_of(catalogue, scalars(k))
          if (si == panel%y(1)%si) cycle
+         if (size(words) == 1) then
+            message = "'"//words(1)%s//"' names channels of different units"
+            hint = "one word of a figure names channels of one unit; A + B draws two units, panels(A, B, C) more"
+            bad = words(1)%s
+            return
+         end if
          if (.not. allocated(panel%y(2)%si)) panel%y(2)%si = si
          if (si == panel%y(2)%si) cycle
-         message = "'"//scalar_name(catalogue, scalars(k))//"' has another unit ("//si//") than the channels before it ("// &
+         bad = scalar_name(catalogue, scalars(k))
+         message = "'"//bad//"' has another unit ("//si//") than the channels before it ("// &
                    panel%y(1)%si//", "//panel%y(2)%si//")"
          hint = "one picture has axes for two units; panels(A, B, C) draws more, one above the other"
-         bad = scalar_name(catalogue, scalars(k))
          return
       end do
    end subroutine find_axes

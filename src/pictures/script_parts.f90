@@ -73,8 +73,9 @@ contains
    end function with_unit
 
    !> Distance of the ticks of an axis in degrees: a part of a turn, or whole turns. 0: gnuplot's own are as good.
-   pure integer function angle_tics(span) result(step)
+   pure integer function angle_tics(span, n) result(step)
       real(wp), intent(in) :: span  !! what the axis shows [deg]
+      integer, intent(in) :: n      !! axes that share the picture's height
 
       integer, parameter :: steps(*) = [15, 30, 45, 90, 180, 360, 720, 1800, 3600, 7200, 18000, 36000]
       integer, parameter :: most = 9  ! ticks of an axis
@@ -84,7 +85,7 @@ contains
       if (span < 80.0_wp) return
       do k = 1, size(steps)
          step = steps(k)
-         if (span <= real(most*step, wp)) return
+         if (span <= real(most*step, wp)/real(min(n, 3), wp)) return
       end do
       step = 0
    end function angle_tics
