@@ -22,8 +22,8 @@ module display_units
 
    !> Of forces, moments, energies, powers: up to 10000 of a unit.
    type(prefix_t), parameter :: of_force(*) = [prefix_t(9, "G", 1.0e9_wp), prefix_t(6, "M", 1.0e6_wp), &
-      prefix_t(3, "k", 1.0e4_wp), prefix_t(0, "", 1.0e-2_wp), prefix_t(-3, "m", 1.0e-5_wp), prefix_t(-6, "µ", 1.0e-8_wp), &
-      prefix_t(-9, "n", 1.0e-11_wp), prefix_t(-12, "p", 1.0e-14_wp), prefix_t(-15, "f", 0.0_wp)]
+      prefix_t(3, "k", 1.0e4_wp), prefix_t(0, "", 1.0e-2_wp), prefix_t(-3, "m", 1.0e-4_wp), prefix_t(-6, "µ", 1.0e-7_wp), &
+      prefix_t(-9, "n", 1.0e-10_wp), prefix_t(-12, "p", 1.0e-13_wp), prefix_t(-15, "f", 0.0_wp)]
    !> Of lengths.
    type(prefix_t), parameter :: of_length(*) = [prefix_t(3, "k", 1.0e4_wp), prefix_t(0, "", 1.0_wp), prefix_t(-3, "m", 1.0e-4_wp), &
       prefix_t(-6, "µ", 1.0e-6_wp), prefix_t(-9, "n", 1.0e-9_wp), prefix_t(-12, "p", 1.0e-12_wp), prefix_t(-15, "f", 0.0_wp)]

@@ -5,15 +5,16 @@
 module curve_script
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use curve_words, only: axis_t, panel_words_t
-   use display_units, only: choose_unit, display_unit_t
+   use curve_panels, only: constant, make_panel, panel_t, shown, stands_on_zero
+   use curve_words, only: panel_words_t
+   use display_units, only: display_unit_t
    use envelope_data, only: envelope_t
-   use figure_data, only: curve_t, is_visible
+   use figure_data, only: curve_t
    use figure_words, only: figure_t
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, colours, key_below, largest, largest_y, preamble, source, with_unit
-   use text, only: real_text, replace, to_text
+   use script_parts, only: angle_tics, axes_t, colours, largest_y, preamble, source, with_unit
+   use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -22,22 +23,10 @@ module curve_script
    real(wp), parameter :: peak_ratio = 20.0_wp      !! beyond this the ideal curve gets a panel of its own [1]
    real(wp), parameter :: flat_ratio = 1.0e-9_wp    !! an ideal curve this flat needs none [1]
    real(wp), parameter :: zoom_margin = 0.6_wp      !! beyond the ideal curve in that panel, of its span [1]
-   integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
    integer, parameter :: heights(6) = [800, 1000, 1200, 1400, 1600, 1800]  !! of pictures with so many panels, in pixels
 
    character(*), parameter :: range_style = " with filledcurves fillstyle transparent solid 0.35 noborder"  !! of an envelope
    character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin
-
-   !> A panel as it is drawn.
-   type :: panel_t
-      type(curve_t), allocatable :: curves(:)   !! (n) of the run
-      integer, allocatable :: side(:)           !! (n) 1: their ordinate is on the left, 2: on the right
-      type(curve_t), allocatable :: ideal(:)    !! (m) of the twin
-      integer, allocatable :: ideal_side(:)     !! (m) where their ordinate is
-      type(display_unit_t) :: unit(2)           !! (2) of the ordinates
-      character(:), allocatable :: label        !! of the ordinate on the left
-      character(:), allocatable :: right_label  !! of that on the right; blank: there is none
-   end type panel_t
 
 contains
 
@@ -76,7 +65,7 @@ contains
       else
          call lines%line("set title "//quoted(title)//" font ',17'")
       end if
-      call abscissa_lines(lines, figure, catalogue, curves, x, label)
+      call abscissa_lines(lines, figure, catalogue, curves, x, envelope%is_used(), label)
       if (n > 1) call lines%line("unset xlabel; set format x ''")
       do k = 1, n
          if (k == n) call lines%line("set xlabel "//label//"; set format x '%h'")
@@ -88,116 +77,14 @@ contains
       script = lines%get()
    end function curve_text
 
-   !> What a panel draws.
-   subroutine make_panel(figure, catalogue, words, curves, ideal, panel)
-      type(figure_t), intent(in) :: figure        !! the figure
-      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
-      type(panel_words_t), intent(in) :: words    !! what the panel is to show
-      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
-      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the twin
-      type(panel_t), intent(out) :: panel         !! the panel
-
-      logical :: own(size(curves))
-      integer :: k, side
-
-      panel%right_label = ""
-      allocate (panel%side(0), panel%curves(0), panel%ideal(0), panel%ideal_side(0))
-      do side = 1, 2
-         if (.not. allocated(words%y(side)%si)) cycle
-         do k = 1, size(curves)
-            associate (number => curves(k)%number)
-               own(k) = number >= words%first .and. number <= words%last
-               if (own(k)) own(k) = catalogue%groups(figure%scalars(number)%group)%channel%unit == words%y(side)%si
-            end associate
-         end do
-         if (.not. any(own)) cycle
-         call take_side(pack([(k, k=1, size(curves))], own))
-      end do
-      if (size(panel%curves) <= most_overlaid) then
-         do k = 1, size(ideal)
-            do side = 1, size(panel%curves)
-               if (panel%curves(side)%number /= ideal(k)%number) cycle
-               panel%ideal = [panel%ideal, ideal(k)]
-               panel%ideal_side = [panel%ideal_side, panel%side(side)]
-            end do
-         end do
-      end if
-      if (.not. allocated(panel%label)) panel%label = ""
-
-   contains
-
-      !> The curves of one ordinate; components too small to be seen are left out, unless they were named one by one.
-      subroutine take_side(list)
-         integer, intent(in) :: list(:)  !! (any) numbers of curves
-
-         logical, allocatable :: visible(:)
-         integer :: i
-
-         visible = is_visible(curves(list))
-         do i = 1, size(list)
-            if (.not. (visible(i) .or. figure%curves%is_exact(curves(list(i))%number))) cycle
-            panel%curves = [panel%curves, curves(list(i))]
-            panel%side = [panel%side, side]
-         end do
-         panel%unit(side) = shown(words%y(side), curves(list), of_y=.true.)
-         if (side == 1) then
-            panel%label = with_unit(name_of(list), panel%unit(side))
-         else
-            panel%right_label = with_unit(name_of(list), panel%unit(side))
-         end if
-      end subroutine take_side
-
-      !> The quantities of some curves, if they are few.
-      function name_of(list) result(name)
-         integer, intent(in) :: list(:)          !! (any) numbers of curves
-         character(:), allocatable :: name       !! as `velocity`
-
-         character(:), allocatable :: one
-         integer :: i
-
-         name = ""
-         do i = 1, size(list)
-            one = replace(catalogue%groups(figure%scalars(curves(list(i))%number)%group)%channel%name, "_", " ")
-            if (i == 1) name = one
-            if (index(", "//name//",", ", "//one//",") > 0) cycle
-            name = name//", "//one
-         end do
-         if (len(name) <= 40) return
-         name = ""
-         if (words%y(side)%si == "J") name = "energy"
-      end function name_of
-
-   end subroutine make_panel
-
-   !> The unit of an axis.
-   function shown(axis, curves, of_y) result(unit)
-      type(axis_t), intent(in) :: axis               !! what is asked of it
-      type(curve_t), intent(in) :: curves(:)         !! (n) what it shows
-      logical, intent(in), optional :: of_y          !! it is the ordinate
-      type(display_unit_t) :: unit                   !! its unit
-
-      real(wp) :: extent
-
-      unit = axis%unit
-      if (allocated(unit%symbol)) return
-      if (axis%has_range) then
-         extent = largest(axis%range)
-      else if (present(of_y)) then
-         extent = largest_y(curves)
-      else
-         extent = max(largest(curves(1)%x_range), 0.0_wp)
-         if (axis%si == "s") extent = curves(1)%x_range(2) - curves(1)%x_range(1)
-      end if
-      unit = choose_unit(axis%si, extent)
-   end function shown
-
    !> The abscissa, which all panels have in common.
-   subroutine abscissa_lines(lines, figure, catalogue, curves, x, label)
+   subroutine abscissa_lines(lines, figure, catalogue, curves, x, has_ranges, label)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
       type(display_unit_t), intent(in) :: x       !! its unit
+      logical, intent(in) :: has_ranges           !! ranges are drawn, in columns that begin within the axis
       character(:), allocatable, intent(out) :: label  !! what stands below it, in quotes
 
       real(wp) :: range(2)
@@ -209,8 +96,8 @@ contains
             label = quoted(with_unit("time", x))
          end if
          range = x%factor*curves(1)%x_range
-         if (curve%x%has_range) then
-            range = x%factor*curve%x%range
+         if (curve%x%has_range) range = x%factor*curve%x%range
+         if (curve%x%has_range .or. has_ranges) then
             call lines%line("set xrange ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
          else
             call lines%line("set autoscale xfix")
@@ -250,8 +137,6 @@ contains
       if (len(panel%right_label) > 0) then
          call lines%line("set y2label "//quoted(panel%right_label))
          call lines%line("set y2tics nomirror textcolor rgb '#000000'")
-         grounded = stands_on_zero(pack(panel%curves, panel%side == 2))
-         call lines%line("set y2range "//trim(merge("[0:*]", "[*:*]", grounded)))
          call ordinate_lines("y2", 2)
       else
          call lines%line("unset y2label; unset y2tics")
@@ -269,13 +154,17 @@ contains
 
          associate (asked => words%y(side), unit => panel%unit(side))
             if (.not. any(panel%side == side)) return
-            range = unit%factor*[minval(pack(panel%curves%y_range(1), panel%side == side)), &
-                                 maxval(pack(panel%curves%y_range(2), panel%side == side))]
+            range = unit%factor*([minval(pack(panel%curves%y_range(1), panel%side == side)), &
+                                  maxval(pack(panel%curves%y_range(2), panel%side == side))] - panel%less(side))
             if (asked%has_range) then
                range = unit%factor*asked%range
                call lines%line("set "//axis//"range ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
-            else if (axis == "y") then
-               call lines%line("set yrange [*:*]")
+            else if (range(2) - range(1) <= constant*maxval(abs(range)) .and. maxval(abs(range)) > 0.0_wp) then
+               call lines%line("set "//axis//"range ["//real_text(range(1) - 0.1_wp*abs(range(1)), 6)//":"// &
+                               real_text(range(2) + 0.1_wp*abs(range(2)), 6)//"]")
+            else
+               call lines%line("set "//axis//"range "//trim(merge("[0:*]", "[*:*]", &
+                                                                  stands_on_zero(pack(panel%curves, panel%side == side)))))
             end if
             call lines%line("set "//axis//"tics autofreq")
             call angle_lines(lines, axis, unit, range(2) - range(1), n)
@@ -304,17 +193,6 @@ contains
       call plot_lines(lines, panel, x, none)
    end subroutine zoom_lines
 
-   !> Whether nothing is negative and something is as good as zero: then zero is the lower edge.
-   pure logical function stands_on_zero(curves)
-      type(curve_t), intent(in) :: curves(:)  !! (n) curves of the run
-
-      real(wp), parameter :: near = 0.05_wp  ! of the greatest value [1]
-      real(wp) :: least
-
-      least = minval(curves%y_range(1))
-      stands_on_zero = least >= 0.0_wp .and. least < near*maxval(curves%y_range(2))
-   end function stands_on_zero
-
    !> Whether the ideal curve would be a flat line beside the peaks of the run.
    pure logical function needs_zoom(panel)
       type(panel_t), intent(in) :: panel  !! what is drawn
@@ -342,6 +220,7 @@ contains
       n = size(panel%curves) + size(panel%ideal)
       do k = 1, size(panel%curves)
          axes%y = panel%unit(panel%side(k))
+         axes%less = panel%less(panel%side(k))
          colour = " linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
          name = panel%curves(k)%name
          on = ""
@@ -362,6 +241,7 @@ contains
       end do
       do k = 1, size(panel%ideal)
          axes%y = panel%unit(panel%ideal_side(k))
+         axes%less = panel%less(panel%ideal_side(k))
          on = trim(merge(" axes x1y2", "          ", panel%ideal_side(k) == 2))
          call lines%line("     "//source(panel%ideal(k), axes)//on//ideal_style// &
                          trim(merge("title 'ideal joints'", "notitle             ", k == 1))// &

@@ -12,7 +12,7 @@ module envelope_data
    use text_file, only: write_file
    implicit none (type, external)
    private
-   public :: envelope_t, make_envelope
+   public :: count_turns, envelope_t, make_envelope
 
    integer, parameter :: n_column = 350               !! columns of an envelope, three pixels each
    real(wp), parameter :: least_swing = 0.1_wp        !! between two turns that count, of the range of the curve [1]
@@ -22,12 +22,21 @@ module envelope_data
       character(:), allocatable :: file     !! table, beside the script
       integer, allocatable :: numbers(:)    !! (n) curves that are drawn so, by their numbers in the figure
    contains
+      procedure :: is_used
       procedure :: place => place_of_curve
       procedure :: range_source
       procedure :: mean_source
    end type envelope_t
 
 contains
+
+   !> Whether a curve is drawn so.
+   pure logical function is_used(self)
+      class(envelope_t), intent(in) :: self  !! the ranges
+
+      is_used = .false.
+      if (allocated(self%numbers)) is_used = size(self%numbers) > 0
+   end function is_used
 
    !> Which curve of the table one of the figure is; 0: it is drawn as a line.
    pure integer function place_of_curve(self, number) result(place)
@@ -45,8 +54,8 @@ contains
       type(axes_t), intent(in) :: axes       !! scales of the figure
       character(:), allocatable :: s         !! for `plot`
 
-      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor)//":"//scaled(4*place - 2, axes%y%factor)//":"// &
-          scaled(4*place - 1, axes%y%factor)
+      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor)//":"// &
+          scaled(4*place - 2, axes%y%factor, axes%less)//":"//scaled(4*place - 1, axes%y%factor, axes%less)
    end function range_source
 
    !> File and columns of a mean.
@@ -56,7 +65,7 @@ contains
       type(axes_t), intent(in) :: axes       !! scales of the figure
       character(:), allocatable :: s         !! for `plot`
 
-      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor)//":"//scaled(4*place, axes%y%factor)
+      s = "'"//self%file//"' using "//scaled(4*place - 3, axes%x%factor)//":"//scaled(4*place, axes%y%factor, axes%less)
    end function mean_source
 
    !> Find the curves of a figure that turn too often within what is drawn, and write their ranges.
@@ -88,6 +97,17 @@ contains
       end do
       if (n > 0) call write_file(folder//"/"//envelope%file, table_text(heading, names, tables(:, :, :n)), error)
    end subroutine make_envelope
+
+   !> How often a curve turns, small wiggles apart.
+   integer function count_turns(path, curve) result(n_turn)
+      character(*), intent(in) :: path                !! its file
+      type(curve_t), intent(in) :: curve              !! the curve
+
+      real(wp) :: table(4, n_column)
+
+      n_turn = 0
+      if (curve%x_range(2) > curve%x_range(1)) call read_ranges(path, curve, curve%x_range, table, n_turn)
+   end function count_turns
 
    !> Ranges and means of a curve in columns of equal width, and how often it turns. The mean is over the abscissa.
    subroutine read_ranges(path, curve, window, table, n_turn)
@@ -136,11 +156,7 @@ contains
          end associate
       end do
       close (unit)
-      where (length > 0.0_wp)
-         table(4, :) = table(4, :)/length
-      elsewhere
-         table(4, :) = not_a_number()
-      end where
+      call smooth_mean(table(4, :), length)
       where (table(2, :) > table(3, :))
          table(2, :) = not_a_number()
          table(3, :) = not_a_number()
@@ -167,6 +183,24 @@ contains
       end subroutine turn
 
    end subroutine read_ranges
+
+   !> Means over several columns each, from sums in columns.
+   pure subroutine smooth_mean(sums, length)
+      real(wp), intent(inout) :: sums(:)   !! (n) integrals over the columns; means on return, NaN: empty [any]
+      real(wp), intent(in) :: length(:)    !! (n) widths that these are over [any]
+
+      integer, parameter :: reach = 5  ! columns to either side
+      real(wp) :: mean(size(sums))
+      integer :: first, k, last
+
+      do k = 1, size(sums)
+         first = max(1, k - reach)
+         last = min(size(sums), k + reach)
+         mean(k) = not_a_number()
+         if (sum(length(first:last)) > 0.0_wp) mean(k) = sum(sums(first:last))/sum(length(first:last))
+      end do
+      sums = mean
+   end subroutine smooth_mean
 
    !> The table as text: four columns for each curve.
    function table_text(heading, names, tables) result(text)

@@ -14,17 +14,18 @@ module figure_script
    private
    public :: figure_text
 
-   integer, parameter :: most_turns = 100   !! beyond them the line of a portrait is thin
+   integer, parameter :: most_turns = 60    !! beyond them the line of a portrait is thin
 
 contains
 
    !> The whole script of a figure, blank if there is nothing to draw.
-   function figure_text(figure, catalogue, title, curves, ideal) result(script)
+   function figure_text(figure, catalogue, title, curves, ideal, n_turn) result(script)
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
       type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the ideal twin, perhaps none
+      integer, intent(in) :: n_turn               !! turns of the first curve, small wiggles apart
       character(:), allocatable :: script         !! lines for gnuplot
 
       type(buffer_t) :: lines
@@ -36,19 +37,20 @@ contains
          if (size(curves) < 2) return
          call orbit_lines(lines, figure, catalogue, title, curves)
       case default
-         call portrait_lines(lines, figure, catalogue, title, curves, ideal)
+         call portrait_lines(lines, figure, catalogue, title, curves, ideal, n_turn > most_turns)
       end select
       script = lines%get()
    end function figure_text
 
    !> One channel over another.
-   subroutine portrait_lines(lines, figure, catalogue, title, curves, ideal)
+   subroutine portrait_lines(lines, figure, catalogue, title, curves, ideal, is_thin)
       type(buffer_t), intent(inout) :: lines      !! the script
       type(figure_t), intent(in) :: figure        !! the figure
       type(catalogue_t), intent(in) :: catalogue  !! what was recorded
       character(*), intent(in) :: title           !! of the scene, any text
       type(curve_t), intent(in) :: curves(:)      !! (1) curve of the run
       type(curve_t), intent(in) :: ideal(:)       !! (0 or 1) curve of the twin
+      logical, intent(in) :: is_thin              !! many turns lie one over the other
 
       type(axes_t) :: axes
       character(:), allocatable :: width
@@ -60,8 +62,7 @@ contains
       call lines%line("set ylabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(2)), axes%y)))
       call lines%line("set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05")
       call lines%line("set title "//quoted(title)//" font ',17'")
-      width = "2"
-      if (curves(1)%turns > most_turns) width = "0.7"  ! many turns one over the other
+      width = trim(merge("0.8", "2  ", is_thin))
       call lines%add("plot "//source(curves(1), axes)//" with lines linewidth "//width//" linecolor rgb '"//colours(1)//"'")
       if (size(ideal) == 0) then
          call lines%line(" notitle")

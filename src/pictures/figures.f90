@@ -8,7 +8,7 @@ module figures
    use animation_page, only: page_text
    use curve_script, only: curve_text
    use drawing, only: drawing_t
-   use envelope_data, only: envelope_t, make_envelope
+   use envelope_data, only: count_turns, envelope_t, make_envelope
    use errors, only: error_t
    use field_plot, only: write_field_plot
    use figure_data, only: curve_t, data_files_t, find_curves
@@ -113,6 +113,7 @@ contains
       type(envelope_t) :: envelope
       character(:), allocatable :: script
       real(wp) :: window(2)
+      integer :: n_turn
 
 
       is_written = .false.
@@ -125,7 +126,11 @@ contains
          if (allocated(error)) return
          script = curve_text(figure, catalogue, title, curves, ideal, envelope)
       else
-         script = figure_text(figure, catalogue, title, curves, ideal)
+         n_turn = 0
+         if (figure%kind == figure_portrait .and. size(curves) > 0) then
+            n_turn = count_turns(directory//"/figures/"//curves(1)%path, curves(1))
+         end if
+         script = figure_text(figure, catalogue, title, curves, ideal, n_turn)
       end if
       is_written = len(script) > 0
       if (is_written) call write_file(directory//"/figures/"//figure%name//".gp", script, error)

@@ -3,7 +3,7 @@ module script_parts
    use display_units, only: display_unit_t
    use figure_data, only: curve_t
    use kinds, only: wp
-   use text, only: real_text, to_text
+   use text, only: exact_text, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -22,6 +22,7 @@ module script_parts
    type :: axes_t
       type(display_unit_t) :: x          !! abscissa
       type(display_unit_t) :: y          !! ordinate
+      real(wp) :: less = 0.0_wp          !! what is taken from every ordinate, SI [any]
    end type axes_t
 
 contains
@@ -96,16 +97,23 @@ contains
       type(axes_t), intent(in) :: axes     !! scales of the figure
       character(:), allocatable :: s       !! as `'../slider.dat' using ($1*1000):2`
 
-      s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor)//":"//scaled(curve%y, axes%y%factor)
+      s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor)//":"//scaled(curve%y, axes%y%factor, axes%less)
    end function source
 
    !> A column, scaled.
-   function scaled(column, factor) result(s)
-      integer, intent(in) :: column         !! its number
-      real(wp), intent(in) :: factor        !! of the display unit [any]
-      character(:), allocatable :: s        !! for `using`
+   function scaled(column, factor, less) result(s)
+      integer, intent(in) :: column            !! its number
+      real(wp), intent(in) :: factor           !! of the display unit [any]
+      real(wp), intent(in), optional :: less   !! what is taken from its numbers, SI [any]
+      character(:), allocatable :: s           !! for `using`
 
       s = to_text(column)
+      if (present(less)) then
+         if (abs(less) > 0.0_wp) then
+            s = "(($"//s//"-("//exact_text(less)//"))*"//real_text(factor, 6)//")"
+            return
+         end if
+      end if
       if (abs(factor - 1.0_wp) > 0.0_wp) s = "($"//s//"*"//real_text(factor, 6)//")"
    end function scaled
 
