@@ -150,6 +150,7 @@ contains
          character(*), intent(in) :: axis  !! y or y2
          integer, intent(in) :: side       !! 1 left, 2 right
 
+         character(:), allocatable :: edge
          real(wp) :: range(2)
 
          associate (asked => words%y(side), unit => panel%unit(side))
@@ -163,8 +164,9 @@ contains
                call lines%line("set "//axis//"range ["//real_text(range(1) - 0.1_wp*abs(range(1)), 6)//":"// &
                                real_text(range(2) + 0.1_wp*abs(range(2)), 6)//"]")
             else
-               call lines%line("set "//axis//"range "//trim(merge("[0:*]", "[*:*]", &
-                                                                  stands_on_zero(pack(panel%curves, panel%side == side)))))
+               edge = "*"  ! of what is as good as never negative: its least value, or zero
+               if (stands_on_zero(pack(panel%curves, panel%side == side))) edge = real_text(min(0.0_wp, range(1)), 6)
+               call lines%line("set "//axis//"range ["//edge//":*]")
             end if
             call lines%line("set "//axis//"tics autofreq")
             call angle_lines(lines, axis, unit, range(2) - range(1), n)
