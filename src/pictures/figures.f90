@@ -115,7 +115,6 @@ contains
       real(wp) :: window(2)
       integer :: n_turn
 
-
       is_written = .false.
       call find_curves(figure, catalogue, directory, "", files, curves)
       call find_curves(figure, catalogue, directory, ideal_suffix, files, ideal)
