@@ -55,7 +55,7 @@ contains
 
    !> Maximum of the penetration within the last step, on its interpolant. What is still missing to the maximum of the parabola
    !> through the place is added.
-   subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest)
+   subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest, t)
       type(mechanism_t), intent(inout) :: system    !! the system
       class(integrator_t), intent(in) :: method         !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
@@ -64,6 +64,7 @@ contains
       type(trend_t), intent(in) :: right                !! penetration at its end
       real(wp), intent(inout), contiguous :: y(:)       !! (n) scratch state [any]
       real(wp), intent(out) :: greatest                 !! the greatest penetration found [m]
+      real(wp), intent(out) :: t                        !! when it is there [s]
 
       type(bracket_t) :: bracket
       type(trend_t) :: force, here
@@ -71,13 +72,17 @@ contains
       integer :: k
 
       greatest = 0.0_wp
+      t = method%step%t0
       bracket = bracket_t(h=method%step%h, a=left, b=right)
       do k = 1, n_search
          place = place_in(bracket, k)
          call method%within(system, place, y)
          call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
          call look(system, slot, item, force, here)
-         greatest = max(greatest, here%value + missing(here, bracket))
+         if (here%value + missing(here, bracket) > greatest) then
+            greatest = here%value + missing(here, bracket)
+            t = method%step%t0 + place*method%step%h
+         end if
          if (missing(here, bracket) <= near_depth*abs(here%value)) exit
          call narrow(place, here, bracket)
       end do

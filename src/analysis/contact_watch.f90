@@ -10,6 +10,7 @@ module contact_watch
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
    use force_jumps, only: law_jumps, time_to_see
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use integrator, only: integrator_t
    use integrator_controls, only: onset_located
    use kinds, only: not_a_number, pi, wp
@@ -73,7 +74,7 @@ contains
 
       type(trend_t) :: force, penetration
       type(peak_t) :: peak
-      real(wp) :: deepest
+      real(wp) :: deepest, deepest_at
       integer :: i, k, number
       logical :: has_force_peak, has_peak
 
@@ -88,15 +89,18 @@ contains
             has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
             has_force_peak = self%force(number)%rate >= 0.0_wp .and. force%rate < 0.0_wp
             deepest = penetration%value
+            deepest_at = method%t
             if (has_peak) then
-               call find_penetration_peak(system, method, k, i, self%penetration(number), penetration, self%y, deepest)
+               call find_penetration_peak(system, method, k, i, self%penetration(number), penetration, self%y, deepest, deepest_at)
             end if
             peak%force = -1.0_wp
             if (has_force_peak) then
                call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
             end if
             if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
-            call system%loose%sets(k)%set%note_depth(i, max(deepest, penetration%value))
+            if (penetration%value > deepest) deepest_at = method%t
+            call system%loose%sets(k)%set%note_depth(i, max(deepest, penetration%value), deepest_at)
+            call system%loose%sets(k)%set%add_impulse(i, integral_of(self%force(number), force, method%step%h))
             call keep_force(self, system, method, k, i, peak, force%value)
             if (system%ledger%is_kept) then
                call follow_cut_off(system%loose%sets(k)%set, i, penetration%value, force%value, &
@@ -130,7 +134,7 @@ contains
          else if (self%owes_row(number) .and. at_end <= greatest) then
             call tell(peak_t(method%step%t0, greatest, method%step%y0))
          end if
-         call set%note_force(item, max(peak%force, at_end))
+         call set%note_force(item, max(peak%force, at_end), merge(peak%t, method%t, peak%force > at_end))
          self%owes_row(number) = at_end >= set%contact(item)%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
       end associate
 
@@ -145,6 +149,16 @@ contains
       end subroutine tell
 
    end subroutine keep_force
+
+   !> Integral of a force over a step, from the cubic through values and rates at its ends; without rates, from the values.
+   pure real(wp) function integral_of(a, b, h) result(impulse)
+      type(trend_t), intent(in) :: a  !! force where the step begins
+      type(trend_t), intent(in) :: b  !! force where it ends
+      real(wp), intent(in) :: h       !! length of the step [s]
+
+      impulse = 0.5_wp*h*(a%value + b%value)
+      if (ieee_is_finite(a%rate) .and. ieee_is_finite(b%rate)) impulse = impulse + h**2/12.0_wp*(a%rate - b%rate)
+   end function integral_of
 
    !> Peaks up to a time are told.
    subroutine watch_drop_peaks(self, t)
@@ -228,8 +242,8 @@ contains
                if (.not. set%contact(i)%is_touching) cycle
                number = set%before%contacts + i
                call look(system, k, i, self%force(number), self%penetration(number))
-               call set%note_depth(i, self%penetration(number)%value)
-               call set%note_force(i, self%force(number)%value)
+               call set%note_depth(i, self%penetration(number)%value, method%t)
+               call set%note_force(i, self%force(number)%value, method%t)
                self%owes_row(number) = self%force(number)%value >= set%contact(i)%peak_force .and. &
                                        self%force(number)%value > (1.0_wp + noise)*self%told(number)
             end do

@@ -126,6 +126,9 @@ contains
          row%duration = not_a_number()
          row%release_speed = not_a_number()
          row%energy_lost = not_a_number()
+         row%impulse = not_a_number()
+         row%peak_force_time = not_a_number()
+         row%peak_penetration_time = not_a_number()
          row%state_before = trim(before)
          row%state_after = row%kind
       end associate

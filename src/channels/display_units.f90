@@ -1,15 +1,42 @@
-!> Units for the axes of figures: from SI to what reads well.
+!> Units for the axes of figures: from SI to what reads well, or to the one that is asked for.
 module display_units
-   use kinds, only: wp
+   use kind_info, only: same_dimension
+   use kinds, only: pi, wp
+   use units, only: parse_unit, unit_factor, unit_t
    implicit none (type, external)
    private
-   public :: choose_unit, display_unit_t
+   public :: ask_unit, choose_unit, display_unit_t
 
    !> How numbers are shown.
    type :: display_unit_t
       real(wp) :: factor = 1.0_wp          !! SI values times this [any]
       character(:), allocatable :: symbol  !! of the unit shown, UTF-8; blank: none
    end type display_unit_t
+
+   !> From what extent on a prefix is taken, by its power of ten.
+   type :: prefix_t
+      integer :: power = 0           !! of ten
+      character(2) :: sign = ""      !! UTF-8
+      real(wp) :: from = 0.0_wp      !! least extent that it reads well for [the SI unit]
+   end type prefix_t
+
+   !> Of forces, moments, energies, powers: up to 10000 of a unit.
+   type(prefix_t), parameter :: of_force(*) = [prefix_t(9, "G", 1.0e9_wp), prefix_t(6, "M", 1.0e6_wp), &
+      prefix_t(3, "k", 1.0e4_wp), prefix_t(0, "", 1.0e-2_wp), prefix_t(-3, "m", 1.0e-4_wp), prefix_t(-6, "µ", 1.0e-7_wp), &
+      prefix_t(-9, "n", 1.0e-10_wp), prefix_t(-12, "p", 1.0e-13_wp), prefix_t(-15, "f", 0.0_wp)]
+   !> Of lengths.
+   type(prefix_t), parameter :: of_length(*) = [prefix_t(3, "k", 1.0e4_wp), prefix_t(0, "", 1.0_wp), prefix_t(-3, "m", 1.0e-4_wp), &
+      prefix_t(-6, "µ", 1.0e-6_wp), prefix_t(-9, "n", 1.0e-9_wp), prefix_t(-12, "p", 1.0e-12_wp), prefix_t(-15, "f", 0.0_wp)]
+   !> Of times.
+   type(prefix_t), parameter :: of_time(*) = [prefix_t(0, "", 1.0_wp), prefix_t(-3, "m", 1.0e-3_wp), &
+      prefix_t(-6, "µ", 1.0e-6_wp), prefix_t(-9, "n", 0.0_wp)]
+   !> Of velocities, and small accelerations.
+   type(prefix_t), parameter :: of_rate(*) = [prefix_t(0, "", 1.0e-2_wp), prefix_t(-3, "m", 1.0e-4_wp), &
+      prefix_t(-6, "µ", 1.0e-6_wp), prefix_t(-9, "n", 1.0e-9_wp), prefix_t(-12, "p", 1.0e-12_wp), prefix_t(-15, "f", 0.0_wp)]
+   !> Of pressures.
+   type(prefix_t), parameter :: of_pressure(*) = [prefix_t(9, "G", 1.0e10_wp), prefix_t(6, "M", 1.0e4_wp), prefix_t(0, "", 0.0_wp)]
+   real(wp), parameter :: small_angle = 1.0e-2_wp  !! angles below it are shown in mrad, others in degrees [rad]
+   integer, parameter :: readable(2) = [-2, 4]     !! powers of ten that need no further one in units without prefixes
 
 contains
 
@@ -21,61 +48,110 @@ contains
 
       shown%symbol = pretty(si)
       if (si == "1") shown%symbol = ""
+      if (si == "rad" .and. extent <= 0.0_wp) call scale_angle()
       if (extent <= 0.0_wp) return
       select case (si)
-      case ("s")
-         if (extent < 1.0e-3_wp) then
-            call scale(1.0e6_wp, "µs")
-         else if (extent < 1.0_wp) then
-            call scale(1.0e3_wp, "ms")
-         end if
-      case ("m")
-         if (extent < 1.0e-6_wp) then
-            call scale(1.0e9_wp, "nm")
-         else if (extent < 1.0e-4_wp) then
-            call scale(1.0e6_wp, "µm")
-         else if (extent < 1.0_wp) then
-            call scale(1.0e3_wp, "mm")
-         end if
-      case ("m/s")
-         if (extent < 1.0e-6_wp) then
-            call scale(1.0e9_wp, "nm/s")
-         else if (extent < 1.0e-4_wp) then
-            call scale(1.0e6_wp, "µm/s")
-         else if (extent < 1.0e-2_wp) then
-            call scale(1.0e3_wp, "mm/s")
-         end if
+      case ("s"); call scale_by(of_time)
+      case ("m"); call scale_by(of_length)
+      case ("N", "N.m", "J", "W", "N.s"); call scale_by(of_force)
+      case ("Pa"); call scale_by(of_pressure)
+      case ("m/s", "rad/s"); call scale_by(of_rate)
       case ("m/s^2", "rad/s^2")
-         if (extent >= 1.0e4_wp) call scale(1.0e-3_wp, "10³ "//pretty(si))
-      case ("N", "N.m", "J", "W")
-         if (extent >= 1.0e6_wp) then
-            call scale(1.0e-6_wp, "M"//pretty(si))
-         else if (extent >= 1.0e4_wp) then
-            call scale(1.0e-3_wp, "k"//pretty(si))
-         else if (extent < 1.0e-8_wp) then
-            call scale(1.0e9_wp, "n"//pretty(si))
-         else if (extent < 1.0e-5_wp) then
-            call scale(1.0e6_wp, "µ"//pretty(si))
-         else if (extent < 1.0e-2_wp) then
-            call scale(1.0e3_wp, "m"//pretty(si))
+         if (extent >= 1.0e4_wp) then
+            shown%factor = 1.0e-3_wp
+            shown%symbol = "10³ "//pretty(si)
+         else
+            call scale_by(of_rate)
          end if
-      case ("Pa")
-         if (extent >= 1.0e4_wp) call scale(1.0e-6_wp, "MPa")
+      case ("rad")
+         if (extent < small_angle) then
+            call scale_by(of_rate)
+         else
+            call scale_angle()
+         end if
+      case ("m^3/s")
+         shown%factor = merge(1.0e6_wp, 1.0e9_wp, extent >= 1.0e-7_wp)
+         shown%symbol = merge("cm³/s", "mm³/s", extent >= 1.0e-7_wp)
       case default
-         continue
+         call scale_by_power()
       end select
 
    contains
 
-      !> Take another unit.
-      pure subroutine scale(factor, symbol)
-         real(wp), intent(in) :: factor      !! SI values times this [any]
-         character(*), intent(in) :: symbol  !! of the unit
+      !> The first prefix that the extent is enough for.
+      pure subroutine scale_by(list)
+         type(prefix_t), intent(in) :: list(:)  !! (n) prefixes, greatest first
 
-         shown%factor = factor
-         shown%symbol = symbol
-      end subroutine scale
+         integer :: k
+
+         do k = 1, size(list) - 1
+            if (extent >= list(k)%from) exit
+         end do
+         shown%factor = 10.0_wp**(-list(k)%power)
+         shown%symbol = trim(list(k)%sign)//pretty(si)
+      end subroutine scale_by
+
+      !> Degrees.
+      pure subroutine scale_angle()
+         shown%factor = 180.0_wp/pi
+         shown%symbol = "deg"
+      end subroutine scale_angle
+
+      !> A power of ten before a unit that takes no prefix.
+      pure subroutine scale_by_power()
+         integer :: power
+
+         power = floor(log10(extent))
+         if (power >= readable(1) .and. power <= readable(2)) return
+         power = 3*floor(power/3.0_wp)
+         shown%factor = 10.0_wp**(-power)
+         shown%symbol = trim("10"//raised(power)//" "//shown%symbol)
+      end subroutine scale_by_power
+
    end function choose_unit
+
+   !> The unit that was asked for, if a quantity can be shown in it.
+   subroutine ask_unit(name, si, shown, message)
+      character(*), intent(in) :: name                    !! as written
+      character(*), intent(in) :: si                      !! SI unit of the quantity, as in files
+      type(display_unit_t), intent(out) :: shown          !! what to show
+      character(:), allocatable, intent(out) :: message   !! what is wrong, blank if nothing
+
+      type(unit_t) :: own, unit
+      integer :: first, last
+
+      call parse_unit(name, unit, message, first, last)
+      if (len(message) > 0) return
+      call parse_unit(si, own, message, first, last)
+      if (len(message) > 0) return
+      if (.not. same_dimension(unit%dimension, own%dimension)) then
+         message = "unit '"//name//"' does not measure what is given in "//si
+      else if (abs(unit%offset) > 0.0_wp) then
+         message = "an axis has no room for the offset of '"//name//"'; take K"
+      end if
+      if (len(message) > 0) return
+      shown%factor = unit_factor(own)/unit_factor(unit)
+      shown%symbol = pretty(name)
+      if (name == "1") shown%symbol = ""
+   end subroutine ask_unit
+
+   !> An integer as a raised exponent.
+   pure function raised(power) result(s)
+      integer, intent(in) :: power           !! the integer
+      character(:), allocatable :: s         !! UTF-8
+
+      character(3), parameter :: digits(0:9) = [character(3) :: "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"]
+      integer :: rest
+
+      s = ""
+      rest = abs(power)
+      do
+         s = trim(digits(modulo(rest, 10)))//s
+         rest = rest/10
+         if (rest == 0) exit
+      end do
+      if (power < 0) s = "⁻"//s
+   end function raised
 
    !> A unit as printed: dots between factors and raised exponents.
    pure function pretty(si) result(symbol)
@@ -99,6 +175,12 @@ contains
                symbol = symbol//"³"
             else
                symbol = symbol//"^"//si(i:i)
+            end if
+         case ("u")
+            if (i == 1 .and. len(si) > 1) then
+               symbol = symbol//"µ"
+            else
+               symbol = symbol//si(i:i)
             end if
          case default
             symbol = symbol//si(i:i)

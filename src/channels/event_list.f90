@@ -12,14 +12,16 @@ module event_list
    public :: event_list_t
    public :: n_event_numbers, n_event_words, number_long_names, number_names, number_units, word_long_names, word_names
 
-   integer, parameter :: n_event_numbers = 7  !! numbers of an event
+   integer, parameter :: n_event_numbers = 10 !! numbers of an event
    integer, parameter :: n_event_words = 5    !! words of an event
 
    !> Names of the numbers of an event, in files.
-   character(*), parameter :: number_names(n_event_numbers) = [character(16) :: "time", "impact_speed", &
-      "peak_force", "peak_penetration", "duration", "release_speed", "energy_lost"]
+   character(*), parameter :: number_names(n_event_numbers) = [character(21) :: "time", "impact_speed", &
+      "peak_force", "peak_penetration", "duration", "release_speed", "energy_lost", &
+      "impulse", "peak_force_time", "peak_penetration_time"]
    !> Their units.
-   character(*), parameter :: number_units(n_event_numbers) = [character(3) :: "s", "m/s", "N", "m", "s", "m/s", "J"]
+   character(*), parameter :: number_units(n_event_numbers) = [character(3) :: "s", "m/s", "N", "m", "s", "m/s", "J", &
+      "N.s", "s", "s"]
    !> What they are.
    character(*), parameter :: number_long_names(n_event_numbers) = [character(64) :: &
       "time of the event; of a contact: of its onset", &
@@ -28,9 +30,12 @@ module event_list
       "penetration at its located maximum", &
       "from onset to end; NaN: not ended with the run", &
       "normal separation speed at the end", &
-      "energy lost in the contact; NaN without ledger"]
+      "energy lost in the contact; NaN without ledger", &
+      "impulse of the normal force over the contact", &
+      "when the normal force was greatest", &
+      "when the penetration was greatest"]
    !> Names of the words of an event, in files.
-   character(*), parameter :: word_names(n_event_words) = [character(16) :: "kind", "item", "contact", &
+   character(*), parameter :: word_names(n_event_words) = [character(21) :: "kind", "item", "contact", &
       "state_before", "state_after"]
    !> What they are.
    character(*), parameter :: word_long_names(n_event_words) = [character(64) :: &
@@ -43,7 +48,7 @@ module event_list
    !> The events told so far.
    type :: event_list_t
       integer :: n = 0                            !! number of events
-      real(wp), allocatable :: numbers(:, :)      !! (7, capacity) as named above, SI [any]
+      real(wp), allocatable :: numbers(:, :)      !! (10, capacity) as named above, SI [any]
       integer, allocatable :: codes(:, :)         !! (5, capacity) numbers of their words in `words`
       type(text_list_t) :: words                  !! different words
       type(name_table_t) :: numbers_of_words      !! where each stands
@@ -65,7 +70,8 @@ contains
       if (.not. is_added) return
       self%n = self%n + 1
       self%numbers(:, self%n) = [event%time, event%impact_speed, event%peak_force, event%peak_penetration, &
-                                 event%duration, event%release_speed, event%energy_lost]
+                                 event%duration, event%release_speed, event%energy_lost, event%impulse, &
+                                 event%peak_force_time, event%peak_penetration_time]
       call encode(self, event%kind, self%codes(1, self%n))
       call encode(self, event%item, self%codes(2, self%n))
       call encode(self, event%contact, self%codes(3, self%n))

@@ -9,7 +9,14 @@ module contact_memory
    integer, parameter :: approaches = 1        !! course: the penetration grows
    integer, parameter :: parts = -1            !! course: it falls
    integer, parameter :: rests = 0             !! course: a load between both forces keeps it from either
-   integer, parameter :: n_contact_memory = 13  !! numbers of a contact in a checkpoint
+   integer, parameter :: n_contact_memory = 16  !! numbers of a contact in a checkpoint
+
+   !> What it went through besides its greatest values.
+   type :: course_of_contact_t
+      real(wp) :: force_at = 0.0_wp        !! when the force was greatest [s]
+      real(wp) :: penetration_at = 0.0_wp  !! when the penetration was greatest [s]
+      real(wp) :: impulse = 0.0_wp         !! of the normal force since the onset [N.s]
+   end type course_of_contact_t
 
    !> One contact.
    type :: contact_memory_t
@@ -18,6 +25,7 @@ module contact_memory
       real(wp) :: impact_speed = 0.0_wp         !! normal approach speed at the onset [m/s]
       real(wp) :: peak_force = 0.0_wp           !! greatest normal force since the onset [N]
       real(wp) :: peak_penetration = 0.0_wp     !! greatest penetration since the onset [m]
+      type(course_of_contact_t) :: went         !! when these were, and the impulse
       real(wp) :: loss_at_onset = 0.0_wp        !! what the ledger had lost in the contact by then [J]
       integer :: course = approaches            !! approaches, parts or rests: laws that jump at a turn of the penetration
       real(wp) :: rest_speed = 0.0_wp           !! greatest rate of one that rests [m/s]
@@ -41,7 +49,8 @@ contains
 
       call put(row, place, self%is_touching)
       call put(row, place, [self%onset, self%impact_speed, self%peak_force, self%peak_penetration, self%loss_at_onset, &
-                            self%rest_speed, self%swing, self%held, self%amends])
+                            self%rest_speed, self%swing, self%held, self%amends, self%went%force_at, self%went%penetration_at, &
+                            self%went%impulse])
       call put(row, place, self%course)
       call put(row, place, self%is_cut_off)
       call put(row, place, self%is_dry)
@@ -63,6 +72,9 @@ contains
       call get(row, place, self%swing)
       call get(row, place, self%held)
       call get(row, place, self%amends)
+      call get(row, place, self%went%force_at)
+      call get(row, place, self%went%penetration_at)
+      call get(row, place, self%went%impulse)
       call get(row, place, self%course)
       call get(row, place, self%is_cut_off)
       call get(row, place, self%is_dry)

@@ -43,6 +43,7 @@ module contact_states
       procedure :: begin_at_rest
       procedure :: note_depth
       procedure :: note_force
+      procedure :: add_impulse
       procedure :: set_course
       procedure :: cross_transition
       procedure :: slip_as
@@ -87,6 +88,8 @@ contains
       real(wp), intent(in) :: loss                    !! what the ledger has lost in the contact by now [J]
 
       self%contact(k) = contact_memory_t(is_touching=.true., onset=t, impact_speed=impact_speed, loss_at_onset=loss)
+      self%contact(k)%went%force_at = t
+      self%contact(k)%went%penetration_at = t
       self%n_touching = self%n_touching + 1
       call self%grip%forget(k)
    end subroutine begin_contact
@@ -119,6 +122,9 @@ contains
          event%peak_force = contact%peak_force
          event%peak_penetration = contact%peak_penetration
          event%energy_lost = loss - contact%loss_at_onset
+         event%impulse = contact%went%impulse
+         event%peak_force_time = contact%went%force_at
+         event%peak_penetration_time = contact%went%penetration_at
          event%state_before = state_name(state_free)
          if (is_over) then
             event%duration = t - contact%onset
@@ -179,22 +185,41 @@ contains
    end subroutine begin_at_rest
 
    !> Raise the greatest penetration that a contact remembers.
-   pure subroutine note_depth(self, k, delta)
+   pure subroutine note_depth(self, k, delta, t)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
       real(wp), intent(in) :: delta                   !! penetration that it had [m]
+      real(wp), intent(in) :: t                       !! when [s]
 
-      self%contact(k)%peak_penetration = max(self%contact(k)%peak_penetration, delta)
+      associate (contact => self%contact(k))
+         if (delta <= contact%peak_penetration) return
+         contact%peak_penetration = delta
+         contact%went%penetration_at = t
+      end associate
    end subroutine note_depth
 
    !> Raise the greatest force that a contact remembers.
-   pure subroutine note_force(self, k, force)
+   pure subroutine note_force(self, k, force, t)
       class(contact_states_t), intent(inout) :: self  !! the set
       integer, intent(in) :: k                        !! contact of the set
       real(wp), intent(in) :: force                   !! normal force that it had [N]
+      real(wp), intent(in) :: t                       !! when [s]
 
-      self%contact(k)%peak_force = max(self%contact(k)%peak_force, force)
+      associate (contact => self%contact(k))
+         if (force <= contact%peak_force) return
+         contact%peak_force = force
+         contact%went%force_at = t
+      end associate
    end subroutine note_force
+
+   !> Add to the impulse that a contact has given.
+   pure subroutine add_impulse(self, k, impulse)
+      class(contact_states_t), intent(inout) :: self  !! the set
+      integer, intent(in) :: k                        !! contact of the set
+      real(wp), intent(in) :: impulse                 !! of its normal force over a step [N.s]
+
+      self%contact(k)%went%impulse = self%contact(k)%went%impulse + impulse
+   end subroutine add_impulse
 
    !> A contact crosses the end of the transition from a film, one way or the other.
    pure subroutine cross_transition(self, k)

@@ -6,7 +6,7 @@ module load
    use channels, only: list_scalars, select_channels, selection_t
    use columns, only: column_of, find_column
    use deck_file, only: read_deck
-   use deck_types, only: deck_t
+   use deck_types, only: deck_t, place_of_part
    use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
    use drawn_figures, only: check_drawn_figures
@@ -86,10 +86,10 @@ contains
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
-         call check_words(loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
+         call check_words(loaded%deck, loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
          call check_conditions(loaded%scene, loaded%catalogue, mistakes)
       else
-         call check_words(loaded%scene, loaded%plan%end, catalogue, mistakes)
+         call check_words(loaded%deck, loaded%scene, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
       end if
       if (mistakes%count() == 0) call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
@@ -230,14 +230,15 @@ contains
    end subroutine apply_options
 
    !> Channels and figures must name what the scene has.
-   subroutine check_words(scene, end, catalogue, mistakes)
+   subroutine check_words(deck, scene, end, catalogue, mistakes)
+      type(deck_t), intent(in) :: deck                !! the deck, for the places of mistakes
       type(scene_t), intent(in) :: scene              !! the scene
       real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
 
       type(selection_t) :: selection
-      character(:), allocatable :: hint, message
+      character(:), allocatable :: hint, message, part
       integer :: bad, k
 
       associate (value => scene%settings%output%values(place_of(scene%settings%output, "channels")))
@@ -245,10 +246,10 @@ contains
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
       end associate
       associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
-         call check_figures(value%words, catalogue, bad, message, hint)
+         call check_figures(value%words, catalogue, bad, message, hint, part)
          if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
          if (bad == 0) call check_film_figures(value%words, scene, end, catalogue, bad, message, hint)
-         if (bad > 0) call mistakes%add(location_of(value, bad), message, "no figure of this deck", hint)
+         if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, bad), part), message, "no figure of this deck", hint)
       end associate
       if (.not. scene%settings%statistics%is_present) return
       do k = 1, size(scene%settings%statistics%values)

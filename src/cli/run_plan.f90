@@ -61,6 +61,7 @@ contains
       plan%with%histories = options%write /= "numbers"
       plan%with%texts = options%write == "all"
       plan%with%figures = options%write == "all"
+      plan%with%report = loaded%scene%settings%output%flag("report") .and. options%write == "all"
       plan%with%motion = loaded%scene%settings%output%word("motion") /= "off" .and. options%write == "all"
       if (plan%with%figures .and. loaded%scene%analysis /= analysis_static) then
          call plan_drawn_figures(plan%figures, loaded%scene, loaded%system, loaded%plan, loaded%catalogue, plan%looks%frames)
@@ -145,14 +146,14 @@ contains
          type(text_t), allocatable, intent(out) :: kept(:)      !! (any) words
 
          type(scalar_t), allocatable :: scalars(:)
-         character(:), allocatable :: hint, message
+         character(:), allocatable :: hint, message, part
          type(text_list_t) :: list
          integer :: bad, k
 
          associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
             do k = 1, size(words)
                if (one == "figure") then
-                  call check_figures(words(k:k), loaded%catalogue, bad, message, hint)
+                  call check_figures(words(k:k), loaded%catalogue, bad, message, hint, part)
                else
                   call find_scalars(words(k)%s, loaded%catalogue, finder, scalars, message, hint)
                   bad = merge(1, 0, len(message) > 0)

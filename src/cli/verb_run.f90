@@ -273,6 +273,7 @@ contains
       keeper%plan%with%summary = .false.
       keeper%plan%with%motion = .false.
       keeper%plan%with%figures = .false.
+      keeper%plan%with%report = .false.
       keeper%plan%with%progress = .false.
       keeper%plan%show = show_nothing
       call new_subsystems(loaded%scene, levels_ideal, system, method, loaded%plan%end, subsystems)

@@ -8,7 +8,7 @@ module deck_types
    use tokens, only: token_list_t, token_t, token_text
    implicit none (type, external)
    private
-   public :: add_default, add_line, add_section, add_source, deck_t, find_section, line_t, location_of_end, section_t
+   public :: add_default, add_line, add_section, add_source, deck_t, find_section, line_t, location_of_end, place_of_part, section_t
    public :: text_of
 
    !> A section header.
@@ -155,6 +155,24 @@ contains
 
       s = token_text(deck%sources, token)
    end function text_of
+
+   !> Where a part of a stretch of a line stands; the whole stretch if the part is not found there.
+   pure type(location_t) function place_of_part(deck, place, part)
+      type(deck_t), intent(in) :: deck          !! the deck
+      type(location_t), intent(in) :: place     !! the stretch
+      character(*), intent(in) :: part          !! what is looked for; blank: nothing
+
+      integer :: at
+
+      place_of_part = place
+      if (len(part) == 0 .or. place%file < 1 .or. place%line < 1 .or. place%last < place%first) return
+      associate (source => deck%sources(place%file))
+         at = index(source%text(source%first(place%line) + place%first - 1:source%first(place%line) + place%last - 1), part)
+      end associate
+      if (at == 0) return
+      place_of_part%first = place%first + at - 1
+      place_of_part%last = place_of_part%first + len(part) - 1
+   end function place_of_part
 
    !> The end of the deck, for what is missing altogether.
    pure type(location_t) function location_of_end(deck)

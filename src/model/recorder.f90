@@ -42,6 +42,9 @@ module recorder
       real(wp) :: duration = 0.0_wp                     !! from onset to end; NaN: not ended with the run [s]
       real(wp) :: release_speed = 0.0_wp                !! normal separation speed at the end, positive [m/s]
       real(wp) :: energy_lost = 0.0_wp                  !! by contact damping and friction; NaN without ledger [J]
+      real(wp) :: impulse = 0.0_wp                      !! of the normal force over the contact [N.s]
+      real(wp) :: peak_force_time = 0.0_wp              !! when the normal force was greatest [s]
+      real(wp) :: peak_penetration_time = 0.0_wp        !! when the penetration was greatest [s]
       character(:), allocatable :: state_before         !! contact state before the event
       character(:), allocatable :: state_after          !! contact state after the event
    end type event_t

@@ -58,8 +58,11 @@ contains
       call put("joints/impact_speed_onset", joints%speed_onset, "s", "onset of that contact")
       call put("joints/peak_force", joints%force, "N", "greatest normal force")
       call put("joints/peak_force_onset", joints%force_onset, "s", "onset of the contact that had it")
+      call put("joints/peak_force_time", joints%force_time, "s", "when it was there")
       call put("joints/peak_penetration", joints%penetration, "m", "greatest penetration")
       call put("joints/peak_penetration_onset", joints%penetration_onset, "s", "onset of the contact that had it")
+      call put("joints/peak_penetration_time", joints%penetration_time, "s", "when it was there")
+      call put("joints/impulse", joints%impulse, "N.s", "impulse of the normal forces of all contacts")
       call put("joints/energy_lost", joints%energy_lost, "J", "lost in all contacts; NaN without ledger")
 
    contains

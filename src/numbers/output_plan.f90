@@ -40,6 +40,7 @@ module output_plan
       logical :: summary = .true.           !! write summary.txt and summary.json
       logical :: motion = .false.           !! write the motion for other programs
       logical :: figures = .true.           !! make the figures at the end
+      logical :: report = .false.           !! write the page of the run
       logical :: progress = .true.          !! show how far the run is on the standard error
       logical :: warnings = .true.          !! print warnings on the standard error
    end type written_t

@@ -50,7 +50,7 @@ contains
       end if
    end subroutine channel_table
 
-   !> The table of the loose joints for people: greatest values, each with the onset of its contact.
+   !> The table of the loose joints for people: greatest values, each with its time, that of a speed being the onset.
    subroutine joint_table(lines, joints)
       type(buffer_t), intent(inout) :: lines          !! the summary
       type(joint_extremes_t), intent(in) :: joints(:) !! (n) the joints with contacts
@@ -65,9 +65,10 @@ contains
             call lines%add("           "//joint%name//": "//to_text(joint%impacts)//" impacts, "// &
                            real_text(100.0_wp*joint%contact_fraction, 4)//" % of the time in contact")
             if (joint%impacts > 0) then
-               call lines%add("; at most "//real_text(joint%speed, 5)//" m/s (onset "//real_text(joint%speed_onset, 6)//" s), "// &
-                              real_text(joint%force, 6)//" N ("//real_text(joint%force_onset, 6)//" s), depth "// &
-                              real_text(joint%penetration, 5)//" m ("//real_text(joint%penetration_onset, 6)//" s)")
+               call lines%add("; at most "//real_text(joint%speed, 5)//" m/s at "//real_text(joint%speed_onset, 6)//" s, "// &
+                              real_text(joint%force, 6)//" N at "//real_text(joint%force_time, 6)//" s, depth "// &
+                              real_text(joint%penetration, 5)//" m at "//real_text(joint%penetration_time, 6)//" s; impulse "// &
+                              real_text(joint%impulse, 5)//" N.s")
                if (ieee_is_finite(joint%energy_lost)) call lines%add("; lost "//real_text(joint%energy_lost, 5)//" J")
             end if
             call lines%line("")
@@ -128,8 +129,11 @@ contains
                call json%put_real("impact_speed_onset", joint%speed_onset)
                call json%put_real("peak_force", joint%force)
                call json%put_real("peak_force_onset", joint%force_onset)
+               call json%put_real("peak_force_time", joint%force_time)
                call json%put_real("peak_penetration", joint%penetration)
                call json%put_real("peak_penetration_onset", joint%penetration_onset)
+               call json%put_real("peak_penetration_time", joint%penetration_time)
+               call json%put_real("impulse", joint%impulse)
                call json%put_real("energy_lost", joint%energy_lost)
             end associate
             call append_text(objects, json%get())

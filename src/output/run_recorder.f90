@@ -25,6 +25,7 @@ module run_recorder
    use posix, only: write_error
    use progress, only: progress_t
    use recorder, only: event_t, recorder_t, row_instant, status_failed, summary_t
+   use report_page, only: report_name, report_text
    use scene_poses, only: pose_reader_t
    use standard_output, only: print_text
    use statistics, only: number_t, statistics_t
@@ -382,8 +383,13 @@ contains
 
       lines = summary_lines(self%plan, summary, self%events, outcome, self%items)
       json = summary_json(self%plan, summary, self%events, outcome, self%items)
+      if (self%plan%with%report) then
+         call replace_file(self%plan%directory//"/"//report_name, &
+                           report_text(self%plan, summary, self%events, outcome, self%items, self%figures, lines), error)
+      end if
       if (self%plan%with%summary) then
-         call replace_file(self%plan%directory//"/summary.txt", lines, error)
+         call replace_file(self%plan%directory//"/summary.txt", lines, second)
+         call join_errors(error, second)
          call replace_file(self%plan%directory//"/summary.json", json, second)
          call join_errors(error, second)
       end if

@@ -21,7 +21,7 @@ module summary_writer
    use text_table, only: one_line
    implicit none (type, external)
    private
-   public :: complete_summary, outcome_t, summary_json, summary_lines
+   public :: accuracy_lines, complete_summary, cost_lines, first_impacts, headline, outcome_t, summary_json, summary_lines
 
    integer, parameter :: most_impacts = 5          !! rows of the table of first impacts
    character(*), parameter :: kind_contact = "contact"  !! kind of event that is an impact
@@ -118,6 +118,7 @@ contains
       do k = 1, size(outcome%pictures)
          call lines%line("           "//outcome%pictures(k)%s)
       end do
+      if (plan%with%report) call lines%line("           report.html")
       do k = 1, size(outcome%warnings)
          call lines%line("warning: "//outcome%warnings(k)%s)
       end do
@@ -179,8 +180,9 @@ contains
    end subroutine accuracy_lines
 
    !> Numbers of the first contacts, in the order of their onsets.
-   function first_impacts(events) result(list)
+   function first_impacts(events, most) result(list)
       type(event_list_t), intent(in) :: events  !! all events
+      integer, intent(in) :: most               !! at most so many
       integer, allocatable :: list(:)           !! (n) numbers of events
 
       integer, allocatable :: order(:)
@@ -189,7 +191,7 @@ contains
       allocate (list(0))
       order = events%order_by_onset()
       do k = 1, size(order)
-         if (size(list) == most_impacts) exit
+         if (size(list) == most) exit
          if (events%word(order(k), 1) == kind_contact) list = [list, order(k)]
       end do
    end function first_impacts
@@ -203,7 +205,7 @@ contains
       character(:), allocatable :: item
       integer :: k
 
-      list = first_impacts(events)
+      list = first_impacts(events, most_impacts)
       if (size(list) == 0) return
       call lines%line("")
       call lines%line("first impacts     onset [s]   speed [m/s]   peak force [N]   duration [s]   joint")
@@ -366,7 +368,7 @@ contains
       integer :: i, k
 
       allocate (objects(0))
-      list = first_impacts(events)
+      list = first_impacts(events, most_impacts)
       do k = 1, size(list)
          block
             type(json_object_t) :: json

@@ -8,8 +8,8 @@ module animation_page
    use display_units, only: choose_unit, display_unit_t
    use drawing, only: drawing_t, in_files
    use frames, only: frame_t, track_t
+   use html_text, only: escaped
    use kinds, only: wp
-   use plot_text, only: valid_utf8
    use scene_plot, only: new_symbols
    use scene_legends, only: long_legend
    use scene_strokes, only: symbols_t
@@ -197,32 +197,5 @@ contains
 
       s = real_text(x, digits)
    end function number
-
-   !> Text that is nothing but text, in the page or in a string of its script.
-   pure function escaped(text, in_page) result(s)
-      character(*), intent(in) :: text         !! any bytes
-      logical, intent(in) :: in_page           !! in the page, not in a string
-      character(:), allocatable :: s           !! harmless
-
-      character(*), parameter :: codes(6) = [character(2) :: "22", "27", "3c", "3e", "26", "5c"]
-      character(*), parameter :: signs = """'<>&\"
-      character(:), allocatable :: clean
-      integer :: i, k
-
-      clean = valid_utf8(text)
-      s = ""
-      do i = 1, len(clean)
-         k = index(signs, clean(i:i))
-         if (iachar(clean(i:i)) < 32) then
-            s = s//" "
-         else if (k == 0) then
-            s = s//clean(i:i)
-         else if (in_page) then
-            s = s//"&#x"//codes(k)//";"
-         else
-            s = s//"\u00"//codes(k)
-         end if
-      end do
-   end function escaped
 
 end module animation_page

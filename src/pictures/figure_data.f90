@@ -11,7 +11,7 @@ module figure_data
    use text_writer, only: file_of_item
    implicit none (type, external)
    private
-   public :: curve_t, data_files_t, find_curves, is_visible
+   public :: curve_t, data_files_t, find_curves, is_visible, open_columns
 
    real(wp), parameter :: negligible = 1.0e-4_wp  !! of the largest component: not worth a curve [1]
 
@@ -19,10 +19,13 @@ module figure_data
    type :: curve_t
       character(:), allocatable :: path    !! file, as seen from the folder of the figures
       character(:), allocatable :: name    !! of the channel
+      integer :: number = 0                !! of the channel among those of the figure
       integer :: x = 1                     !! column of the abscissa
       integer :: y = 0                     !! column of the ordinate
       real(wp) :: x_range(2) = 0.0_wp      !! (2) least and greatest abscissa, SI [any]
       real(wp) :: y_range(2) = 0.0_wp      !! (2) least and greatest ordinate, SI [any]
+      integer :: turns = 0                 !! of the ordinate from rising to falling, or back
+      logical :: is_function = .true.      !! the abscissa never falls
    end type curve_t
 
    !> What is known of a file of columns.
@@ -31,6 +34,8 @@ module figure_data
       type(text_t), allocatable :: labels(:)       !! (n) what stands over its columns
       real(wp), allocatable :: lowest(:)           !! (n) least value of each column, SI [any]
       real(wp), allocatable :: highest(:)          !! (n) greatest value of each column, SI [any]
+      integer, allocatable :: turns(:)             !! (n) turns of each column from rising to falling, or back
+      logical, allocatable :: falls(:)             !! (n) whether each column falls somewhere
    end type data_file_t
 
    !> The files looked at so far: each is read once.
@@ -71,40 +76,59 @@ contains
       character(*), intent(in) :: path           !! the file
       type(data_file_t), intent(out) :: file     !! what is known of it
 
-      character(:), allocatable :: line
-      real(wp), allocatable :: row(:)
+      real(wp), allocatable :: before(:), row(:), way(:)
       integer :: k, n, status, unit
-      logical :: is_open
 
       file%path = path
-      allocate (file%labels(0))
-      open (newunit=unit, file=path, status="old", action="read", iostat=status)
-      is_open = status == 0
-      if (is_open) then
-         do
-            call read_line(unit, line, status)
-            if (status /= 0) exit
-            if (len(line) == 0) cycle
-            if (line(1:1) == "#") cycle
-            if (line(1:1) == """") call split_quoted(line, file%labels)
-            exit
-         end do
-      end if
+      call open_columns(path, unit, file%labels, status)
       n = size(file%labels)
       allocate (file%lowest(n), source=huge(1.0_wp))
       allocate (file%highest(n), source=-huge(1.0_wp))
-      allocate (row(n), source=0.0_wp)
-      do while (status == 0)
+      allocate (file%turns(n), source=0)
+      allocate (file%falls(n), source=.false.)
+      allocate (row(n), way(n), before(n), source=0.0_wp)
+      if (status /= 0) return
+      before = huge(1.0_wp)  ! nothing came before
+      do
          read (unit, *, iostat=status) row
          if (status /= 0) exit
          do k = 1, n
             if (ieee_is_nan(row(k))) cycle
             file%lowest(k) = min(file%lowest(k), row(k))
             file%highest(k) = max(file%highest(k), row(k))
+            if (before(k) < huge(1.0_wp)) then
+               if ((row(k) - before(k))*way(k) < 0.0_wp) file%turns(k) = file%turns(k) + 1
+               if (row(k) < before(k)) file%falls(k) = .true.
+               if (row(k) < before(k) .or. row(k) > before(k)) way(k) = sign(1.0_wp, row(k) - before(k))
+            end if
+            before(k) = row(k)
          end do
       end do
-      if (is_open) close (unit)
+      close (unit)
    end subroutine read_data_file
+
+   !> Open a file of columns and read up to the first row of numbers.
+   subroutine open_columns(path, unit, labels, status)
+      character(*), intent(in) :: path                        !! the file
+      integer, intent(out) :: unit                            !! the open file
+      type(text_t), allocatable, intent(out) :: labels(:)     !! (n) what stands over its columns
+      integer, intent(out) :: status                          !! 0: it is open
+
+      character(:), allocatable :: line
+
+      allocate (labels(0))
+      open (newunit=unit, file=path, status="old", action="read", iostat=status)
+      if (status /= 0) return
+      do
+         call read_line(unit, line, status)
+         if (status /= 0) exit
+         if (len(line) == 0) cycle
+         if (line(1:1) == "#") cycle
+         if (line(1:1) == """") call split_quoted(line, labels)
+         exit
+      end do
+      if (status /= 0) close (unit)
+   end subroutine open_columns
 
    !> Read a line of any length.
    subroutine read_line(unit, line, status)
@@ -163,8 +187,15 @@ contains
          return
       end if
       do k = 1, size(figure%scalars)
-         call find_curve(figure%scalars(k), catalogue, directory, suffix, files, curve)
-         if (curve%y > 0) call append_curve(curves, curve)
+         if (k == figure%curves%abscissa) cycle
+         if (figure%curves%abscissa > 0) then
+            call find_curve(figure%scalars(k), catalogue, directory, suffix, files, curve, &
+                            over=figure%scalars(figure%curves%abscissa), apart=figure%name)
+         else
+            call find_curve(figure%scalars(k), catalogue, directory, suffix, files, curve)
+         end if
+         curve%number = k
+         if (curve%y > 0 .and. curve%x > 0) call append_curve(curves, curve)
       end do
    end subroutine find_curves
 
@@ -213,7 +244,10 @@ contains
          curve%y = column_of(this, column_label(catalogue, scalar))
          if (curve%y > 0) call get_range(this, curve%y, curve%y_range)
          if (present(over)) curve%x = column_of(this, column_label(catalogue, over))
-         if (curve%x > 0 .and. curve%y > 0) call get_range(this, curve%x, curve%x_range)
+         if (curve%y > 0) curve%turns = this%turns(curve%y)
+         if (curve%x == 0 .or. curve%y == 0) return
+         call get_range(this, curve%x, curve%x_range)
+         curve%is_function = .not. this%falls(curve%x)
       end associate
    end subroutine find_curve
 

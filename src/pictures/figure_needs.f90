@@ -3,7 +3,8 @@ module figure_needs
    use catalogue, only: catalogue_t
    use channel_names, only: item_name, scalar_t
    use channels, only: selection_t
-   use figure_words, only: figure_bifurcation, figure_film, figure_portrait, figure_section, figure_spectrum, figure_t
+   use figure_words, only: figure_bifurcation, figure_film, figure_history, figure_portrait, figure_section, figure_spectrum
+   use figure_words, only: figure_t
    use film_fields, only: field_request_t
    use text_writer, only: extra_table_t
    implicit none (type, external)
@@ -72,19 +73,22 @@ contains
       end do
    end subroutine add_figure_channels
 
-   !> Tables for portraits whose channels are not in the same file.
+   !> Tables for portraits, and curves over a channel, whose channels are not in the same file.
    function extra_tables(figures, catalogue) result(tables)
       type(figure_t), intent(in) :: figures(:)          !! (n) figures
       type(catalogue_t), intent(in) :: catalogue        !! what can be recorded
       type(extra_table_t), allocatable :: tables(:)     !! (n) tables
 
       logical :: apart(size(figures))
-      integer :: k, n
+      integer :: i, k, n
 
       apart = .false.
       do k = 1, size(figures)
-         if (figures(k)%kind /= figure_portrait) cycle
-         apart(k) = file_of(figures(k)%scalars(1), catalogue) /= file_of(figures(k)%scalars(2), catalogue)
+         if (figures(k)%kind /= figure_portrait .and. .not. (figures(k)%kind == figure_history .and. &
+                                                             figures(k)%curves%abscissa > 0)) cycle
+         associate (list => figures(k)%scalars)
+            apart(k) = any([(file_of(list(i), catalogue) /= file_of(list(1), catalogue), i=2, size(list))])
+         end associate
       end do
       allocate (tables(count(apart)))
       n = 0

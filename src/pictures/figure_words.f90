@@ -1,6 +1,7 @@
 !> The deck's words for figures.
 !>
-!> `slider.velocity`, `guide.penetration`, `energy.*`: time histories of channels of one unit.
+!> `slider.velocity`, `guide.penetration`, `energy.*`: time histories of channels; with `+`, `against`, units, ends of axes, and in
+!> `panels(...)`: `curve_words`.
 !> `gudgeon.orbit`: path of the journal in its clearance. `portrait(slider.velocity.x,slider.acceleration.x)`:
 !> the second over the first. With a section [statistics]: `section(X,Y)`, the same two once per period; `spectrum(X)`;
 !> `histogram(JOINT.impact_speed)` or of `peak_force`. Of a sweep: `bifurcation(X)`, the channel once per period over the
@@ -10,12 +11,14 @@ module figure_words
    use catalogue, only: catalogue_t, room_clearances, room_contacts
    use channel_names, only: scalar_t
    use channels, only: list_scalars, match_word, selection_t
+   use curve_words, only: bind_curves, curves_t
+   use figure_phrase, only: phrase_hint, phrase_t, read_phrase
    use film_fields, only: field_request_t
    use film_words, only: film_hint, take_film
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use motion_words, only: motion_hint, motion_request_t, take_motion
    use spelling, only: nearest_word
-   use text, only: append_text, join, starts_with, text_t
+   use text, only: append_text, join, piece, starts_with, text_t, to_text
    implicit none (type, external)
    private
    public :: append_figure, check_figures, figure_t, new_figure
@@ -37,19 +40,22 @@ module figure_words
    integer, parameter :: figure_coupler = 12     !! the path of a point
    integer, parameter :: figure_animation = 13   !! the moving mechanism
    integer, parameter :: most_panels = 4         !! of a figure of statistics
-   integer, parameter :: most_curves = 12     !! of one figure
+   integer, parameter :: longest_name = 100   !! characters of the name of a file without its ending
    !> How the figures with arguments begin, by their kind.
    character(*), parameter :: call_words(figure_portrait:figure_animation) = [character(12) :: "portrait(", "section(", &
       "spectrum(", "histogram(", "bifurcation(", "statistics(", "film(", "mechanism(", "strip(", "coupler(", "animation("]
    character(*), parameter :: histogram_words = "impact_speed peak_force"  !! what there are histograms of
    character(*), parameter :: orbit_word = ".orbit"        !! how an orbit ends
 
+   character(*), parameter :: unknown_channel = "unknown channel"  !! how the message about one begins
+
    !> One figure.
    type :: figure_t
       integer :: kind = figure_history              !! one of the above
       character(:), allocatable :: word             !! as in the deck
       character(:), allocatable :: name             !! of its files: letters, digits, `_`, `-` and dots
-      type(scalar_t), allocatable :: scalars(:)     !! (n) curves; of an orbit its coordinates; of a portrait x and y
+      type(scalar_t), allocatable :: scalars(:)     !! (n) curves, then their abscissa; of an orbit coordinates; of a portrait x, y
+      type(curves_t) :: curves                      !! of curves: panels and axes
       integer :: joint = 0                          !! of an orbit: number of the clearance joint
       type(field_request_t) :: film                 !! of a film: which, and when
       type(motion_request_t) :: motion              !! of what draws the mechanism: when, and which point
@@ -59,12 +65,13 @@ module figure_words
 contains
 
    !> Look for mistakes in a list of figures.
-   subroutine check_figures(words, catalogue, bad_word, bad_message, hint)
+   subroutine check_figures(words, catalogue, bad_word, bad_message, hint, bad_part)
       type(text_t), intent(in) :: words(:)                    !! (n) words of the deck
       type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
       integer, intent(out) :: bad_word                        !! number of the first wrong word, 0: none
       character(:), allocatable, intent(out) :: bad_message   !! what is wrong with it
       character(:), allocatable, intent(out) :: hint          !! what may have been meant, may be blank
+      character(:), allocatable, intent(out) :: bad_part      !! the part of it that is wrong; blank: all of it
 
       type(figure_t) :: figure
       integer :: k
@@ -72,8 +79,9 @@ contains
       bad_word = 0
       bad_message = ""
       hint = ""
+      bad_part = ""
       do k = 1, size(words)
-         call new_figure(words(k)%s, catalogue, figure, bad_message, hint)
+         call new_figure(words(k)%s, catalogue, figure, bad_message, hint, bad_part)
          if (len(bad_message) == 0) cycle
          bad_word = k
          return
@@ -81,93 +89,123 @@ contains
    end subroutine check_figures
 
    !> Understand one word.
-   subroutine new_figure(word, catalogue, figure, message, hint)
+   subroutine new_figure(word, catalogue, figure, message, hint, bad_part)
       character(*), intent(in) :: word                     !! a word of the deck
       type(catalogue_t), intent(in) :: catalogue           !! what can be recorded
       type(figure_t), intent(out) :: figure                !! the figure
       character(:), allocatable, intent(out) :: message    !! what is wrong, blank if nothing
       character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
+      character(:), allocatable, intent(out), optional :: bad_part  !! the part that is wrong; blank: all of it
+
+      character(:), allocatable :: bad
+      integer :: blank
 
       message = ""
       hint = ""
+      if (present(bad_part)) bad_part = ""
       figure%word = word
       figure%name = file_name(word)
+      blank = index(word, " ")
+      if (blank > 0) then
+         if (kind_of_call(called(word(:blank - 1))) > 0 .or. ends_with(word(:blank - 1), orbit_word)) then
+            message = "'"//first_word(word(blank + 1:))//"' belongs to figures of curves, not to '"//word(:blank - 1)//"'"
+            hint = phrase_hint
+            if (present(bad_part)) bad_part = first_word(word(blank + 1:))
+            return
+         end if
+      end if
       figure%kind = kind_of_call(called(word))
       if (figure%kind > 0) then
          call new_call(called(word), catalogue, figure, message, hint)
          return
       end if
       figure%kind = figure_history
-      if (len(word) > len(orbit_word) .and. index(word, orbit_word, back=.true.) == &
-               len(word) - len(orbit_word) + 1) then
+      if (blank == 0 .and. ends_with(word, orbit_word)) then
          call new_orbit(word(1:len(word) - len(orbit_word)), catalogue, figure, message, hint)
       else
-         call new_history(word, catalogue, figure, message, hint)
+         call new_history(word, catalogue, figure, message, hint, bad)
+         if (present(bad_part)) bad_part = bad
       end if
    end subroutine new_figure
 
-   !> A name for the files of a figure: nothing but letters, digits, `_`, `-` and dots.
+   !> Whether a word ends with another.
+   pure logical function ends_with(word, ending)
+      character(*), intent(in) :: word     !! the word
+      character(*), intent(in) :: ending   !! its supposed end, shorter than it
+
+      ends_with = .false.
+      if (len(word) > len(ending)) ends_with = word(len(word) - len(ending) + 1:) == ending
+   end function ends_with
+
+   !> What stands before the first blank.
+   pure function first_word(text) result(word)
+      character(*), intent(in) :: text     !! words
+      character(:), allocatable :: word    !! the first of them
+
+      word = text
+      if (index(text, " ") > 0) word = text(:index(text, " ") - 1)
+   end function first_word
+
+   !> A name for the files of a figure: letters, digits, `_`, `-` and dots alone; the end of a long one is a number made of it.
    pure function file_name(word) result(name)
       character(*), intent(in) :: word     !! a word of the deck
       character(:), allocatable :: name    !! the name
 
       character(*), parameter :: letters = &
          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-"
+      integer(i8), parameter :: factor = 31_i8, modulus = 99999989_i8
       integer :: i
+      integer(i8) :: mark
+      logical :: is_new
 
       name = ""
+      is_new = .false.
       do i = 1, len(word)
-         if (index(letters, word(i:i)) > 0) then
-            name = name//word(i:i)
-         else if (word(i:i) == "*") then
-            name = name//"all"
-         else if (word(i:i) /= ")" .and. len(name) > 0) then
-            name = name//"."
+         if (index(letters, word(i:i)) > 0 .or. word(i:i) == "*") then
+            if (is_new .and. len(name) > 0) name = name//"."
+            is_new = .false.
+            if (word(i:i) == "*") then
+               name = name//"all"
+            else
+               name = name//word(i:i)
+            end if
+         else
+            is_new = is_new .or. word(i:i) /= ")"
          end if
       end do
+      if (len(name) <= longest_name) return
+      mark = 0
+      do i = 1, len(word)
+         mark = modulo(factor*mark + iachar(word(i:i)), modulus)
+      end do
+      name = piece(name, 1, longest_name - 9)//"."//to_text(mark)
    end function file_name
 
-   !> Channels over time.
-   subroutine new_history(word, catalogue, figure, message, hint)
-      character(*), intent(in) :: word                       !! a word of the deck
+   !> Channels over time, or over another channel.
+   subroutine new_history(word, catalogue, figure, message, hint, bad)
+      character(*), intent(in) :: word                       !! a figure of the deck
       type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
       type(figure_t), intent(inout) :: figure                !! the figure
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
+      character(:), allocatable, intent(out) :: bad          !! the wrong part, blank: all of it
 
-      type(selection_t) :: named
-      integer :: k
+      type(phrase_t) :: phrase
 
-      call match_word(word, catalogue, named, message, hint)
-      figure%scalars = list_scalars(named)
+      call read_phrase(word, phrase, message, bad)
       if (len(message) > 0) then
-         message = "unknown figure"//message(len("unknown channel") + 1:)
+         hint = phrase_hint
+         allocate (figure%scalars(0))
+         return
+      end if
+      call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
+      if (starts_with(message, unknown_channel) .and. bad == word) then
+         message = "unknown figure"//piece(message, len(unknown_channel) + 1)
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
                 "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
-                "coupler(POINT) and animation(last=...)"
-         return
+                "coupler(POINT) and animation(last=...); "//phrase_hint
       end if
-      if (size(figure%scalars) == 0 .or. size(figure%scalars) > most_curves) then
-         message = "'"//word//"' names too many channels for one figure"
-         hint = "name an item and a channel, as in slider.velocity"
-         return
-      end if
-      do k = 2, size(figure%scalars)
-         if (unit_of(catalogue, figure%scalars(k)) == unit_of(catalogue, figure%scalars(1))) cycle
-         message = "'"//word//"' names channels of different units"
-         hint = "one figure draws channels of one unit"
-         return
-      end do
    end subroutine new_history
-
-   !> The unit of a number.
-   pure function unit_of(catalogue, scalar) result(unit)
-      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
-      type(scalar_t), intent(in) :: scalar        !! the number
-      character(:), allocatable :: unit           !! as in files
-
-      unit = catalogue%groups(scalar%group)%channel%unit
-   end function unit_of
 
    !> Path of a journal.
    subroutine new_orbit(joint, catalogue, figure, message, hint)

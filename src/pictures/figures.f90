@@ -6,16 +6,18 @@
 module figures
    use catalogue, only: catalogue_t
    use animation_page, only: page_text
+   use curve_script, only: curve_text
    use drawing, only: drawing_t
+   use envelope_data, only: count_turns, envelope_t, make_envelope
    use errors, only: error_t
    use field_plot, only: write_field_plot
    use figure_data, only: curve_t, data_files_t, find_curves
    use figure_script, only: figure_text
-   use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_portrait, figure_t
+   use figure_words, only: draws_mechanism, figure_animation, figure_film, figure_history, figure_portrait, figure_t
    use frames, only: frame_keeper_t
    use film_fields, only: film_field_t
    use plot_table, only: plot_table_t, write_plot
-   use kinds, only: i8
+   use kinds, only: i8, wp
    use output_marker, only: enter_file
    use posix, only: is_missing, make_directory, remove_file, system_message
    use processes, only: clock_ms, start_program, wait_group
@@ -72,7 +74,7 @@ contains
          else if (list(k)%kind > figure_portrait) then
             call write_plot(directory//"/figures", title, tables(k), is_written, error)
          else
-            call write_curves(directory, title, list(k), catalogue, files, is_written, error)
+            call write_curves(directory, title, tables(k)%heading, list(k), catalogue, files, is_written, error)
          end if
          if (allocated(error)) return
          if (is_written) then
@@ -97,9 +99,10 @@ contains
    end function file_of
 
    !> Time histories, orbits and portraits.
-   subroutine write_curves(directory, title, figure, catalogue, files, is_written, error)
+   subroutine write_curves(directory, title, heading, figure, catalogue, files, is_written, error)
       character(*), intent(in) :: directory               !! of the run
       character(*), intent(in) :: title                   !! of the scene, any text
+      character(*), intent(in) :: heading                 !! lines with `#` for a table
       type(figure_t), intent(in) :: figure                !! the figure
       type(catalogue_t), intent(in) :: catalogue          !! what was recorded
       type(data_files_t), intent(inout) :: files          !! files of numbers looked at so far
@@ -107,11 +110,27 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! the script cannot be written
 
       type(curve_t), allocatable :: curves(:), ideal(:)
+      type(envelope_t) :: envelope
       character(:), allocatable :: script
+      real(wp) :: window(2)
+      integer :: n_turn
 
+      is_written = .false.
       call find_curves(figure, catalogue, directory, "", files, curves)
       call find_curves(figure, catalogue, directory, ideal_suffix, files, ideal)
-      script = figure_text(figure, catalogue, title, curves, ideal)
+      if (figure%kind == figure_history .and. size(curves) > 0) then
+         window = curves(1)%x_range
+         if (figure%curves%x%has_range) window = figure%curves%x%range
+         call make_envelope(directory//"/figures", figure%name, heading, curves, window, envelope, error)
+         if (allocated(error)) return
+         script = curve_text(figure, catalogue, title, curves, ideal, envelope)
+      else
+         n_turn = 0
+         if (figure%kind == figure_portrait .and. size(curves) > 0) then
+            n_turn = count_turns(directory//"/figures/"//curves(1)%path, curves(1))
+         end if
+         script = figure_text(figure, catalogue, title, curves, ideal, n_turn)
+      end if
       is_written = len(script) > 0
       if (is_written) call write_file(directory//"/figures/"//figure%name//".gp", script, error)
    end subroutine write_curves

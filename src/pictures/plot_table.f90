@@ -7,7 +7,7 @@ module plot_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: colours, key_below, preamble
+   use script_parts, only: colours, key_below, preamble, with_unit
    use text, only: real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -223,16 +223,6 @@ contains
 
       s = "($"//to_text(column)//"*"//real_text(unit%factor, 9)//")"
    end function scaled
-
-   !> A name with the unit shown.
-   function with_unit(name, unit) result(label)
-      character(*), intent(in) :: name            !! what it is
-      type(display_unit_t), intent(in) :: unit    !! its unit
-      character(:), allocatable :: label          !! as `velocity [m/s]`
-
-      label = name
-      if (len(unit%symbol) > 0) label = label//" ["//unit%symbol//"]"
-   end function with_unit
 
    !> Greatest magnitude in some columns.
    pure real(wp) function largest(table, columns)

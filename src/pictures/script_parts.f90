@@ -3,11 +3,11 @@ module script_parts
    use display_units, only: display_unit_t
    use figure_data, only: curve_t
    use kinds, only: wp
-   use text, only: real_text, to_text
+   use text, only: exact_text, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: axes_t, largest_y, preamble, source
+   public :: angle_tics, axes_t, largest, largest_y, preamble, scaled, source, with_unit
    public :: colours, key_below
 
    character(*), parameter :: colours(12) = &
@@ -22,6 +22,7 @@ module script_parts
    type :: axes_t
       type(display_unit_t) :: x          !! abscissa
       type(display_unit_t) :: y          !! ordinate
+      real(wp) :: less = 0.0_wp          !! what is taken from every ordinate, SI [any]
    end type axes_t
 
 contains
@@ -54,22 +55,65 @@ contains
       largest_y = max(abs(minval(curves%y_range(1))), abs(maxval(curves%y_range(2))))
    end function largest_y
 
+   !> Greatest magnitude of a range.
+   pure real(wp) function largest(range)
+      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+
+      largest = maxval(abs(range))
+   end function largest
+
+   !> A name with the unit shown.
+   pure function with_unit(name, unit) result(label)
+      character(*), intent(in) :: name            !! what it is, may be blank
+      type(display_unit_t), intent(in) :: unit    !! its unit
+      character(:), allocatable :: label          !! as `velocity [m/s]`
+
+      label = name
+      if (len(unit%symbol) > 0) label = trim(label//" ["//unit%symbol//"]")
+      label = adjustl(label)
+   end function with_unit
+
+   !> Distance of the ticks of an axis in degrees: a part of a turn, or whole turns. 0: gnuplot's own are as good.
+   pure integer function angle_tics(span, n) result(step)
+      real(wp), intent(in) :: span  !! what the axis shows [deg]
+      integer, intent(in) :: n      !! axes that share the picture's height
+
+      integer, parameter :: steps(*) = [15, 30, 45, 90, 180, 360, 720, 1800, 3600, 7200, 18000, 36000]
+      integer, parameter :: most = 9  ! ticks of an axis
+      integer :: k
+
+      step = 0
+      if (span < 80.0_wp) return
+      do k = 1, size(steps)
+         step = steps(k)
+         if (span <= real(most*step, wp)/real(min(n, 3), wp)) return
+      end do
+      step = 0
+   end function angle_tics
+
    !> File and columns of a curve, with the numbers scaled.
    function source(curve, axes) result(s)
       type(curve_t), intent(in) :: curve   !! the curve
       type(axes_t), intent(in) :: axes     !! scales of the figure
       character(:), allocatable :: s       !! as `'../slider.dat' using ($1*1000):2`
 
-      s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor)//":"//scaled(curve%y, axes%y%factor)
+      s = "'"//curve%path//"' using "//scaled(curve%x, axes%x%factor)//":"//scaled(curve%y, axes%y%factor, axes%less)
    end function source
 
    !> A column, scaled.
-   function scaled(column, factor) result(s)
-      integer, intent(in) :: column         !! its number
-      real(wp), intent(in) :: factor        !! of the display unit [any]
-      character(:), allocatable :: s        !! for `using`
+   function scaled(column, factor, less) result(s)
+      integer, intent(in) :: column            !! its number
+      real(wp), intent(in) :: factor           !! of the display unit [any]
+      real(wp), intent(in), optional :: less   !! what is taken from its numbers, SI [any]
+      character(:), allocatable :: s           !! for `using`
 
       s = to_text(column)
+      if (present(less)) then
+         if (abs(less) > 0.0_wp) then
+            s = "(($"//s//"-("//exact_text(less)//"))*"//real_text(factor, 6)//")"
+            return
+         end if
+      end if
       if (abs(factor - 1.0_wp) > 0.0_wp) s = "($"//s//"*"//real_text(factor, 6)//")"
    end function scaled
 

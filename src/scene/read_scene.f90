@@ -6,6 +6,7 @@ module read_scene
    use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
+   use figure_list, only: join_figures
    use force_registry, only: n_force_kinds
    use guard_info, only: guards_info
    use item, only: place_of
@@ -53,6 +54,7 @@ contains
       scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
       call read_section(deck, guards_info(), scene%settings%guards, diagnostics)
       call read_section(deck, output_info(), scene%settings%output, diagnostics)
+      call join_figures(scene%settings%output%values(place_of(scene%settings%output, "figures")), diagnostics)
       call read_studies(deck, scene%settings, diagnostics)
       call read_tables(deck, scene, diagnostics)
       call add_names(scene%tables%base(table_bodies)%items, directory%bodies)

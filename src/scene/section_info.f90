@@ -210,8 +210,12 @@ contains
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
       call add_word(info, "motion", "the moving mechanism in a file for other programs: vtkhdf (motion.vtkhdf, which ParaView " &
                     //"plays), one step for each output instant", default="off", choices="off vtkhdf")
-      call add_words(info, "figures", "figures: a channel, JOINT.orbit, portrait(x_channel,y_channel), film(JOINT), mechanism, " &
-                     //"strip(n=8), coupler(POINT), animation(last=...)", default="")
+      call add_words(info, "figures", "figures: a channel, several of them (A + B), over another (A against C), with units and " &
+                     //"ends of axes (in mm, from 0 mm to 2 mm), one above the other (panels(A, B)); JOINT.orbit, " &
+                     //"portrait(x_channel,y_channel), film(JOINT), mechanism, strip(n=8), coupler(POINT), animation(last=...)", &
+                     default="")
+      call add_flag(info, "report", "one page of everything, report.html: the deck as understood, figures, extremes, impacts, " &
+                    //"cost and error, warnings; it asks no network", default="off")
    end function output_info
 
 end module section_info

@@ -52,8 +52,11 @@ module extremes
       real(wp) :: speed_onset = 0.0_wp                 !! onset of that contact [s]
       real(wp) :: force = 0.0_wp                       !! greatest normal force [N]
       real(wp) :: force_onset = 0.0_wp                 !! onset of the contact that had it [s]
+      real(wp) :: force_time = 0.0_wp                  !! when it was there [s]
       real(wp) :: penetration = 0.0_wp                 !! greatest penetration [m]
       real(wp) :: penetration_onset = 0.0_wp           !! onset of the contact that had it [s]
+      real(wp) :: penetration_time = 0.0_wp            !! when it was there [s]
+      real(wp) :: impulse = 0.0_wp                     !! of the normal forces of all contacts [N.s]
       real(wp) :: energy_lost = 0.0_wp                 !! in all contacts; NaN without ledger [J]
    end type joint_extremes_t
 
@@ -180,13 +183,17 @@ contains
 
    !> Add a contact to what a joint went through.
    pure subroutine add_contact(numbers, joint)
-      real(wp), intent(in) :: numbers(:)              !! (7) of the event, see `event_list` [any]
+      real(wp), intent(in) :: numbers(:)              !! (10) of the event, see `event_list` [any]
       type(joint_extremes_t), intent(inout) :: joint  !! the joint
 
+      real(wp) :: at
+
+      at = 0.0_wp
       joint%impacts = joint%impacts + 1
-      call raise(numbers(2), joint%speed, joint%speed_onset)
-      call raise(numbers(3), joint%force, joint%force_onset)
-      call raise(numbers(4), joint%penetration, joint%penetration_onset)
+      call raise(numbers(2), numbers(1), joint%speed, joint%speed_onset, at)
+      call raise(numbers(3), numbers(9), joint%force, joint%force_onset, joint%force_time)
+      call raise(numbers(4), numbers(10), joint%penetration, joint%penetration_onset, joint%penetration_time)
+      joint%impulse = joint%impulse + numbers(8)
       if (.not. ieee_is_finite(joint%energy_lost)) return
       if (ieee_is_finite(numbers(7))) then
          joint%energy_lost = joint%energy_lost + numbers(7)
@@ -197,15 +204,18 @@ contains
    contains
 
       !> Take a value that is greater than those before.
-      pure subroutine raise(x, greatest, onset)
+      pure subroutine raise(x, t, greatest, onset, when)
          real(wp), intent(in) :: x            !! the value [any]
+         real(wp), intent(in) :: t            !! when it was there [s]
          real(wp), intent(inout) :: greatest  !! the greatest so far [any]
          real(wp), intent(inout) :: onset     !! of its contact [s]
+         real(wp), intent(inout) :: when      !! when it was there [s]
 
          if (.not. ieee_is_finite(x)) return
          if (joint%impacts > 1 .and. x <= greatest) return
          greatest = x
          onset = numbers(1)
+         when = t
       end subroutine raise
 
    end subroutine add_contact

@@ -9,7 +9,7 @@ submodule(mechanism) mechanism_memory
    ! versions of the forms of what is saved: raised where that changes
    integer, parameter :: equations_version = 1  !! of the counters, the pace and the stretch of smooth time
    integer, parameter :: joint_version = 1      !! of sets of joints and drivers
-   integer, parameter :: contact_version = 1    !! of sets of joints with clearance
+   integer, parameter :: contact_version = 2    !! of sets of joints with clearance
    integer, parameter :: n_equations = 9        !! numbers of the first of them
 
 contains

@@ -1,4 +1,5 @@
-"""Pages of animations opened by a real browser, headless Chromium: they load without an error and show another picture after a step.
+"""Pages opened by a real browser, headless Chromium: those of animations load without an error and show another picture after a step,
+that of a run shows its pictures, its tables and the animation in its frame.
 
 open_pages.py PROGRAM DIRECTORY: runs decks there with the program; exits with 1 if something is wrong. Chromium: apt-get install chromium.
 """
@@ -24,11 +25,17 @@ const s=document.getElementById('slider');s.value=s.max;s.dispatchEvent(new Even
 click('play');found.playing=document.getElementById('play').textContent;click('play');
 document.documentElement.setAttribute('data-found',encodeURIComponent(JSON.stringify(found)))}</script></body>"""
 
+# at the end of the page of a run: what it shows when all is loaded
+REPORT = """<script>window.addEventListener('load',()=>{found.pictures=[...document.images].map(p=>p.complete?p.naturalWidth:0);
+found.frames=[...document.querySelectorAll('iframe')].map(f=>f.contentDocument.getElementById('scene').innerHTML);
+found.rows=[...document.querySelectorAll('table')].map(t=>t.rows.length);found.wide=document.body.scrollWidth-window.innerWidth;
+document.documentElement.setAttribute('data-found',encodeURIComponent(JSON.stringify(found)))})</script></body>"""
+
 
 def page_of(program, directory, name):
-    """A deck's animation."""
+    """A deck's animation, and beside it the page of its run."""
     text = (ROOT / "inputs" / f"{name}.deck").read_text(encoding="utf-8")
-    text, n = re.subn(r"^figures( *)=.*$", r"figures\1= animation(n=24)", text, flags=re.MULTILINE)
+    text, n = re.subn(r"^figures( *)=.*$", r"report = on\nfigures\1= animation(n=24) energy.kinetic mechanism", text, flags=re.MULTILINE)
     assert n == 1, name
     deck = directory / f"{name}.deck"
     deck.write_text(text, encoding="utf-8")
@@ -36,18 +43,30 @@ def page_of(program, directory, name):
     return directory / name / "figures" / "animation.n.24.html"
 
 
-def what_is_found(browser, page):
+def what_is_found(browser, page, before, after):
     """What the browser sees in a page."""
     text = page.read_text(encoding="utf-8")
-    assert "http" not in text and "src=" not in text and "@import" not in text, "the page asks for something"
+    assert not re.search(r"https?:|@import|src=(?!.data:image)", text), "the page asks for something"
     watched = page.with_name("watched.html")
-    watched.write_text(text.replace("<script>", BEFORE + "<script>", 1).replace("</body>", AFTER, 1), encoding="utf-8")
-    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", watched.resolve().as_uri()]
+    head, _, tail = text.partition(before)
+    body, _, end = tail.rpartition("</body>")
+    watched.write_text(head + BEFORE + before + body + after + end, encoding="utf-8")
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=10000", "--dump-dom",
+               watched.resolve().as_uri()]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     found = re.search(r'data-found="([^"]*)"', done.stdout)
     errors = re.search(r"errors:\[\]", done.stdout)
     assert found, f"the script did not come to its end: {done.stderr[-500:]} {errors}"
     return json.loads(re.sub(r"%([0-9A-Fa-f]{2})", lambda m: chr(int(m.group(1), 16)), found.group(1)))
+
+
+def check_report(browser, page):
+    """The page of a run: every picture is there, the frame plays, tables are filled, nothing reaches beyond the window."""
+    found = what_is_found(browser, page, "<style>", REPORT)
+    assert found["errors"] == [] and found["asked"] == 0, (page, found["errors"])
+    assert len(found["pictures"]) == 2 and min(found["pictures"]) > 200, (page, found["pictures"])
+    assert len(found["frames"]) == 1 and "<poly" in found["frames"][0], page
+    assert len(found["rows"]) > 5 and max(found["rows"]) > 5 and found["wide"] <= 0, (page, found["rows"], found["wide"])
 
 
 def main(program, directory):
@@ -59,7 +78,7 @@ def main(program, directory):
     directory.mkdir(parents=True, exist_ok=True)
     for name in DECKS:
         page = page_of(program, directory, name)
-        found = what_is_found(browser, page)
+        found = what_is_found(browser, page, "<script>", AFTER)
         assert found["errors"] == [] and found["asked"] == 0, (name, found["errors"])
         for k, part in enumerate(("scene", "zoom", "force", "time")):
             there = found["start"][k] != "" or (part in ("zoom", "force") and "loose:[]" in page.read_text(encoding="utf-8"))
@@ -70,7 +89,9 @@ def main(program, directory):
         assert found["last"][0] != found["turned"][0] and found["playing"] == "stop", name
         if "spatial:true" in page.read_text(encoding="utf-8"):
             assert found["turned"][0] != found["start"][0], f"{name}: another view is the same"
-        print(f"browser-test: {name}: as expected ({page.stat().st_size // 1000} kB)")
+        report = directory / name / "report.html"
+        check_report(browser, report)
+        print(f"browser-test: {name}: as expected ({page.stat().st_size // 1000} kB, report {report.stat().st_size // 1000} kB)")
     return 0
 
 

@@ -158,13 +158,13 @@ contains
 
       type(catalogue_t) :: scene
       type(text_t) :: words(2)
-      character(:), allocatable :: got_message, hint
+      character(:), allocatable :: got_message, hint, part
       integer :: bad
 
       call make_scene(scene)
       words(1)%s = "motor.moment"
       words(2)%s = word
-      call check_figures(words, scene, bad, got_message, hint)
+      call check_figures(words, scene, bad, got_message, hint, part)
       call check_equal(error, bad, 2, "number of the wrong figure '"//word//"'")
       call check_equal(error, got_message(1:min(len(message), len(got_message))), message, "message")
       call check_true(error, len(hint) > 0, "there is a hint for '"//word//"'")
@@ -181,6 +181,17 @@ contains
       call check_figure(error, "portrait(slider.velocity.x", "cannot read")
       call check_figure(error, "portrait(slider.velocity,crank.angle)", "'slider.velocity' is not one number")
       call check_figure(error, "portrait(slider.velocity.x,crank.angel)", "unknown channel 'crank.angel'")
+      call check_figure(error, "slider.velocity.x + crank.angel", "unknown channel 'crank.angel'")
+      call check_figure(error, "slider.velocity.x + crank.angle + motor.moment", "'motor.moment' has another unit")
+      call check_figure(error, "slider.velocity.x in mm", "unit 'mm' does not measure")
+      call check_figure(error, "slider.velocity.x in furlong", "unknown unit 'furlong'")
+      call check_figure(error, "slider.velocity.x from 0 to 1", "the ends of an axis have no unit")
+      call check_figure(error, "slider.velocity.x from 2 to 1 m/s", "the ends of an axis do not increase")
+      call check_figure(error, "slider.velocity.x from 1 m/s", "'to' is missing")
+      call check_figure(error, "slider.velocity.x against slider.velocity", "'slider.velocity' is not one number")
+      call check_figure(error, "slider.velocity.x against crank.angle + motor.moment", "a figure has one abscissa")
+      call check_figure(error, "gudgeon.orbit in mm", "'in' belongs to figures of curves")
+      call check_figure(error, "panels(slider.velocity.x,)", "a channel is wanted before ')'")
    end subroutine wrong_figures_are_explained
 
 end module test_output_channels

@@ -5,8 +5,9 @@ module test_output_text
    use decimal_text, only: decimal_width
    use errors, only: error_t
    use event_list, only: event_list_t
+   use html_text, only: base_64
    use json_text, only: json_object_t, json_string
-   use kinds, only: not_a_number, wp
+   use kinds, only: not_a_number, pi, wp
    use plot_text, only: quoted, valid_utf8
    use recorder, only: event_t
    use text_table, only: put_row_of_numbers
@@ -22,6 +23,7 @@ contains
       call suite%test("nothing_escapes_the_quotes", nothing_escapes_the_quotes)
       call suite%test("bytes_become_utf8", bytes_become_utf8)
       call suite%test("json_is_escaped", json_is_escaped)
+      call suite%test("bytes_in_base_64", bytes_in_base_64)
       call suite%test("units_read_well", units_read_well)
       call suite%test("numbers_read_back", numbers_read_back)
       call suite%test("events_are_sorted", events_are_sorted)
@@ -66,6 +68,18 @@ contains
                        new_line("a")//"  ""z"": false"//new_line("a")//"}", "object")
    end subroutine json_is_escaped
 
+   !> The examples of RFC 4648, section 10, and every byte there and back by its bits.
+   subroutine bytes_in_base_64(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call check_equal(error, base_64(""), "", "nothing")
+      call check_equal(error, base_64("f"), "Zg==", "one byte")
+      call check_equal(error, base_64("fo"), "Zm8=", "two")
+      call check_equal(error, base_64("foo"), "Zm9v", "three")
+      call check_equal(error, base_64("foobar"), "Zm9vYmFy", "six")
+      call check_equal(error, base_64(char(255)//char(254)//char(0)), "//4A", "bytes beyond letters")
+   end subroutine bytes_in_base_64
+
    !> Check the unit chosen for a quantity.
    subroutine check_unit(error, si, extent, symbol, factor)
       type(error_t), allocatable, intent(inout) :: error  !! first failure
@@ -84,6 +98,9 @@ contains
    subroutine units_read_well(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
+      type(display_unit_t) :: unit
+      integer :: power
+
       call check_unit(error, "s", 0.024_wp, "ms", 1.0e3_wp)
       call check_unit(error, "s", 5.0_wp, "s", 1.0_wp)
       call check_unit(error, "m", 5.0e-4_wp, "mm", 1.0e3_wp)
@@ -100,6 +117,20 @@ contains
       call check_unit(error, "m/s^2", 3.0e5_wp, "10³ m/s²", 1.0e-3_wp)
       call check_unit(error, "m", 0.0_wp, "m", 1.0_wp)
       call check_unit(error, "1", 3.0_wp, "", 1.0_wp)
+      call check_unit(error, "rad", 3.0_wp, "deg", 180.0_wp/pi)
+      call check_unit(error, "rad", 2.0e-4_wp, "mrad", 1.0e3_wp)
+      call check_unit(error, "J", 1.5e-10_wp, "nJ", 1.0e9_wp)
+      call check_unit(error, "J", 2.0e-13_wp, "pJ", 1.0e12_wp)
+      call check_unit(error, "m/s", 3.0e-9_wp, "nm/s", 1.0e9_wp)
+      call check_unit(error, "m/s", 3.0e-12_wp, "pm/s", 1.0e12_wp)
+      call check_unit(error, "m^3/s", 2.0e-6_wp, "cm³/s", 1.0e6_wp)
+      call check_unit(error, "N/m", 2.0e8_wp, "10⁶ N/m", 1.0e-6_wp)
+      call check_unit(error, "kg.m^2", 2.0e-5_wp, "10⁻⁶ kg·m²", 1.0e6_wp)
+      do power = -14, 9  ! never more than five digits before the point, nor zeros behind it
+         unit = choose_unit("N", 3.0_wp*10.0_wp**power)
+         call check_true(error, unit%factor*3.0_wp*10.0_wp**power >= 0.009_wp .and. unit%factor*3.0_wp*10.0_wp**power < 1.0e4_wp, &
+                         unit%symbol)
+      end do
    end subroutine units_read_well
 
    subroutine numbers_read_back(error)

@@ -1,0 +1,184 @@
+!> What the panels of a figure of curves draw: which curves on which ordinate, in which units, with which labels.
+!>
+!> An ordinate whose numbers differ little beside their size shows what they are beyond a round value: ticks of the values
+!> themselves would all read the same.
+module curve_panels
+   use catalogue, only: catalogue_t
+   use curve_words, only: axis_t, panel_words_t
+   use display_units, only: choose_unit, display_unit_t
+   use figure_data, only: curve_t, is_visible
+   use figure_words, only: figure_t
+   use kinds, only: wp
+   use script_parts, only: largest, largest_y, with_unit
+   use text, only: real_text, replace, text_t
+   implicit none (type, external)
+   private
+   public :: constant, make_panel, panel_t, shown, stands_on_zero
+
+   real(wp), parameter :: narrow = 1.0e-4_wp        !! span of an ordinate beside its values: below it less a round value [1]
+   real(wp), parameter :: constant = 1.0e-13_wp     !! the same: less is round-off [1]
+   integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
+
+   !> A panel as it is drawn.
+   type :: panel_t
+      type(curve_t), allocatable :: curves(:)   !! (n) of the run
+      integer, allocatable :: side(:)           !! (n) 1: their ordinate is on the left, 2: on the right
+      type(curve_t), allocatable :: ideal(:)    !! (m) of the twin
+      integer, allocatable :: ideal_side(:)     !! (m) where their ordinate is
+      type(display_unit_t) :: unit(2)           !! (2) of the ordinates
+      real(wp) :: less(2) = 0.0_wp              !! (2) what is taken from them, SI [any]
+      type(text_t) :: quantity(2)               !! (2) what the ordinates show
+      character(:), allocatable :: label        !! of the ordinate on the left
+      character(:), allocatable :: right_label  !! of that on the right; blank: there is none
+   end type panel_t
+
+contains
+
+   !> What a panel draws.
+   subroutine make_panel(figure, catalogue, words, curves, ideal, panel)
+      type(figure_t), intent(in) :: figure        !! the figure
+      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
+      type(panel_words_t), intent(in) :: words    !! what the panel is to show
+      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
+      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the twin
+      type(panel_t), intent(out) :: panel         !! the panel
+
+      logical :: own(size(curves))
+      integer :: k, side
+
+      panel%right_label = ""
+      allocate (panel%side(0), panel%curves(0), panel%ideal(0), panel%ideal_side(0))
+      do side = 1, 2
+         if (.not. allocated(words%y(side)%si)) cycle
+         do k = 1, size(curves)
+            associate (number => curves(k)%number)
+               own(k) = number >= words%first .and. number <= words%last
+               if (own(k)) own(k) = catalogue%groups(figure%scalars(number)%group)%channel%unit == words%y(side)%si
+            end associate
+         end do
+         if (.not. any(own)) cycle
+         call take_side(pack([(k, k=1, size(curves))], own))
+      end do
+      if (size(panel%curves) <= most_overlaid) then
+         do k = 1, size(ideal)
+            do side = 1, size(panel%curves)
+               if (panel%curves(side)%number /= ideal(k)%number) cycle
+               panel%ideal = [panel%ideal, ideal(k)]
+               panel%ideal_side = [panel%ideal_side, panel%side(side)]
+            end do
+         end do
+      end if
+      if (.not. allocated(panel%label)) panel%label = ""
+      do side = 1, 2
+         if (any(panel%side == side) .and. .not. words%y(side)%has_range) call take_narrow(side)
+      end do
+
+   contains
+
+      !> Of a narrow ordinate what differs from a round value is drawn: ticks of the values themselves would all read the same.
+      subroutine take_narrow(side)
+         integer, intent(in) :: side  !! 1 left, 2 right
+
+         type(display_unit_t) :: own
+         character(:), allocatable :: round
+         real(wp) :: high, low
+         integer :: status
+
+         low = min(minval(pack(panel%curves%y_range(1), panel%side == side)), &
+                   minval(pack(panel%ideal%y_range(1), panel%ideal_side == side)))
+         high = max(maxval(pack(panel%curves%y_range(2), panel%side == side)), &
+                    maxval(pack(panel%ideal%y_range(2), panel%ideal_side == side)))
+         if (high - low > narrow*max(abs(low), abs(high)) .or. high - low <= constant*max(abs(low), abs(high))) return
+         if (allocated(words%y(side)%unit%symbol)) return
+         own = panel%unit(side)
+         round = real_text(own%factor*0.5_wp*(low + high), 4)
+         read (round, *, iostat=status) panel%less(side)
+         if (status /= 0) return
+         panel%less(side) = panel%less(side)/own%factor
+         panel%unit(side) = choose_unit(words%y(side)%si, max(abs(low - panel%less(side)), abs(high - panel%less(side))))
+         if (side == 1) then
+            panel%label = with_unit(panel%quantity(side)%s//" less "//trim(round//" "//own%symbol), panel%unit(side))
+         else
+            panel%right_label = with_unit(panel%quantity(side)%s//" less "//trim(round//" "//own%symbol), panel%unit(side))
+         end if
+      end subroutine take_narrow
+
+      !> The curves of one ordinate; components too small to be seen are left out, unless they were named one by one.
+      subroutine take_side(list)
+         integer, intent(in) :: list(:)  !! (any) numbers of curves
+
+         logical, allocatable :: visible(:)
+         integer :: i
+
+         visible = is_visible(curves(list))
+         do i = 1, size(list)
+            if (.not. (visible(i) .or. figure%curves%is_exact(curves(list(i))%number))) cycle
+            panel%curves = [panel%curves, curves(list(i))]
+            panel%side = [panel%side, side]
+         end do
+         panel%unit(side) = shown(words%y(side), curves(list), of_y=.true.)
+         panel%quantity(side)%s = name_of(list)
+         if (side == 1) then
+            panel%label = with_unit(panel%quantity(side)%s, panel%unit(side))
+         else
+            panel%right_label = with_unit(panel%quantity(side)%s, panel%unit(side))
+         end if
+      end subroutine take_side
+
+      !> The quantities of some curves, if they are few.
+      function name_of(list) result(name)
+         integer, intent(in) :: list(:)          !! (any) numbers of curves
+         character(:), allocatable :: name       !! as `velocity`
+
+         character(:), allocatable :: one
+         integer :: i
+
+         name = ""
+         do i = 1, size(list)
+            one = replace(catalogue%groups(figure%scalars(curves(list(i))%number)%group)%channel%name, "_", " ")
+            if (i == 1) name = one
+            if (index(", "//name//",", ", "//one//",") > 0) cycle
+            name = name//", "//one
+         end do
+         if (len(name) <= 40) return
+         name = ""
+         if (words%y(side)%si == "J") name = "energy"
+      end function name_of
+
+   end subroutine make_panel
+
+   !> The unit of an axis.
+   function shown(axis, curves, of_y) result(unit)
+      type(axis_t), intent(in) :: axis               !! what is asked of it
+      type(curve_t), intent(in) :: curves(:)         !! (n) what it shows
+      logical, intent(in), optional :: of_y          !! it is the ordinate
+      type(display_unit_t) :: unit                   !! its unit
+
+      real(wp) :: extent
+
+      unit = axis%unit
+      if (allocated(unit%symbol)) return
+      if (axis%has_range) then
+         extent = largest(axis%range)
+      else if (present(of_y)) then
+         extent = largest_y(curves)
+      else
+         extent = max(largest(curves(1)%x_range), 0.0_wp)
+         if (axis%si == "s") extent = curves(1)%x_range(2) - curves(1)%x_range(1)
+      end if
+      unit = choose_unit(axis%si, extent)
+   end function shown
+
+   !> Whether nothing is negative and something is as good as zero: then zero is the lower edge.
+   pure logical function stands_on_zero(curves)
+      type(curve_t), intent(in) :: curves(:)  !! (n) curves of the run
+
+      real(wp), parameter :: near = 0.05_wp    ! of the greatest value [1]
+      real(wp), parameter :: unseen = 1.0e-3_wp  ! of the greatest value: less than a pixel [1]
+      real(wp) :: least
+
+      least = minval(curves%y_range(1))
+      stands_on_zero = least >= -unseen*maxval(curves%y_range(2)) .and. least < near*maxval(curves%y_range(2))
+   end function stands_on_zero
+
+end module curve_panels

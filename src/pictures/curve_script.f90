@@ -1,0 +1,254 @@
+!> The gnuplot script of curves over the time or over another channel, in one panel or several.
+!>
+!> A curve that turns more often than the picture has columns is drawn as the range that it fills and its mean (`envelope_data`).
+!> Curves of the ideal twin are thin and dashed; where they are flat beside the run's, a second panel shows their scale.
+module curve_script
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_name
+   use curve_panels, only: constant, make_panel, panel_t, shown, stands_on_zero
+   use curve_words, only: panel_words_t
+   use display_units, only: display_unit_t
+   use envelope_data, only: envelope_t
+   use figure_data, only: curve_t
+   use figure_words, only: figure_t
+   use kinds, only: wp
+   use plot_text, only: quoted
+   use script_parts, only: angle_tics, axes_t, colours, largest_y, preamble, source, with_unit
+   use text, only: real_text, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: curve_text
+
+   real(wp), parameter :: peak_ratio = 20.0_wp      !! beyond this the ideal curve gets a panel of its own [1]
+   real(wp), parameter :: flat_ratio = 1.0e-9_wp    !! an ideal curve this flat needs none [1]
+   real(wp), parameter :: zoom_margin = 0.6_wp      !! beyond the ideal curve in that panel, of its span [1]
+   integer, parameter :: heights(6) = [800, 1000, 1200, 1400, 1600, 1800]  !! of pictures with so many panels, in pixels
+
+   character(*), parameter :: range_style = " with filledcurves fillstyle transparent solid 0.35 noborder"  !! of an envelope
+   character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin
+
+contains
+
+   !> The whole script, blank if there is nothing to draw.
+   function curve_text(figure, catalogue, title, curves, ideal, envelope) result(script)
+      type(figure_t), intent(in) :: figure        !! the figure
+      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
+      character(*), intent(in) :: title           !! of the scene, any text
+      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
+      type(curve_t), intent(in) :: ideal(:)       !! (m) curves of the ideal twin, perhaps none
+      type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
+      character(:), allocatable :: script         !! lines for gnuplot
+
+      type(panel_t), allocatable :: panels(:)
+      type(display_unit_t) :: x
+      type(buffer_t) :: lines
+      character(:), allocatable :: label
+      integer :: k, n
+      logical :: with_zoom
+
+      script = ""
+      if (size(curves) == 0) return
+      n = size(figure%curves%panels)
+      allocate (panels(n))
+      do k = 1, n
+         call make_panel(figure, catalogue, figure%curves%panels(k), curves, ideal, panels(k))
+      end do
+      with_zoom = n == 1 .and. .not. any(figure%curves%panels(1)%y%has_range)
+      if (with_zoom) with_zoom = needs_zoom(panels(1))
+      call preamble(lines, figure%name, 1200, heights(merge(2, n, with_zoom)))
+      x = shown(figure%curves%x, curves)
+      if (n > 1 .or. with_zoom) then
+         call lines%line("set lmargin at screen 0.12; set rmargin at screen "// &
+                         trim(merge("0.89 ", "0.965", any([(len(panels(k)%right_label) > 0, k=1, n)]))))
+         call lines%line("set multiplot layout "//to_text(merge(2, n, with_zoom))//",1 title "//quoted(title)//" font ',17'")
+      else
+         call lines%line("set title "//quoted(title)//" font ',17'")
+      end if
+      call abscissa_lines(lines, figure, catalogue, curves, x, envelope%is_used(), label)
+      if (n > 1) call lines%line("unset xlabel; set format x ''")
+      do k = 1, n
+         if (k == n) call lines%line("set xlabel "//label//"; set format x '%h'")
+         call panel_lines(lines, figure%curves%panels(k), panels(k), x, envelope, n)
+      end do
+      if (with_zoom) call zoom_lines(lines, panels(1), x)
+      if (n > 1 .or. with_zoom) call lines%line("unset multiplot")
+      call lines%line("unset output")
+      script = lines%get()
+   end function curve_text
+
+   !> The abscissa, which all panels have in common.
+   subroutine abscissa_lines(lines, figure, catalogue, curves, x, has_ranges, label)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(figure_t), intent(in) :: figure        !! the figure
+      type(catalogue_t), intent(in) :: catalogue  !! what was recorded
+      type(curve_t), intent(in) :: curves(:)      !! (n) curves of the run
+      type(display_unit_t), intent(in) :: x       !! its unit
+      logical, intent(in) :: has_ranges           !! ranges are drawn, in columns that begin within the axis
+      character(:), allocatable, intent(out) :: label  !! what stands below it, in quotes
+
+      real(wp) :: range(2)
+
+      associate (curve => figure%curves)
+         if (curve%abscissa > 0) then
+            label = quoted(with_unit(scalar_name(catalogue, figure%scalars(curve%abscissa)), x))
+         else
+            label = quoted(with_unit("time", x))
+         end if
+         range = x%factor*curves(1)%x_range
+         if (curve%x%has_range) range = x%factor*curve%x%range
+         if (curve%x%has_range .or. has_ranges) then
+            call lines%line("set xrange ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
+         else
+            call lines%line("set autoscale xfix")
+         end if
+         call angle_lines(lines, "x", x, range(2) - range(1), 1)
+      end associate
+   end subroutine abscissa_lines
+
+   !> Ticks of an axis in degrees.
+   subroutine angle_lines(lines, axis, unit, span, n)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      character(*), intent(in) :: axis            !! x, y or y2
+      type(display_unit_t), intent(in) :: unit    !! its unit
+      real(wp), intent(in) :: span                !! what it shows [the unit]
+      integer, intent(in) :: n                    !! panels that share its length
+
+      if (unit%symbol /= "deg") return
+      if (angle_tics(span, n) > 0) call lines%line("set "//axis//"tics "//to_text(angle_tics(span, n)))
+   end subroutine angle_lines
+
+   !> One panel.
+   subroutine panel_lines(lines, words, panel, x, envelope, n)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(panel_words_t), intent(in) :: words    !! what it is to show
+      type(panel_t), intent(in) :: panel          !! what it draws
+      type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+      type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
+      integer, intent(in) :: n                    !! panels of the figure
+
+      logical :: grounded
+
+      call lines%line("set ylabel "//quoted(panel%label))
+      grounded = .false.
+      if (any(panel%side == 1)) grounded = stands_on_zero(pack(panel%curves, panel%side == 1))
+      call lines%line("set offsets 0, 0, graph 0.05, "//trim(merge("0         ", "graph 0.05", grounded)))
+      call ordinate_lines("y", 1)
+      if (len(panel%right_label) > 0) then
+         call lines%line("set y2label "//quoted(panel%right_label))
+         call lines%line("set y2tics nomirror textcolor rgb '#000000'")
+         call ordinate_lines("y2", 2)
+      else
+         call lines%line("unset y2label; unset y2tics")
+      end if
+      call plot_lines(lines, panel, x, envelope)
+
+   contains
+
+      !> Ends and ticks of an ordinate.
+      subroutine ordinate_lines(axis, side)
+         character(*), intent(in) :: axis  !! y or y2
+         integer, intent(in) :: side       !! 1 left, 2 right
+
+         character(:), allocatable :: edge
+         real(wp) :: range(2)
+
+         associate (asked => words%y(side), unit => panel%unit(side))
+            if (.not. any(panel%side == side)) return
+            range = unit%factor*([minval(pack(panel%curves%y_range(1), panel%side == side)), &
+                                  maxval(pack(panel%curves%y_range(2), panel%side == side))] - panel%less(side))
+            if (asked%has_range) then
+               range = unit%factor*asked%range
+               call lines%line("set "//axis//"range ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
+            else if (range(2) - range(1) <= constant*maxval(abs(range)) .and. maxval(abs(range)) > 0.0_wp) then
+               call lines%line("set "//axis//"range ["//real_text(range(1) - 0.1_wp*abs(range(1)), 6)//":"// &
+                               real_text(range(2) + 0.1_wp*abs(range(2)), 6)//"]")
+            else
+               edge = "*"  ! of what is as good as never negative: its least value, or zero
+               if (stands_on_zero(pack(panel%curves, panel%side == side))) edge = real_text(min(0.0_wp, range(1)), 6)
+               call lines%line("set "//axis//"range ["//edge//":*]")
+            end if
+            call lines%line("set "//axis//"tics autofreq")
+            call angle_lines(lines, axis, unit, range(2) - range(1), n)
+            if (asked%si == "1" .and. panel%label == "state") call lines%line("set "//axis//"tics 1")
+         end associate
+      end subroutine ordinate_lines
+
+   end subroutine panel_lines
+
+   !> The same on the scale of the ideal joints.
+   subroutine zoom_lines(lines, panel, x)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(panel_t), intent(in) :: panel          !! what the panel above draws
+      type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+
+      type(envelope_t) :: none
+      real(wp) :: high, low, span
+
+      low = minval(panel%ideal%y_range(1))
+      high = maxval(panel%ideal%y_range(2))
+      span = high - low
+      call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
+      call lines%line("set yrange ["//real_text(panel%unit(1)%factor*merge(0.0_wp, low - zoom_margin*span, &
+                      stands_on_zero(panel%curves) .and. low < zoom_margin*span), 9)//":"// &
+                      real_text(panel%unit(1)%factor*(high + zoom_margin*span), 9)//"]")
+      call plot_lines(lines, panel, x, none)
+   end subroutine zoom_lines
+
+   !> Whether the ideal curve would be a flat line beside the peaks of the run.
+   pure logical function needs_zoom(panel)
+      type(panel_t), intent(in) :: panel  !! what is drawn
+
+      real(wp) :: span
+
+      needs_zoom = .false.
+      if (size(panel%ideal) == 0 .or. any(panel%side == 2)) return
+      span = maxval(panel%ideal%y_range(2)) - minval(panel%ideal%y_range(1))
+      needs_zoom = largest_y(panel%curves) > peak_ratio*largest_y(panel%ideal) .and. span > flat_ratio*largest_y(panel%curves)
+   end function needs_zoom
+
+   !> The plot command: the run's curves, then those of the twin over them.
+   subroutine plot_lines(lines, panel, x, envelope)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      type(panel_t), intent(in) :: panel          !! what is drawn
+      type(display_unit_t), intent(in) :: x       !! unit of the abscissa
+      type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
+
+      type(axes_t) :: axes
+      character(:), allocatable :: colour, name, on
+      integer :: k, n, place
+
+      axes%x = x
+      n = size(panel%curves) + size(panel%ideal)
+      do k = 1, size(panel%curves)
+         axes%y = panel%unit(panel%side(k))
+         axes%less = panel%less(panel%side(k))
+         colour = " linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
+         name = panel%curves(k)%name
+         on = ""
+         if (len(panel%right_label) > 0) then
+            on = trim(merge(" axes x1y2", "          ", panel%side(k) == 2))
+            name = name//trim(merge(" (right)", "        ", panel%side(k) == 2))
+         end if
+         place = envelope%place(panel%curves(k)%number)
+         call lines%add(merge("plot ", "     ", k == 1))
+         if (place == 0) then
+            call lines%add(source(panel%curves(k), axes)//on//" with lines linewidth 2"//colour//" title "//quoted(name))
+         else
+            call lines%line(envelope%range_source(place, axes)//on//range_style//colour//" title "// &
+                            quoted(name//", range")//", \")
+            call lines%add("     "//envelope%mean_source(place, axes)//on//" with lines linewidth 2"//colour//" title 'mean'")
+         end if
+         call lines%line(trim(merge(", \", "   ", k < n)))
+      end do
+      do k = 1, size(panel%ideal)
+         axes%y = panel%unit(panel%ideal_side(k))
+         axes%less = panel%less(panel%ideal_side(k))
+         on = trim(merge(" axes x1y2", "          ", panel%ideal_side(k) == 2))
+         call lines%line("     "//source(panel%ideal(k), axes)//on//ideal_style// &
+                         trim(merge("title 'ideal joints'", "notitle             ", k == 1))// &
+                         trim(merge(", \", "   ", size(panel%curves) + k < n)))
+      end do
+   end subroutine plot_lines
+
+end module curve_script

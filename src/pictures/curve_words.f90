@@ -1,0 +1,259 @@
+!> Figures of curves: what their words name among the channels of a run.
+!>
+!> Every panel has an ordinate for one unit on the left and, if its channels have two, one on the right. Units and ends of axes
+!> that are asked for go to the axis that they fit.
+module curve_words
+   use catalogue, only: catalogue_t
+   use channel_names, only: scalar_name, scalar_t
+   use channels, only: list_scalars, match_word, selection_t
+   use display_units, only: ask_unit, display_unit_t
+   use figure_phrase, only: clause_t, phrase_t
+   use kinds, only: wp
+   use text, only: text_t
+   implicit none (type, external)
+   private
+   public :: axis_t, bind_curves, curves_t, panel_words_t, unit_of
+
+   integer, parameter :: most_curves = 12                 !! of one panel
+   character(*), parameter :: time_word = "time"          !! the usual abscissa
+
+   !> An axis.
+   type :: axis_t
+      character(:), allocatable :: si       !! SI unit of what it shows; unallocated: there is no such axis
+      type(display_unit_t) :: unit          !! unit asked for; without symbol: none
+      logical :: has_range = .false.        !! whether its ends are asked for
+      real(wp) :: range(2) = 0.0_wp         !! (2) its ends, SI [any]
+   end type axis_t
+
+   !> One panel.
+   type :: panel_words_t
+      integer :: first = 1                  !! first of its numbers among those of the figure
+      integer :: last = 0                   !! last of them
+      type(axis_t) :: y(2)                  !! (2) ordinates on the left and, if it has a unit, on the right
+   end type panel_words_t
+
+   !> Curves in panels.
+   type :: curves_t
+      type(panel_words_t), allocatable :: panels(:)  !! (n) from above to below
+      logical, allocatable :: is_exact(:)            !! (numbers) named one by one: drawn however small it is
+      integer :: abscissa = 0                        !! place of the abscissa among the numbers of the figure; 0: time
+      type(axis_t) :: x                              !! the abscissa
+   end type curves_t
+
+contains
+
+   !> Look up what the parts of a figure name.
+   subroutine bind_curves(phrase, catalogue, scalars, curves, message, hint, bad)
+      type(phrase_t), intent(in) :: phrase                    !! parts of the figure
+      type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
+      type(scalar_t), allocatable, intent(out) :: scalars(:)  !! (n) curves by panel, then the abscissa if it is a channel
+      type(curves_t), intent(out) :: curves                   !! panels and axes
+      character(:), allocatable, intent(out) :: message       !! what is wrong, blank if nothing
+      character(:), allocatable, intent(out) :: hint          !! what may have been meant, may be blank
+      character(:), allocatable, intent(inout) :: bad         !! the wrong part, blank: all of it
+
+      type(axis_t) :: x(1)
+      type(scalar_t), allocatable :: named(:)
+      integer :: k
+
+      message = ""
+      hint = ""
+      allocate (scalars(0), curves%is_exact(0), curves%panels(size(phrase%panels)))
+      do k = 1, size(phrase%panels)
+         curves%panels(k)%first = size(scalars) + 1
+         call take_words(phrase%panels(k), catalogue, scalars, curves%is_exact, message, hint, bad)
+         if (len(message) > 0) return
+         curves%panels(k)%last = size(scalars)
+         call find_axes(catalogue, scalars, phrase%panels(k)%words, curves%panels(k), message, hint, bad)
+         if (len(message) > 0) return
+         call ask_axes(phrase%panels(k), curves%panels(k)%y, message, hint, bad)
+         if (len(message) > 0) return
+      end do
+      x(1)%si = "s"
+      curves%x = x(1)
+      if (size(phrase%against%words) == 0) return
+      if (phrase%against%words(1)%s /= time_word) then
+         call find_numbers(phrase%against%words(1)%s, catalogue, named, message, hint, bad)
+         if (len(message) > 0) return
+         if (size(named) /= 1) then
+            message = "'"//phrase%against%words(1)%s//"' is not one number"
+            hint = "an abscissa is a single component, as in "//phrase%against%words(1)%s//".x, or time"
+            bad = phrase%against%words(1)%s
+            return
+         end if
+         scalars = [scalars, named]
+         curves%abscissa = size(scalars)
+         x(1)%si = unit_of(catalogue, named(1))
+      end if
+      call ask_axes(phrase%against, x, message, hint, bad)
+      curves%x = x(1)
+   end subroutine bind_curves
+
+   !> The numbers that one word names.
+   subroutine find_numbers(word, catalogue, named, message, hint, bad)
+      character(*), intent(in) :: word                        !! a word of the figure
+      type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
+      type(scalar_t), allocatable, intent(out) :: named(:)    !! (any) what it names
+      character(:), allocatable, intent(inout) :: message     !! what is wrong, blank if nothing
+      character(:), allocatable, intent(inout) :: hint        !! what may have been meant, may be blank
+      character(:), allocatable, intent(inout) :: bad         !! the wrong part, blank: all of it
+
+      type(selection_t) :: selection
+
+      call match_word(word, catalogue, selection, message, hint)
+      named = list_scalars(selection)
+      if (len(message) > 0) bad = word
+   end subroutine find_numbers
+
+   !> The channels of a panel.
+   subroutine take_words(clause, catalogue, scalars, is_exact, message, hint, bad)
+      type(clause_t), intent(in) :: clause                       !! what the panel says
+      type(catalogue_t), intent(in) :: catalogue                 !! what can be recorded
+      type(scalar_t), allocatable, intent(inout) :: scalars(:)   !! (n) grown
+      logical, allocatable, intent(inout) :: is_exact(:)         !! (n) grown
+      character(:), allocatable, intent(inout) :: message        !! what is wrong, blank if nothing
+      character(:), allocatable, intent(inout) :: hint           !! what may have been meant, may be blank
+      character(:), allocatable, intent(inout) :: bad            !! the wrong part, blank: all of it
+
+      type(scalar_t), allocatable :: named(:)
+      integer :: before, k
+
+      before = size(scalars)
+      do k = 1, size(clause%words)
+         call find_numbers(clause%words(k)%s, catalogue, named, message, hint, bad)
+         if (len(message) > 0) return
+         if (size(named) == 0 .or. size(scalars) - before + size(named) > most_curves) then
+            message = "'"//clause%words(k)%s//"' names too many channels for one figure"
+            hint = "name an item and a channel, as in slider.velocity"
+            bad = clause%words(k)%s
+            return
+         end if
+         is_exact = [is_exact, spread(size(named) == 1, 1, size(named))]
+         scalars = [scalars, named]
+      end do
+   end subroutine take_words
+
+   !> The ordinates of a panel: one for each of at most two units.
+   subroutine find_axes(catalogue, scalars, words, panel, message, hint, bad)
+      type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
+      type(scalar_t), intent(in) :: scalars(:)                !! (n) numbers of the figure
+      type(text_t), intent(in) :: words(:)                    !! (any) words that name those of the panel
+      type(panel_words_t), intent(inout) :: panel             !! its axes are set
+      character(:), allocatable, intent(inout) :: message     !! what is wrong, blank if nothing
+      character(:), allocatable, intent(inout) :: hint        !! what may have been meant, may be blank
+      character(:), allocatable, intent(inout) :: bad         !! the wrong part, blank: all of it
+
+      character(:), allocatable :: si
+      integer :: k
+
+      panel%y(1)%si = unit_of(catalogue, scalars(panel%first))
+      do k = panel%first + 1, panel%last
+         si = unit_of(catalogue, scalars(k))
+         if (si == panel%y(1)%si) cycle
+         if (size(words) == 1) then
+            message = "'"//words(1)%s//"' names channels of different units"
+            hint = "one word of a figure names channels of one unit; A + B draws two units, panels(A, B, C) more"
+            bad = words(1)%s
+            return
+         end if
+         if (.not. allocated(panel%y(2)%si)) panel%y(2)%si = si
+         if (si == panel%y(2)%si) cycle
+         bad = scalar_name(catalogue, scalars(k))
+         message = "'"//bad//"' has another unit ("//si//") than the channels before it ("// &
+                   panel%y(1)%si//", "//panel%y(2)%si//")"
+         hint = "one picture has axes for two units; panels(A, B, C) draws more, one above the other"
+         return
+      end do
+   end subroutine find_axes
+
+   !> Units and ends that are asked for, each for the axis that it fits.
+   subroutine ask_axes(clause, axes, message, hint, bad)
+      type(clause_t), intent(in) :: clause                    !! what is asked for
+      type(axis_t), intent(inout) :: axes(:)                  !! (1 or 2) the axes; one without a unit is not there
+      character(:), allocatable, intent(inout) :: message     !! what is wrong, blank if nothing
+      character(:), allocatable, intent(inout) :: hint        !! what may have been meant, may be blank
+      character(:), allocatable, intent(inout) :: bad         !! the wrong part, blank: all of it
+
+      type(display_unit_t) :: shown
+      real(wp) :: low, high
+      character(:), allocatable :: usual
+      integer :: at, i, k
+
+      usual = ""
+      do k = 1, size(clause%units)
+         call fit(clause%units(k)%s, at, shown)
+         if (len(message) > 0) return
+         axes(at)%unit = shown
+         usual = clause%units(k)%s
+      end do
+      do i = 1, size(clause%limits)
+         associate (limits => clause%limits(i))
+            if (len(limits%low_unit//limits%high_unit) == 0 .and. len(usual) == 0 .and. axes(1)%si /= "1") then
+               message = "the ends of an axis have no unit"
+               bad = "from"
+               hint = "write them with a unit of what is given in "//axes(1)%si//", or write in UNIT before them"
+               return
+            end if
+            if (len(limits%low_unit//limits%high_unit) == 0 .and. len(usual) == 0) usual = "1"
+            call fit(first_of(limits%low_unit, limits%high_unit, usual), at, shown)
+            if (len(message) > 0) return
+            low = limits%low/shown%factor
+            call fit(first_of(limits%high_unit, limits%low_unit, usual), k, shown)
+            if (len(message) > 0) return
+            high = limits%high/shown%factor
+            if (k /= at .or. .not. high > low) then
+               message = "the ends of an axis do not increase"
+               if (k /= at) message = "the ends of an axis are of different quantities"
+               bad = "from"
+               return
+            end if
+            axes(at)%range = [low, high]
+            axes(at)%has_range = .true.
+         end associate
+      end do
+
+   contains
+
+      !> The axis that a unit fits.
+      subroutine fit(name, at, shown)
+         character(*), intent(in) :: name                 !! the unit, as written
+         integer, intent(out) :: at                       !! number of the axis
+         type(display_unit_t), intent(out) :: shown       !! the unit
+
+         character(:), allocatable :: trouble
+
+         do at = 1, size(axes)
+            if (.not. allocated(axes(at)%si)) cycle
+            call ask_unit(name, axes(at)%si, shown, trouble)
+            if (at == 1) message = trouble
+            if (len(trouble) == 0) message = ""
+            if (len(trouble) == 0) return
+         end do
+         bad = name
+         at = 1
+      end subroutine fit
+
+   end subroutine ask_axes
+
+   !> The first of three words that is not blank.
+   pure function first_of(a, b, c) result(word)
+      character(*), intent(in) :: a          !! a word
+      character(*), intent(in) :: b          !! another
+      character(*), intent(in) :: c          !! a third
+      character(:), allocatable :: word      !! one of them
+
+      word = c
+      if (len(b) > 0) word = b
+      if (len(a) > 0) word = a
+   end function first_of
+
+   !> The unit of a number.
+   pure function unit_of(catalogue, scalar) result(unit)
+      type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
+      type(scalar_t), intent(in) :: scalar        !! the number
+      character(:), allocatable :: unit           !! as in files
+
+      unit = catalogue%groups(scalar%group)%channel%unit
+   end function unit_of
+
+end module curve_words

@@ -1,0 +1,134 @@
+"""Figures whose axes are asked for, and ranges of curves that turn too often: their scripts and numbers against closed forms."""
+
+import functools
+import re
+
+import numpy as np
+import pytest
+from support import DECK, call, changed, scratch, written
+
+SHAKER = """deck = 1
+[scene]
+title = "a shaken arm"
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  angle[deg]
+arm   1         0.1              0.2   0     0
+[points]
+name  body    xi[m]  eta[m]
+main  ground  0      0
+heel  arm     -0.2   0
+[joint.revolute]
+name  i     j
+pin   main  heel
+[driver.angle]
+name   joint  angle
+motor  pin    {0.2rad*sin(2*pi*t*FREQUENCY/1s)}
+[analysis.kinematic]
+end = 1 s
+[output]
+every = 0.1 ms
+channels = arm.angle
+"""
+
+
+def drawn(gudgeon, text, figures, *options):
+    """The directory of a run with some figures."""
+    directory = scratch()
+    call(gudgeon, "run", written(directory, changed(text, "output", figures=figures)), "--out", directory / "out", "--quiet", *options)
+    return directory / "out" / "figures"
+
+
+def short(text):
+    """The slider-crank for a part of a turn."""
+    return changed(text, "analysis.dynamic", end="3 ms")
+
+
+@functools.lru_cache(maxsize=None)
+def crank_run(gudgeon):
+    """Curves in units, over an angle, between ends, in panels."""
+    return drawn(gudgeon, short(DECK.read_text(encoding="utf-8")),
+                 "slider.velocity.x in mm/s + gudgeon.normal_force from 0 to 50 kN against motor.coordinate in deg from 0 deg to 90 deg  "
+                 "panels(crank.angle in deg, slider.velocity + crank.velocity.x, energy.kinetic) against time in us")
+
+
+@pytest.fixture(name="crank")
+def crank_figures(gudgeon):
+    """Their directory."""
+    return crank_run(gudgeon)
+
+
+def only(folder, pattern):
+    """The one file of that name."""
+    (path,) = folder.glob(pattern)
+    return path
+
+
+def test_over_an_angle(crank):
+    """The table of channels of three files has the motor's angle, 5000 rpm; the axes are as asked, in the units asked for."""
+    script = only(crank, "slider*.gp").read_text(encoding="utf-8")
+    table = np.loadtxt(only(crank, "slider*.dat"), skiprows=len(re.findall(r"(?m)^#", only(crank, "slider*.dat").read_text())) + 1)
+    np.testing.assert_allclose(table[:, 3], 5000 * 2 * np.pi / 60 * table[:, 0], atol=1e-9)
+    assert "set xrange [0:90]" in script and "set y2range [0:50]" in script
+    assert "set xlabel 'motor.coordinate [deg]'" in script and "set xtics 15" in script
+    assert "set ylabel 'velocity [mm/s]'" in script and "set y2label 'normal force [kN]'" in script
+    assert re.search(r"using \(\$4\*57\.2958\):\(\$2\*1000\) .*title 'slider.velocity.x'", script)
+    assert re.search(r"using \(\$4\*57\.2958\):\(\$3\*0\.001\) axes x1y2 .*title 'gudgeon.normal_force \(right\)'", script)
+    assert only(crank, "slider*.png").stat().st_size > 5000
+
+
+def test_panels(crank):
+    """A panel each, the abscissa named once and below; components that nobody sees are left out, named ones are not."""
+    script = only(crank, "panels*.gp").read_text(encoding="utf-8")
+    assert "set multiplot layout 3,1" in script and script.count("\nplot ") == 3
+    assert script.count("set xlabel 'time [µs]'") == 1 and script.index("set xlabel") > script.index("unset xlabel")
+    labels = re.findall(r"set ylabel '(.*?)'", script)
+    assert labels[:2] == ["angle [deg]", "velocity [m/s]"] and labels[2].startswith("kinetic [")
+    assert "slider.velocity.x" in script and "crank.velocity.x" in script and "slider.velocity.y" not in script
+    assert only(crank, "panels*.png").stat().st_size > 5000
+
+
+def test_echo_draws_the_same(gudgeon, crank):
+    """deck.echo, read again, asks for the same figures."""
+    echo = (crank.parent / "deck.echo").read_text(encoding="utf-8")
+    directory = scratch()
+    call(gudgeon, "run", written(directory, echo), "--out", directory / "out", "--quiet")
+    assert {path.name for path in (directory / "out" / "figures").iterdir()} == {path.name for path in crank.iterdir()}
+    for path in crank.glob("*.gp"):
+        assert (directory / "out" / "figures" / path.name).read_text() == path.read_text()
+
+
+@pytest.mark.parametrize("frequency", [40, 900])
+def test_solid_blocks_are_ranges(gudgeon, frequency):
+    """A sine of 900 turns is drawn as its range and its mean, one of 40 as a line."""
+    folder = drawn(gudgeon, SHAKER.replace("FREQUENCY", str(frequency)), "arm.angle")
+    script = (folder / "arm.angle.gp").read_text(encoding="utf-8")
+    assert ("filledcurves" in script) == (frequency == 900)
+    if frequency == 40:
+        assert not list(folder.glob("*.range.dat"))
+        return
+    text = (folder / "arm.angle.range.dat").read_text(encoding="utf-8")
+    middle, least, greatest, mean = np.loadtxt([line for line in text.splitlines() if line[0] not in "#\""]).T
+    np.testing.assert_allclose(middle, (np.arange(len(middle)) + 0.5) / len(middle), rtol=1e-12)
+    assert np.all(least < -0.19) and np.all(greatest > 0.19) and np.all(abs(least) <= 0.2 * (1 + 1e-9))
+    assert np.abs(mean[1:-1]).max() < 0.05
+    assert "'arm.angle, range'" in script and "'mean'" in script
+
+
+def test_mistakes_have_a_place(gudgeon):
+    """The caret stands below the wrong part, and the nearest word is told."""
+    text = DECK.read_text(encoding="utf-8")
+    for figures, part, words in (
+        ("slider.velocity.x + crank.angel against motor.coordinate", "crank.angel", "did you mean 'crank.angle'"),
+        ("slider.velocity.x agianst motor.coordinate", "agianst", "did you mean 'against'"),
+        ("slider.velocity.x against motor.coordinate in mm", "mm", "does not measure"),
+        ("slider.velocity.x in mm/s from 1 mm to 2 mm", "mm", "does not measure"),
+        ("against motor.coordinate", "against", "a figure is wanted before"),
+        ("gudgeon.orbit in mm", "in", "belongs to figures of curves"),
+        ("panels(slider.velocity.x, crank.angle", "panels(slider.velocity.x, crank.angle", "a parenthesis is not closed"),
+    ):
+        directory = scratch()
+        done = call(gudgeon, "check", written(directory, changed(text, "output", figures=figures)), expect=3)
+        assert words in done.stderr + done.stdout, figures
+        line, caret = re.search(r"\| (figures.*)\n.*\| (\s*\^+)", done.stderr + done.stdout).groups()
+        first = caret.index("^")
+        assert line[first : first + caret.count("^")] == part, (figures, done.stderr)
