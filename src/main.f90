@@ -10,6 +10,7 @@ program gudgeon
    use processes, only: begin_process, end_process
    use text, only: printable, starts_with
    use verb_explain, only: check_deck, explain_deck
+   use verb_import, only: import_model
    use verb_help, only: list_kinds, show_help, show_version
    use verb_new, only: new_deck
    use verb_precision, only: compare_precision
@@ -38,6 +39,8 @@ program gudgeon
          call sweep_deck(options, error)
       case ("precision")
          call compare_precision(options, error)
+      case ("import")
+         call import_model(options, error)
       case ("new")
          call new_deck(options, error)
       case ("list")
