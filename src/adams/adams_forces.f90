@@ -113,15 +113,15 @@ contains
    contains
 
       !> A number of the statement; 0 if it is not there.
-      real(wp) function number(name, least)
+      real(wp) function number(name, least) result(value)
          character(*), intent(in) :: name   !! of the argument
          integer, intent(in) :: least       !! letters that do for it
 
          real(wp), allocatable :: numbers(:)
 
          call argument_numbers(statement, name, numbers, mistakes, least)
-         number = 0.0_wp
-         if (size(numbers) > 0) number = numbers(1)
+         value = 0.0_wp
+         if (size(numbers) > 0) value = numbers(1)
       end function number
 
    end subroutine add_spring
@@ -291,13 +291,13 @@ contains
    contains
 
       !> The law.
-      real(wp) function force_at(at)
+      real(wp) function force_at(at) result(value)
          real(wp), intent(in) :: at   !! length or angle, units of the dataset [any]
 
          real(wp) :: d1, d2
 
-         call evaluate_safely(compiled, at*unit, force_at, d1, d2)
-         if (.not. ieee_is_finite(force_at)) force_at = 0.0_wp
+         call evaluate_safely(compiled, at*unit, value, d1, d2)
+         if (.not. ieee_is_finite(value)) value = 0.0_wp
       end function force_at
 
    end function rest_of

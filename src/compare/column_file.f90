@@ -36,7 +36,7 @@ contains
       logical :: has_title, is_row
       integer :: k, n, n_column
 
-      allocate (tables(0), names(0), pending(0), rows(0, 0))
+      allocate (tables(0), pending(0))
       n = 0
       n_column = 0
       has_title = .false.
@@ -57,6 +57,8 @@ contains
          end if
          if (n == 0) then
             n_column = size(row)
+            if (allocated(names)) deallocate (names)
+            if (allocated(rows)) deallocate (rows)
             allocate (names(0))
             if (size(pending) == n_column) names = pending
             allocate (rows(n_column, 256))
@@ -81,7 +83,6 @@ contains
          new%names = names
          new%x = rows(:, :n)
          tables = [tables, new]
-         deallocate (rows, names)
          n = 0
       end subroutine close_table
 

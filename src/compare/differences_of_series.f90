@@ -1,7 +1,7 @@
 !> How far two time histories of the same number differ.
 !>
-!> The first one, A, is brought to the instants of the second, B, by the cubic through four of its output instants; how far that is
-!> from the parabola through three tells what the interpolation may add. With d = b - a:
+!> The first one, A, is brought to the instants of the second, B, by the polynomial through six of its output instants; how far that
+!> is from the one through five tells what the interpolation may add. With d = b - a:
 !>
 !>     rms        sqrt(mean d^2)                     greatest   max |d|, and when
 !>     peak error (max |b| - max |a|)/max |a|        lag        shift tau of b(t) = a(t - tau) with the least mean square
@@ -119,19 +119,20 @@ contains
       end if
    end function moments_of
 
-   !> Values at other instants, by the cubic through four neighbours, and what that may add.
+   !> Values at other instants, by the polynomial through six neighbours, and what that may add.
    pure subroutine at_instants(t, x, times, values, worst)
       real(wp), intent(in) :: t(:)           !! (n) instants, rising [s]
       real(wp), intent(in) :: x(:)           !! (n) values [any]
       real(wp), intent(in) :: times(:)       !! (m) instants wanted, within the others [s]
       real(wp), intent(out) :: values(:)     !! (m) the values [any]
-      real(wp), intent(out) :: worst         !! greatest difference between cubic and parabola [any]
+      real(wp), intent(out) :: worst         !! greatest difference to the one through five [any]
 
+      real(wp), parameter :: same = 1.0e-9_wp   ! of an interval: it is the instant itself [1]
       real(wp) :: fewer
       integer :: i, k, n
 
       worst = 0.0_wp
-      n = min(4, size(t))
+      n = min(6, size(t))
       k = 1
       do i = 1, size(times)
          if (k > 1) then
@@ -141,9 +142,10 @@ contains
             if (times(i) < t(k + 1)) exit
             k = k + 1
          end do
-         associate (first => max(1, min(k - 1, size(t) - n + 1)))
+         associate (first => max(1, min(k - 2, size(t) - n + 1)))
             values(i) = lagrange(t(first:first + n - 1), x(first:first + n - 1), times(i))
             if (n < 3) cycle
+            if (minval(abs(t(first:first + n - 1) - times(i))) <= same*(t(first + n - 1) - t(first))) cycle
             fewer = lagrange(t(first:first + n - 2), x(first:first + n - 2), times(i))
             if (ieee_is_finite(fewer) .and. ieee_is_finite(values(i))) worst = max(worst, abs(values(i) - fewer))
          end associate
