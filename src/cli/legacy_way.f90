@@ -10,9 +10,10 @@
 module legacy_way
    use errors, only: error_t, exit_usage, set_error
    use item, only: item_t, option_t, place_of
-   use kind_info, only: dim_frequency, dim_length, kind_info_t
+   use kind_info, only: dim_frequency, dim_length, dim_t, kind_info_t
    use kinds, only: wp
    use scene, only: analysis_dynamic, scene_t
+   use text, only: real_text
    implicit none (type, external)
    private
    public :: take_legacy_way
@@ -47,8 +48,10 @@ contains
          associate (hold => settings%values(place_of(settings, "stabilise")))
             if (.not. hold%given) then
                call put_word(settings, "stabilise", "baumgarte")
-               hold%options = [number_option("alpha", usual_gain), number_option("beta", usual_gain)]
-               hold%options%dimension = dim_frequency
+               if (allocated(hold%options)) deallocate (hold%options)
+               allocate (hold%options(2))
+               call put_option(hold%options(1), "alpha", usual_gain, dim_frequency)
+               call put_option(hold%options(2), "beta", usual_gain, dim_frequency)
             end if
          end associate
          associate (onset => settings%values(place_of(settings, "contact_onset")))
@@ -57,8 +60,9 @@ contains
                if (allocated(onset%options)) deallocate (onset%options)
             else if (onset%text /= "reject") then
                call put_word(settings, "contact_onset", "reject")
-               onset%options = [number_option("limit", usual_limit)]
-               onset%options%dimension = dim_length
+               if (allocated(onset%options)) deallocate (onset%options)
+               allocate (onset%options(1))
+               call put_option(onset%options(1), "limit", usual_limit, dim_length)
             end if
          end associate
       end associate
@@ -78,6 +82,7 @@ contains
       type(item_t), intent(inout) :: item        !! the row
 
       associate (column => info%columns(c))
+         if (.not. allocated(column%choices)) return
          if (index(" "//column%choices//" ", " book ") > 0) item%values(c)%text = "book"
          if (column%name == "stiffness" .and. column%choices == "half full") item%values(c)%text = "full"
          if (column%name == "ends" .and. column%choices == "clipped endless") item%values(c)%text = "endless"
@@ -96,16 +101,18 @@ contains
       end associate
    end subroutine put_word
 
-   !> An option with a number.
-   function number_option(name, number) result(option)
-      character(*), intent(in) :: name       !! of the option
-      real(wp), intent(in) :: number         !! its value, SI [any]
-      type(option_t) :: option               !! as if it had been read
+   !> An option with a number, as if it had been read.
+   subroutine put_option(option, name, number, dimension)
+      type(option_t), intent(inout) :: option    !! the option
+      character(*), intent(in) :: name           !! its name
+      real(wp), intent(in) :: number             !! its value, SI [any]
+      type(dim_t), intent(in) :: dimension       !! of the value
 
       option%name = name
-      option%text = ""
+      option%text = real_text(number, 6)
       option%number = number
       option%is_number = .true.
-   end function number_option
+      option%dimension = dimension
+   end subroutine put_option
 
 end module legacy_way
