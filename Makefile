@@ -203,7 +203,7 @@ endif
 
 # The rooms, in the order of docs/architecture.md.
 ROOMS := core math deck functions model coordinates contact lubrication joints forces clearance solve reduce linkage hold start \
-         integrators system scene build analysis files precision channels statistics numbers pictures output cli
+         integrators system scene build analysis files precision channels statistics numbers pictures output adams compare cli
 SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.f90) $(ROOMS:%=src/%/*.F90)))
 C_SOURCES := $(sort $(wildcard $(ROOMS:%=src/%/*.c)))
 MAIN := $(wildcard src/main.f90)

@@ -3,13 +3,15 @@ program gudgeon
    use, intrinsic :: ieee_arithmetic, only: ieee_set_underflow_mode, ieee_support_underflow_control
    use blas_threads, only: use_one_blas_thread
    use console, only: write_said
-   use errors, only: error_t, exit_ok
+   use errors, only: error_t, exit_different, exit_ok
    use kinds, only: wp
    use options, only: options_t, read_options
    use posix, only: write_error
    use processes, only: begin_process, end_process
    use text, only: printable, starts_with
    use verb_explain, only: check_deck, explain_deck
+   use verb_compare, only: compare_runs
+   use verb_import, only: import_model
    use verb_help, only: list_kinds, show_help, show_version
    use verb_new, only: new_deck
    use verb_precision, only: compare_precision
@@ -38,6 +40,10 @@ program gudgeon
          call sweep_deck(options, error)
       case ("precision")
          call compare_precision(options, error)
+      case ("compare")
+         call compare_runs(options, error)
+      case ("import")
+         call import_model(options, error)
       case ("new")
          call new_deck(options, error)
       case ("list")
@@ -51,7 +57,7 @@ program gudgeon
    call write_said(console_error)
    if (allocated(console_error) .and. .not. allocated(error)) call move_alloc(console_error, error)
    if (allocated(error)) then
-      if (.not. starts_with(error%message, "error: ")) error%message = "error: "//error%message
+      if (.not. starts_with(error%message, "error: ") .and. error%code /= exit_different) error%message = "error: "//error%message
       call write_error(printable(error%message)//new_line("a"))
       call end_process(error%code)
    end if

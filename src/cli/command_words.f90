@@ -1,7 +1,8 @@
 !> The verbs, options and exit codes of the program, each said once: the command line's reader, `gudgeon help`, the man page
 !> and the completions of shells take them from here.
 module command_words
-   use errors, only: exit_assembly, exit_audit, exit_deck, exit_file, exit_integration, exit_internal, exit_ok, exit_sweep, &
+   use errors, only: exit_assembly, exit_audit, exit_deck, exit_different, exit_file, exit_integration, exit_internal, exit_ok, &
+         exit_sweep, &
       exit_usage
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
@@ -16,8 +17,8 @@ module command_words
    type :: command_t
       character(9) :: name = ""      !! the verb
       character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
-      character(76) :: help = ""     !! one line
-      character(122) :: options = ""  !! the options that it takes, blank-separated
+      character(88) :: help = ""     !! one line
+      character(132) :: options = ""  !! the options that it takes, blank-separated
    end type command_t
 
    !> An option.
@@ -31,14 +32,18 @@ module command_words
    type(command_t), parameter :: known_verbs(*) = [ &
       command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
                 "--out --set --ideal --analysis --tolerance --method --accuracy --budget --horizon --quiet --json --member "// &
-                "--write"), &
+                "--write --legacy"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
       command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
-      command_t("check", "DECK", "find every mistake without integrating", "--set --ideal --analysis --tolerance --method"), &
+      command_t("check", "DECK", "find every mistake without integrating", &
+                "--set --ideal --analysis --tolerance --method --legacy"), &
       command_t("explain", "DECK", "what is modelled, what was dropped, every default taken", &
-                "--set --ideal --analysis --tolerance --method"), &
+                "--set --ideal --analysis --tolerance --method --legacy --adams"), &
+      command_t("compare", "A B", "two runs, or a run and columns of another program: differences, peaks, impacts, figure", &
+                "--out --channel --time --table --absolute --relative --statistics --quiet --json"), &
+      command_t("import", "MODEL", "make a deck of an Adams dataset MODEL.adm, with a list of what was left out", "--out"), &
       command_t("new", "NAME", "write a commented deck NAME.deck to start from", ""), &
       command_t("list", "[KIND]", "all tables and settings a deck may hold, or a group: gudgeon list contact", ""), &
       command_t("help", "[KIND]", "this page, or a kind: gudgeon help joint revolute", "--manual --man --completion"), &
@@ -61,15 +66,25 @@ module command_words
       option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
       option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &
       option_t("--budget", "TIME", "time that all runs may take, as 60s, instead of the deck's (run: with --accuracy)"), &
+      option_t("--legacy", "WAY", "run with fixed steps, the book's formulas, and onsets of contacts by its procedure 1 or 2"), &
+      option_t("--adams", "", "parameters of Adams' IMPACT function that come nearest to each contact law"), &
+      option_t("--channel", "SPEC", "a channel and its column, as ""rod.angle=3 unit=deg absolute=1e-3""", .true.), &
+      option_t("--time", "SPEC", "column of the time, as ""1 unit=ms shift=-5ms scale=1"""), &
+      option_t("--table", "FILE", "a file with one channel in a line, as --channel takes it"), &
+      option_t("--absolute", "X", "difference allowed, SI, of channels that have none of their own"), &
+      option_t("--relative", "X", "difference allowed, of a channel's greatest magnitude; default 1e-6"), &
+      option_t("--statistics", "", "judge means and RMS, with their significance, instead of every instant"), &
       option_t("--manual", "", "the whole manual, as Markdown"), &
       option_t("--man", "", "the man page"), &
       option_t("--completion", "SHELL", "what completes the words of this program in a shell")]
       !! in the order of the help
 
-   integer, parameter :: exit_codes(*) = [exit_ok, exit_usage, exit_deck, exit_assembly, exit_integration, exit_audit, &
+   integer, parameter :: exit_codes(*) = [exit_ok, exit_different, exit_usage, exit_deck, exit_assembly, exit_integration, &
+         exit_audit, &
                                           exit_sweep, exit_file, exit_internal]  !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
-      "done", "a wrong command line", "a mistake in the deck", "the mechanism cannot be assembled", "the integration failed", &
+      "done", "compared and found different", "a wrong command line", "a mistake in the deck", &
+            "the mechanism cannot be assembled", "the integration failed", &
       "energy or constraints above a limit, or accuracy not reached", "part of a sweep failed", "a file, the disk or memory", &
       "a mistake of the program itself"]
       !! what they mean
@@ -145,6 +160,7 @@ contains
             info = method%info()
             words = words//" "//info%name
          end do
+      case ("--legacy"); words = "procedure1 procedure2"
       case ("--write"); words = "numbers channels all"
       case ("--completion"); words = "bash zsh"
       end select

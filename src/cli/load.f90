@@ -15,6 +15,7 @@ module load
    use film_figures, only: check_film_figures
    use function_range, only: check_function_ranges
    use item, only: item_t, location_of, location_t, place_of
+   use legacy_way, only: take_legacy_way
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
@@ -182,6 +183,8 @@ contains
             end do
          end do
       end if
+      if (allocated(options%legacy%way)) call take_legacy_way(options%legacy%way, scene, error)
+      if (allocated(error)) return
       if (options%change%tolerance > 0.0_wp) then
          select case (scene%analysis)
          case (analysis_dynamic)

@@ -29,6 +29,18 @@ module options
       character(:), allocatable :: completion        !! `--completion SHELL`; unallocated: not asked for
    end type help_options_t
 
+   !> What concerns other programs.
+   type :: legacy_options_t
+      character(:), allocatable :: way               !! `--legacy WAY`; unallocated: as the deck says
+      logical :: with_adams = .false.                !! `--adams`
+      type(text_t), allocatable :: channels(:)       !! (n) `--channel SPEC`
+      character(:), allocatable :: time              !! `--time SPEC`; unallocated: the first column, in its unit
+      character(:), allocatable :: table             !! `--table FILE`; unallocated: none
+      real(wp) :: absolute = 0.0_wp                  !! `--absolute X` [any]
+      real(wp) :: relative = -1.0_wp                 !! `--relative X`; negative: the default [1]
+      logical :: by_statistics = .false.             !! `--statistics`
+   end type legacy_options_t
+
    !> What the user asked for.
    type :: options_t
       character(:), allocatable :: verb              !! one of `known_verbs`
@@ -45,6 +57,7 @@ module options
       logical :: is_json = .false.                   !! `--json`
       logical :: with_horizon = .false.              !! `--horizon`
       type(help_options_t) :: help                   !! what help is asked for
+      type(legacy_options_t) :: legacy               !! what concerns other programs
    end type options_t
 
 contains
@@ -57,7 +70,7 @@ contains
       character(:), allocatable :: known, value, word
       integer :: k, sign
 
-      allocate (options%operands(0), options%change%overrides(0))
+      allocate (options%operands(0), options%change%overrides(0), options%legacy%channels(0))
       options%command = "gudgeon"
       do k = 1, command_argument_count()
          options%command = options%command//" "//argument(k)
@@ -128,6 +141,8 @@ contains
       case ("--quiet"); options%is_quiet = .true.
       case ("--json"); options%is_json = .true.
       case ("--horizon"); options%with_horizon = .true.
+      case ("--adams"); options%legacy%with_adams = .true.
+      case ("--statistics"); options%legacy%by_statistics = .true.
       case ("--manual"); options%help%is_manual = .true.
       case ("--man"); options%help%is_man = .true.
       case default
@@ -149,6 +164,14 @@ contains
          case ("--completion")
             options%help%completion = value
             call check_word(word, value, error)
+         case ("--legacy")
+            options%legacy%way = value
+            call check_word(word, value, error)
+         case ("--channel"); call append_text(options%legacy%channels, value)
+         case ("--time"); options%legacy%time = value
+         case ("--table"); options%legacy%table = value
+         case ("--absolute"); call take_allowance(word, value, options%legacy%absolute, error)
+         case ("--relative"); call take_allowance(word, value, options%legacy%relative, error)
          case ("--member"); call take_count(word, value, options%change%member, error)
          case ("--jobs"); call take_count(word, value, options%jobs, error)
          case ("--method"); options%change%method = value
@@ -192,6 +215,23 @@ contains
       if (status == 0 .and. n >= 1) return
       call set_error(error, exit_usage, "option "//word//" needs a number from 1 on, not '"//value//"'")
    end subroutine take_count
+
+   !> A difference that is allowed.
+   subroutine take_allowance(word, value, x, error)
+      character(*), intent(in) :: word                     !! the option
+      character(*), intent(in) :: value                    !! its value
+      real(wp), intent(inout) :: x                         !! the number [any]
+      type(error_t), allocatable, intent(out) :: error     !! no number, or a negative one
+
+      real(wp) :: read
+      logical :: is_good
+
+      is_good = number_length(value) == len(value) .and. len(value) > 0
+      if (is_good) call read_number(value, 0, read, is_good)
+      if (is_good) is_good = read >= 0.0_wp
+      if (is_good) x = read
+      if (.not. is_good) call set_error(error, exit_usage, "option "//word//" needs a number from 0 on, not '"//value//"'")
+   end subroutine take_allowance
 
    !> A part of one.
    subroutine take_accuracy(word, value, x, error)

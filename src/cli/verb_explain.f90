@@ -5,6 +5,7 @@ module verb_explain
    use console, only: say
    use echo, only: all_defaults
    use errors, only: error_t
+   use explain_adams, only: explain_adams_parameters
    use explain_dropped, only: say_dropped
    use explain_films, only: explain_steady_films
    use explain_floors, only: floors_of_scene
@@ -128,6 +129,7 @@ contains
       if (allocated(start_error) .and. allocated(y)) deallocate (y)
       call explain_rubbing_joints(loaded%scene, loaded%system)
       call explain_loose_joints(loaded, y)
+      if (options%legacy%with_adams) call explain_adams_parameters(loaded)
       call explain_steady_films(loaded)
       call say_dropped(loaded%scene, loaded%system)
       call explain_method_and_times(loaded)

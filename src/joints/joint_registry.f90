@@ -21,6 +21,11 @@ module joint_registry
    use spatial_driver_speed, only: spatial_driver_speed_t
    use spatial_gear, only: spatial_gear_t
    use spatial_initial_speed, only: spatial_initial_speed_t
+   use spatial_inline, only: spatial_inline_t
+   use spatial_inplane, only: spatial_inplane_t
+   use spatial_orientation, only: spatial_orientation_t
+   use spatial_parallel_axes, only: spatial_parallel_axes_t
+   use spatial_perpendicular, only: spatial_perpendicular_t
    use spatial_planar, only: spatial_planar_t
    use spatial_revolute, only: spatial_revolute_t
    use spatial_revolute_spherical, only: spatial_revolute_spherical_t
@@ -33,7 +38,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 28  !! number of kinds
+   integer, parameter :: n_joint_kinds = 33  !! number of kinds
 
 contains
 
@@ -72,6 +77,11 @@ contains
       case (26); allocate (spatial_driver_position_t :: set)
       case (27); allocate (spatial_initial_speed_t :: set)
       case (28); allocate (spatial_gear_t :: set)
+      case (29); allocate (spatial_inline_t :: set)
+      case (30); allocate (spatial_inplane_t :: set)
+      case (31); allocate (spatial_orientation_t :: set)
+      case (32); allocate (spatial_parallel_axes_t :: set)
+      case (33); allocate (spatial_perpendicular_t :: set)
       end select
    end subroutine new_joint_set
 

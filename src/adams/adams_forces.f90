@@ -1,0 +1,608 @@
+!> Forces of an Adams dataset as rows of a deck.
+!>
+!> | Adams | deck |
+!> |---|---|
+!> | SPRINGDAMPER | `force.spring`, `force.torsion_spring` |
+!> | SFORCE, TRANSLATION, of DM, VR and TIME | `force.spring`: law of x = DM, damping, actuator |
+!> | SFORCE, ROTATION, of AZ, WZ and TIME | `force.torsion_spring`: law of x = AZ, damping, actuator |
+!> | SFORCE, ACTIONONLY, of TIME | `force.point`, `force.torque` along the axis z of J |
+!> | VFORCE, VTORQUE, GFORCE, of TIME, against the ground | `force.point`, `force.torque` along the axes of RM |
+!>
+!> A force of Adams is positive if it drives I and J apart, or turns I about the axis z of J; a deck's is positive if it pulls them
+!> together, or turns j (which is I) back. So the deck's is the negative one.
+!> An expression is cut into the terms of its sum; each may depend on the time, on the stretch, or, linearly, on its rate.
+!>
+!> Source: the public descriptions of the statements of Adams/Solver. Limits: whatever depends on other motion is left out.
+module adams_forces
+   use adams_expression, only: depends_on, node_add, node_call, node_divide, node_multiply, node_negate, node_subtract, on_other, &
+      on_rate, on_stretch, on_time, parse_tree, tree_t
+   use adams_joints, only: angle_at_start, two_markers
+   use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_translation, only: coefficient_text, deck_text, words_t
+   use dataset, only: find_argument, has_word, statement_t, upper_case
+   use deck_draft, only: body_axis, body_name, deck_draft_t, tab
+   use deck_table, only: direction_cell
+   use diagnostics, only: diagnostics_t
+   use expression, only: expression_t
+   use expression_compile, only: compile_expression, evaluate_safely, fault_t, symbols_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kind_info, only: dim_angle, dim_length
+   use kinds, only: pi, wp
+   use text, only: real_text, text_t, to_text
+   implicit none (type, external)
+   private
+   public :: add_forces
+
+   character(*), parameter :: spring_header = "name i j stiffness[N/m] damping[N.s/m] free_length preload[N] actuator law"
+   character(*), parameter :: turning_header = "name i j axis_i axis_j zero stiffness[N.m/rad] damping[N.m.s/rad] " &
+      //"free_angle[rad] preload[N.m] actuator law"
+
+   !> The parts of a force, in the units of the dataset; blank: there is none.
+   type :: parts_t
+      character(:), allocatable :: of_time      !! terms of the time
+      character(:), allocatable :: of_stretch   !! terms of the stretch
+      character(:), allocatable :: of_rate      !! factor of the rate
+      character(:), allocatable :: message      !! why it has no words in a deck; blank: it has
+   end type parts_t
+
+contains
+
+   !> All forces.
+   subroutine add_forces(model, draft, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      integer :: k, marker(2)
+
+      do k = 1, size(model%statements)
+         associate (it => model%statements(k))
+            select case (it%keyword)
+            case ("SPRINGDAMPER", "SFORCE")
+               call two_markers(model, it, marker, mistakes)
+               if (any(marker == 0)) cycle
+               if (it%keyword == "SFORCE") call add_single(model, draft, it, marker)
+               if (it%keyword == "SPRINGDAMPER") call add_spring(model, draft, it, marker, mistakes)
+            case ("VFORCE", "GFORCE", "VTORQUE")
+               call add_vector(model, draft, it, mistakes)
+            end select
+         end associate
+      end do
+   end subroutine add_forces
+
+   !> The name of a statement in the deck.
+   subroutine name_of(draft, statement, name)
+      type(deck_draft_t), intent(inout) :: draft           !! the deck
+      type(statement_t), intent(in) :: statement           !! the statement
+      character(:), allocatable, intent(out) :: name       !! from Adams/View, or keyword and number
+
+      character(:), allocatable :: wanted
+
+      wanted = statement%view_name
+      if (wanted == "") wanted = statement%keyword//"_"//to_text(statement%id)
+      call draft%new_name(wanted, statement%id, name)
+   end subroutine name_of
+
+   !> A spring and damper.
+   subroutine add_spring(model, draft, statement, marker, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      real(wp) :: c, force, free, k, moment
+
+      associate (u => model%units)
+         if (has_word(statement, "ROTATION", 2)) then
+            moment = u%force*u%length
+            k = number("KT", 2)*moment
+            c = number("CT", 2)*moment*u%time
+            free = number("ANGLE", 2) - angle_at_start(model, marker)
+            force = -number("TORQUE", 2)*moment
+            call put_turning(model, draft, statement, marker, cell(k), cell(c), cell(free), cell(force), "", "")
+         else
+            k = number("K", 1)*u%force/u%length
+            c = number("C", 1)*u%force*u%time/u%length
+            free = number("LENGTH", 1)*u%length
+            force = -number("FORCE", 1)*u%force
+            call put_spring(model, draft, statement, marker, cell(k), cell(c), cell(free), cell(force), "", "")
+         end if
+      end associate
+
+   contains
+
+      !> A number of the statement; 0 if it is not there.
+      real(wp) function number(name, least) result(value)
+         character(*), intent(in) :: name   !! of the argument
+         integer, intent(in) :: least       !! letters that do for it
+
+         real(wp), allocatable :: numbers(:)
+
+         call argument_numbers(statement, name, numbers, mistakes, least)
+         value = 0.0_wp
+         if (size(numbers) > 0) value = numbers(1)
+      end function number
+
+   end subroutine add_spring
+
+   !> A number as a cell; blank: zero.
+   pure function cell(x) result(words)
+      real(wp), intent(in) :: x                !! the number [any]
+      character(:), allocatable :: words       !! its digits
+
+      words = ""
+      if (abs(x) > 0.0_wp) words = real_text(x, 16)
+   end function cell
+
+   !> A row of a spring.
+   subroutine put_spring(model, draft, statement, marker, stiffness, damping, free, preload, actuator, law)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      character(*), intent(in) :: stiffness              !! cell
+      character(*), intent(in) :: damping                !! cell
+      character(*), intent(in) :: free                   !! a number of m, or blank
+      character(*), intent(in) :: preload                !! cell
+      character(*), intent(in) :: actuator               !! cell
+      character(*), intent(in) :: law                    !! cell
+
+      character(:), allocatable :: length, name, point_i, point_j
+
+      call name_of(draft, statement, name)
+      call draft%point(model, marker(2), point_i)
+      call draft%point(model, marker(1), point_j)
+      length = free
+      if (length /= "") length = length//"m"
+      call draft%put("force.spring", spring_header, name//tab//point_i//tab//point_j//tab//stiffness//tab//damping//tab//length// &
+            tab//preload//tab//actuator//tab//law)
+   end subroutine put_spring
+
+   !> A row of a torsional spring; its angle is zero at the start.
+   subroutine put_turning(model, draft, statement, marker, stiffness, damping, free, preload, actuator, law)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      character(*), intent(in) :: stiffness              !! cell
+      character(*), intent(in) :: damping                !! cell
+      character(*), intent(in) :: free                   !! cell
+      character(*), intent(in) :: preload                !! cell
+      character(*), intent(in) :: actuator               !! cell
+      character(*), intent(in) :: law                    !! cell
+
+      character(:), allocatable :: name
+
+      call name_of(draft, statement, name)
+      associate (i => model%parts(model%markers(marker(2))%part), j => model%parts(model%markers(marker(1))%part))
+         call draft%put("force.torsion_spring", turning_header, name//tab//body_name(i%name, i%is_ground)//tab// &
+               body_name(j%name, j%is_ground)//tab//direction_cell(body_axis(model, marker(2), 3))//tab// &
+                     direction_cell(body_axis(model, marker(1), 3))//tab//"start"//tab//stiffness//tab//damping//tab//free//tab// &
+                           preload//tab//actuator//tab//law)
+      end associate
+   end subroutine put_turning
+
+   !> A force of one component.
+   subroutine add_single(model, draft, statement, marker)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+
+      type(parts_t) :: parts
+      character(:), allocatable :: actuator, damping, law, unit
+      real(wp) :: free, start
+      logical :: is_alone, turns
+      integer :: k
+
+      k = find_argument(statement, "FUNCTION", 3)
+      if (k == 0) then
+         call leave_out(model, statement, "it has no FUNCTION")
+         return
+      end if
+      turns = has_word(statement, "ROTATION", 1)
+      is_alone = has_word(statement, "ACTIONONLY", 2)
+      start = norm2(model%place(marker(1)) - model%place(marker(2)))/model%units%length
+      if (turns) start = angle_at_start(model, marker)
+      unit = model%units%force_text()
+      if (turns) unit = unit//"*"//model%units%length_text()
+      free = 0.0_wp
+      call cut_force(model, statement%arguments(k)%values(1)%s, statement, turns, free, parts)
+      if (parts%message == "" .and. parts%of_stretch /= "") then
+         free = rest_of(negative(parts%of_stretch, "1"), start, merge(1.0_wp, model%units%length, turns), turns)
+         call cut_force(model, statement%arguments(k)%values(1)%s, statement, turns, free, parts)
+      end if
+      if (parts%message == "" .and. is_alone .and. (parts%of_stretch /= "" .or. parts%of_rate /= "")) &
+         parts%message = "an ACTIONONLY force that is no function of the time alone"
+      if (parts%message /= "") then
+         call leave_out(model, statement, parts%message//": "//statement%arguments(k)%values(1)%s)
+         return
+      end if
+      if (is_alone) then
+         call put_alone(model, draft, statement, marker, turns, parts%of_time//"*"//unit)
+         return
+      end if
+      actuator = negative(parts%of_time, unit)
+      law = negative(parts%of_stretch, unit)
+      damping = ""
+      if (parts%of_rate /= "" .and. turns) damping = "{-"//parts%of_rate//"*"//real_text(model%units%force*model%units%length* &
+                                                                                         model%units%time, 15)//"N.m.s/rad}"
+      if (parts%of_rate /= "" .and. .not. turns) damping = "{-"//parts%of_rate//"*"// &
+            real_text(model%units%force*model%units%time/ &
+                                                                                               model%units%length, 15)//"N.s/m}"
+      if (turns) then
+         call put_turning(model, draft, statement, marker, "", damping, cell(free - start), "", actuator, law)
+      else
+         call put_spring(model, draft, statement, marker, "", damping, cell(free*model%units%length), "", actuator, law)
+      end if
+   end subroutine add_single
+
+   !> Where a law stores least, so that what it stores is counted from there: looked for from the start on, as far as a length
+   !> goes to
+   !> zero and to three times itself, and an angle half a turn.
+   function rest_of(law, start, unit, turns) result(rest)
+      character(*), intent(in) :: law      !! tension over the length or angle x, a plain number, in braces
+      real(wp), intent(in) :: start        !! length or angle at the start, units of the dataset [any]
+      real(wp), intent(in) :: unit         !! of the dataset, SI [any]
+      logical, intent(in) :: turns         !! whether it is an angle
+      real(wp) :: rest                     !! the length or angle, units of the dataset [any]
+
+      integer, parameter :: n = 2000       ! places looked at, and halvings of the last one
+      type(expression_t) :: compiled
+      type(fault_t), allocatable :: fault
+      type(symbols_t) :: symbols
+      real(wp) :: force, high, least, low, previous, step, stored, x
+      integer :: k, side
+
+      rest = start
+      call compile_expression(law(2:len(law) - 1), symbols, .true., compiled, fault, "x", [merge(dim_angle, dim_length, turns)])
+      if (allocated(fault)) return
+      least = 0.0_wp
+      do side = -1, 1, 2
+         step = pi/real(n, wp)
+         if (.not. turns) step = start*merge(1.0_wp, 2.0_wp, side < 0)/real(n, wp)
+         stored = 0.0_wp
+         previous = force_at(start)
+         do k = 1, n
+            x = start + side*step*real(k, wp)
+            force = force_at(x)
+            stored = stored + 0.5_wp*side*step*(previous + force)
+            previous = force
+            if (.not. stored < least - 1.0e-12_wp*abs(least)) cycle
+            least = stored
+            rest = x
+         end do
+      end do
+      if (abs(rest - start) <= 0.0_wp) return
+      low = rest - step
+      high = rest + step
+      if (.not. force_at(low)*force_at(high) < 0.0_wp) return
+      do k = 1, 60
+         rest = 0.5_wp*(low + high)
+         if (force_at(rest)*force_at(low) > 0.0_wp) then
+            low = rest
+         else
+            high = rest
+         end if
+      end do
+      rest = anint(rest*1.0e12_wp)*1.0e-12_wp
+
+   contains
+
+      !> The law.
+      real(wp) function force_at(at) result(value)
+         real(wp), intent(in) :: at   !! length or angle, units of the dataset [any]
+
+         real(wp) :: d1, d2
+
+         call evaluate_safely(compiled, at*unit, value, d1, d2)
+         if (.not. ieee_is_finite(value)) value = 0.0_wp
+      end function force_at
+
+   end function rest_of
+
+   !> A term with the other sign and its unit, as a cell.
+   pure function negative(term, unit) result(words)
+      character(*), intent(in) :: term           !! a plain number; blank: none
+      character(*), intent(in) :: unit           !! a quantity
+      character(:), allocatable :: words         !! in braces; blank: none
+
+      words = ""
+      if (term /= "") words = "{-"//term//"*"//unit//"}"
+   end function negative
+
+   !> A force or torque on I alone, along the axis z of J.
+   subroutine put_alone(model, draft, statement, marker, turns, text)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      logical, intent(in) :: turns                       !! whether it is a torque
+      character(*), intent(in) :: text                   !! its size, with its unit
+
+      character(:), allocatable :: c(:), frame
+      real(wp) :: z(3)
+      integer :: k
+
+      if (.not. axes_of_load(model, marker(2), marker(1), frame)) then
+         call leave_out(model, statement, "its direction is that of another moving part")
+         return
+      end if
+      z = body_axis(model, marker(2), 3)
+      allocate (character(len(text) + 40) :: c(3))
+      do k = 1, 3
+         c(k) = ""
+         if (abs(z(k)) > 1.0e-15_wp) c(k) = "{"//real_text(z(k), 17)//"*"//text//"}"
+      end do
+      call put_load(model, draft, statement, marker(1), turns, frame, trim(c(1))//tab//trim(c(2))//tab//trim(c(3)))
+   end subroutine put_alone
+
+   !> Whether the axes of a marker are those of the world or of the body that is loaded, and which.
+   logical function axes_of_load(model, axes, loaded, frame) result(is_one)
+      type(adams_model_t), intent(in) :: model              !! the dataset
+      integer, intent(in) :: axes                           !! marker with the axes
+      integer, intent(in) :: loaded                         !! marker that is loaded
+      character(:), allocatable, intent(out) :: frame       !! as a cell
+
+      frame = ""
+      is_one = model%parts(model%markers(axes)%part)%is_ground
+      if (is_one) return
+      is_one = model%markers(axes)%part == model%markers(loaded)%part
+      frame = "body"
+   end function axes_of_load
+
+   !> A row of a force at a point, or of a torque.
+   subroutine put_load(model, draft, statement, marker, turns, frame, components)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker                      !! that is loaded
+      logical, intent(in) :: turns                       !! whether it is a torque
+      character(*), intent(in) :: frame                  !! cell
+      character(*), intent(in) :: components             !! three cells
+
+      character(:), allocatable :: name, point
+
+      if (components == tab//tab) return
+      call name_of(draft, statement, name)
+      associate (part => model%parts(model%markers(marker)%part))
+         if (part%is_ground) then
+            call leave_out(model, statement, "it acts on the ground")
+         else if (turns) then
+            call draft%put("force.torque", "name body mx my mz frame", name//tab//body_name(part%name, .false.)//tab// &
+                  components//tab//frame)
+         else
+            call draft%point(model, marker, point)
+            call draft%put("force.point", "name point fx fy fz frame", name//tab//point//tab//components//tab//frame)
+         end if
+      end associate
+   end subroutine put_load
+
+   !> A force and a torque of three components.
+   subroutine add_vector(model, draft, statement, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(2), parameter :: names(3, 2) = reshape(["FX", "FY", "FZ", "TX", "TY", "TZ"], [3, 2])
+      character(:), allocatable :: frame, sum, unit
+      type(parts_t) :: parts
+      type(text_t) :: cells(3), terms(3)
+      real(wp) :: a(3, 3)
+      integer :: i, k, marker, other, pass, reference
+
+      marker = model%marker(id_of(statement, "I", mistakes))
+      other = model%marker(id_of(statement, "JFLOAT", mistakes, 2))
+      reference = model%marker(id_of(statement, "RM", mistakes))
+      if (marker == 0 .or. reference == 0) then
+         call mistake(mistakes, statement%line, "I and RM of "//statement%keyword//"/"//to_text(statement%id)// &
+                      " are no markers of rigid parts", "")
+         return
+      end if
+      if (.not. floats_on_ground(model, statement, mistakes)) then
+         call leave_out(model, statement, "its reaction is on a moving part")
+         return
+      end if
+      if (.not. axes_of_load(model, reference, marker, frame)) then
+         call leave_out(model, statement, "its axes are those of another moving part")
+         return
+      end if
+      do pass = 1, 2
+         do k = 1, 3
+            terms(k)%s = ""
+            i = find_argument(statement, names(k, pass))
+            if (i == 0) cycle
+            call cut_force(model, statement%arguments(i)%values(1)%s, statement, .false., 0.0_wp, parts)
+            if (parts%message == "" .and. (parts%of_stretch /= "" .or. &
+                  parts%of_rate /= "")) parts%message = "it depends on the motion"
+            if (parts%message /= "") then
+               call leave_out(model, statement, parts%message//": "//statement%arguments(i)%values(1)%s)
+               return
+            end if
+            terms(k)%s = parts%of_time
+         end do
+         unit = model%units%force_text()
+         if (pass == 2) unit = unit//"*"//model%units%length_text()
+         do i = 1, 3
+            a(:, i) = body_axis(model, reference, i)
+         end do
+         do i = 1, 3
+            sum = ""
+            do k = 1, 3
+               if (terms(k)%s == "" .or. abs(a(i, k)) <= 1.0e-15_wp) cycle
+               if (sum /= "") sum = sum//" + "
+               sum = sum//real_text(a(i, k), 17)//"*"//terms(k)%s
+            end do
+            cells(i)%s = ""
+            if (sum /= "") cells(i)%s = "{("//sum//")*"//unit//"}"
+         end do
+         call put_load(model, draft, statement, marker, pass == 2, frame, cells(1)%s//tab//cells(2)%s//tab//cells(3)%s)
+      end do
+   end subroutine add_vector
+
+   !> Whether the floating marker of a force is on the ground.
+   logical function floats_on_ground(model, statement, mistakes)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      type(statement_t), intent(in) :: statement         !! the force
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      integer :: i, k, part
+
+      floats_on_ground = .false.
+      k = find_statement(model, "MARKER", id_of(statement, "JFLOAT", mistakes, 2))
+      if (k == 0) return
+      part = id_of(model%statements(k), "PART", mistakes, 1)
+      do i = 1, size(model%parts)
+         if (model%parts(i)%id == part) floats_on_ground = model%parts(i)%is_ground
+      end do
+   end function floats_on_ground
+
+   !> Cut a force into its parts.
+   subroutine cut_force(model, text, statement, turns, free, parts)
+      type(adams_model_t), intent(in) :: model         !! the dataset
+      character(*), intent(in) :: text                 !! the expression
+      type(statement_t), intent(in) :: statement       !! the force
+      logical, intent(in) :: turns                     !! whether it is a torque
+      real(wp), intent(in) :: free                     !! length or angle at which x is zero, units of the dataset [any]
+      type(parts_t), intent(out) :: parts              !! its parts
+
+      type(diagnostics_t) :: ignored
+      type(tree_t) :: tree
+      type(words_t) :: words
+      integer :: own(2)
+
+      parts = parts_t("", "", "", "")
+      own = [id_of(statement, "I", ignored), id_of(statement, "J", ignored)]
+      call parse_tree(with_variables(model, text), tree)
+      parts%message = tree%message
+      if (parts%message /= "") return
+      words = words_t("(t/"//model%units%time_text()//")", "x/"//model%units%length_text())
+      if (turns) words%stretch = "x/1rad"
+      if (abs(free) > 0.0_wp) words%stretch = words%stretch//" + "//real_text(free, 17)
+      words%stretch = "("//words%stretch//")"
+      call add_terms(tree, tree%root, "", own, turns, words, parts)
+   end subroutine cut_force
+
+   !> An expression with the variables that it takes by VARVAL put in.
+   recursive function with_variables(model, text, depth) result(whole)
+      type(adams_model_t), intent(in) :: model      !! the dataset
+      character(*), intent(in) :: text              !! the expression
+      integer, intent(in), optional :: depth        !! variables within variables
+      character(:), allocatable :: whole            !! without VARVAL, if all of them are expressions
+
+      integer, parameter :: deepest = 8
+      character(:), allocatable :: digits
+      integer :: at, id, k, last, level
+
+      level = 0
+      if (present(depth)) level = depth
+      whole = text
+      at = index(upper_case(whole), "VARVAL(")
+      do while (at > 0 .and. level < deepest)
+         last = index(whole(at:), ")") + at - 1
+         if (last <= at + 7) return
+         digits = trim(adjustl(whole(at + 7:last - 1)))
+         if (verify(digits, "0123456789") > 0 .or. len(digits) > 9) return
+         read (digits, *) id
+         k = find_statement(model, "VARIABLE", id)
+         if (k == 0) return
+         associate (variable => model%statements(k))
+            k = find_argument(variable, "FUNCTION", 3)
+            if (k == 0) return
+            whole = replaced(whole, at, last, "("//with_variables(model, variable%arguments(k)%values(1)%s, level + 1)//")")
+         end associate
+         at = index(upper_case(whole), "VARVAL(")
+      end do
+   end function with_variables
+
+   !> A text with a piece of it replaced.
+   pure function replaced(text, first, last, piece) result(whole)
+      character(*), intent(in) :: text        !! the text
+      integer, intent(in) :: first            !! where the piece begins
+      integer, intent(in) :: last             !! where it ends
+      character(*), intent(in) :: piece       !! what takes its place
+      character(:), allocatable :: whole      !! the new text
+
+      whole = text(:first - 1)//piece//text(last + 1:)
+   end function replaced
+
+   !> Add the terms of a sum to the parts of a force.
+   recursive subroutine add_terms(tree, node, factor, own, turns, words, parts)
+      type(tree_t), intent(in) :: tree                 !! the expression
+      integer, intent(in) :: node                      !! number of the node
+      character(*), intent(in) :: factor               !! of the node, with the sign that follows it
+      integer, intent(in) :: own(2)                    !! (2) markers I and J of the force
+      logical, intent(in) :: turns                     !! whether it is a torque
+      type(words_t), intent(in) :: words               !! how variables are written
+      type(parts_t), intent(inout) :: parts            !! of the force
+
+      character(:), allocatable :: text
+      integer :: bits, k, other
+      logical :: is_linear
+
+      if (parts%message /= "") return
+      bits = depends_on(tree, node, own, turns)
+      associate (it => tree%nodes(node))
+         if (bits /= 0 .and. bits /= on_time .and. bits /= on_stretch) then
+            select case (it%kind)
+            case (node_add, node_subtract, node_negate)
+               if (it%kind == node_negate) then
+                  call add_terms(tree, it%arguments(1), factor//"(-1)*", own, turns, words, parts)
+               else
+                  call add_terms(tree, it%arguments(1), factor, own, turns, words, parts)
+                  call add_terms(tree, it%arguments(2), trim(merge(factor//"     ", factor//"(-1)*", it%kind == node_add)), own, &
+                        turns, &
+                                 words, parts)
+               end if
+               return
+            case (node_multiply, node_divide)
+               k = 1
+               if (depends_on(tree, it%arguments(1), own, turns) == 0) k = 2
+               other = it%arguments(3 - k)
+               if (depends_on(tree, other, own, turns) == 0 .and. bits /= on_rate .and. .not. (k == 2 .and. &
+                                                                                                it%kind == node_divide)) then
+                  call deck_text(tree, other, words, text, parts%message)
+                  text = "("//text//")"
+                  if (it%kind == node_divide) text = "(1/"//text//")"
+                  call add_terms(tree, it%arguments(k), factor//text//"*", own, turns, words, parts)
+                  return
+               end if
+            end select
+         end if
+         if (it%kind == node_call .and. iand(bits, on_rate) /= 0 .and. (it%name == "IMPACT" .or. it%name == "BISTOP")) then
+            call deck_text(tree, node, words, text, parts%message)   ! without damping it is of the stretch alone
+            if (parts%message == "") parts%of_stretch = sum_of(parts%of_stretch, factor//text)
+            return
+         end if
+      end associate
+      select case (bits)
+      case (0, on_time)
+         call deck_text(tree, node, words, text, parts%message)
+         parts%of_time = sum_of(parts%of_time, factor//text)
+      case (on_stretch)
+         call deck_text(tree, node, words, text, parts%message)
+         parts%of_stretch = sum_of(parts%of_stretch, factor//text)
+      case (on_rate)
+         call coefficient_text(tree, node, own, turns, on_rate, .true., words, text, is_linear)
+         if (.not. is_linear) parts%message = "its damping is not linear in the rate"
+         parts%of_rate = sum_of(parts%of_rate, factor//text)
+      case default
+         parts%message = "a term of the stretch, its rate or the time together"
+         if (iand(bits, on_other) /= 0) parts%message = "it depends on motion other than that of its own markers along their line"
+         if (iand(bits, on_other) /= 0 .and. turns) parts%message = "it depends on motion other than AZ and WZ of its own markers"
+      end select
+   end subroutine add_terms
+
+   !> A sum with one more term.
+   pure function sum_of(sum, term) result(whole)
+      character(*), intent(in) :: sum        !! so far, in parentheses; blank: nothing
+      character(*), intent(in) :: term       !! one more
+      character(:), allocatable :: whole     !! in parentheses
+
+      whole = "("//term//")"
+      if (sum /= "") whole = "("//sum(2:len(sum) - 1)//" + "//term//")"
+   end function sum_of
+
+end module adams_forces

@@ -1,0 +1,490 @@
+!> Joints, joint primitives and motions of an Adams dataset as rows of a deck.
+!>
+!> A joint of Adams moves marker I against marker J along and about the axis z of J; a deck's joint moves j against i. So i of
+!> the deck
+!> is J, and j is I. Angles of the deck are zero at the start; the angle of Adams at the start, between the axes x of both
+!> markers, is
+!> taken off what a MOTION asks for.
+!>
+!> Source: the public descriptions of the statements of Adams/Solver.
+!> Limits: constant-velocity joints, rack and pinion, gears and couplers have no kind of their own in a deck's space.
+module adams_joints
+   use adams_expression, only: depends_on, on_time, parse_tree, tree_t
+   use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_translation, only: deck_text, grouped, integral_text, words_t
+   use dataset, only: find_argument, has_word, statement_t
+   use deck_draft, only: body_axis, deck_draft_t, joint_t, tab
+   use deck_table, only: direction_cell
+   use diagnostics, only: diagnostics_t
+   use kinds, only: wp
+   use text, only: exact_text, real_text, to_text
+   implicit none (type, external)
+   private
+   public :: add_joints, add_motions, add_primitives, angle_at_start, two_markers
+
+   character(*), parameter :: header = "name i j axis_i axis_j pitch zero"   !! of all joints; what a kind lacks stays blank
+   real(wp), parameter :: same = 1.0e-6_wp   !! angles and parts of a length that are no difference [1]
+
+contains
+
+   !> All JOINT statements.
+   subroutine add_joints(model, draft, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(14), parameter :: adams(8) = [character(14) :: "REVOLUTE", "TRANSLATIONAL", "CYLINDRICAL", "SPHERICAL", &
+                                                 "UNIVERSAL", "HOOKE", "PLANAR", "FIXED"]
+      character(13), parameter :: deck(8) = [character(13) :: "revolute", "translational", "cylindrical", "spherical", &
+                                                "universal", "universal", "planar", "rigid"]
+      integer :: i, k, marker(2)
+
+      allocate (draft%joints(0))
+      do k = 1, size(model%statements)
+         associate (it => model%statements(k))
+            if (it%keyword /= "JOINT") cycle
+            call two_markers(model, it, marker, mistakes)
+            if (any(marker == 0)) cycle
+            if (has_word(it, "SCREW", 2)) then
+               call add_screw(model, draft, it, marker, mistakes)
+               cycle
+            end if
+            do i = 1, size(adams)
+               if (has_word(it, trim(adams(i)), 2)) exit
+            end do
+            if (i > size(adams)) then
+               call leave_out(model, it, "a deck's space has no such joint ("//first_word(it)//")")
+            else if (trim(adams(i)) == "CYLINDRICAL" .and. is_of_screw(model, marker, mistakes)) then
+               call model%changed%add("line "//to_text(it%line)//": JOINT/"//to_text(it%id)// &
+                                      " (cylindrical) and the screw on the same axis are one joint.screw")
+            else
+               call add_joint(model, draft, it, "joint."//trim(deck(i)), merge(1, 3, trim(adams(i)) == "HOOKE"), marker, "")
+               call add_start(model, draft, it, mistakes)
+            end if
+         end associate
+      end do
+   end subroutine add_joints
+
+   !> The first word of a statement that has no value.
+   pure function first_word(statement) result(word)
+      type(statement_t), intent(in) :: statement   !! the statement
+      character(:), allocatable :: word            !! blank if it has none
+
+      integer :: k
+
+      word = "no type"
+      do k = size(statement%arguments), 1, -1
+         if (size(statement%arguments(k)%values) == 0) word = statement%arguments(k)%name
+      end do
+   end function first_word
+
+   !> Markers I and J of a statement, as places in the list; one that is not there is a mistake.
+   subroutine two_markers(model, statement, marker, mistakes)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(out) :: marker(2)                  !! (2) I and J; 0: missing
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(1), parameter :: names(2) = ["I", "J"]
+      integer :: id, k
+
+      do k = 1, 2
+         id = id_of(statement, names(k), mistakes)
+         marker(k) = model%marker(id)
+         if (marker(k) == 0) call mistake(mistakes, statement%line, "marker "//names(k)//" = "//to_text(id)//" of "// &
+                                          statement%keyword//"/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
+      end do
+   end subroutine two_markers
+
+   !> A row of a joint.
+   subroutine add_joint(model, draft, statement, kind, axis, marker, pitch)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      character(*), intent(in) :: kind                   !! of the deck
+      integer, intent(in) :: axis                        !! axis of both markers that the kind has, 1 or 3
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      character(*), intent(in) :: pitch                  !! of a screw; else blank
+
+      type(joint_t) :: new
+      character(:), allocatable :: axis_i, axis_j, name, point_i, point_j, zero
+      real(wp) :: a(3, 3), b(3, 3), x(3)
+
+      call draft%new_name(named(statement), statement%id, name)
+      call draft%point(model, marker(2), point_i)
+      call draft%point(model, marker(1), point_j)
+      axis_i = ""
+      axis_j = ""
+      zero = ""
+      a = model%axes(marker(1))
+      b = model%axes(marker(2))
+      select case (kind)
+      case ("joint.spherical")
+         continue
+      case ("joint.rigid", "joint.orientation", "joint.translational")
+         if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis))
+         if (maxval(abs(a - b)) > same) call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"// &
+            to_text(statement%id)//" holds the orientation that the dataset begins with, in which I and J differ")
+      case default
+         axis_i = direction_cell(body_axis(model, marker(2), axis))
+         x = body_axis(model, marker(1), axis)
+         if (kind /= "joint.universal" .and. kind /= "joint.perpendicular" .and. dot_product(a(:, axis), b(:, axis)) < 0.0_wp) then
+            x = -x
+            call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"//to_text(statement%id)// &
+                                   ": the axes z of I and J are opposed; that of I is turned over")
+         end if
+         axis_j = direction_cell(x)
+         if (kind == "joint.inline" .or. kind == "joint.inplane") axis_j = ""
+      end select
+      if (index(" joint.revolute joint.cylindrical joint.screw joint.planar ", " "//kind//" ") > 0) zero = "start"
+      call draft%put(kind, header, name//tab//point_i//tab//point_j//tab//axis_i//tab//axis_j//tab//pitch//tab//zero)
+      new = joint_t(statement%id, statement%keyword == "JPRIM", name, kind, marker)
+      draft%joints = [draft%joints, new]
+   end subroutine add_joint
+
+   !> The name of a statement.
+   pure function named(statement) result(name)
+      type(statement_t), intent(in) :: statement   !! the statement
+      character(:), allocatable :: name            !! from Adams/View, or keyword and number
+
+      name = statement%view_name
+      if (name == "") name = statement%keyword//"_"//to_text(statement%id)
+   end function named
+
+   !> A screw: one constraint in Adams, which goes with a cylindrical joint; both in a deck.
+   subroutine add_screw(model, draft, statement, marker, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      real(wp), allocatable :: pitch(:)
+
+      call argument_numbers(statement, "PITCH", pitch, mistakes, 2)
+      if (size(pitch) == 0) then
+         call mistake(mistakes, statement%line, "a screw has a PITCH", "")
+         return
+      end if
+      call add_joint(model, draft, statement, "joint.screw", 3, marker, exact_text(pitch(1)*model%units%length)//"m")
+      if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
+         to_text(statement%id)//" (screw) holds its axis too, as there is no cylindrical joint beside it")
+      call add_start(model, draft, statement, mistakes)
+   end subroutine add_screw
+
+   !> Whether a screw ties the parts of two markers about the same axis.
+   logical function is_of_screw(model, marker, mistakes)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      integer, intent(in) :: marker(2)                   !! (2) I and J of a cylindrical joint
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      is_of_screw = any_partner(model, marker, "SCREW", mistakes)
+   end function is_of_screw
+
+   !> Whether a cylindrical joint ties the parts of two markers about the same axis.
+   logical function any_cylinder(model, marker, mistakes)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      integer, intent(in) :: marker(2)                   !! (2) I and J of a screw
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      any_cylinder = any_partner(model, marker, "CYLINDRICAL", mistakes)
+   end function any_cylinder
+
+   !> Whether a joint of some type ties the same parts about a parallel axis.
+   logical function any_partner(model, marker, word, mistakes)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      character(*), intent(in) :: word                   !! type of the joint
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      real(wp) :: a(3, 3), b(3, 3)
+      integer :: k, other(2), parts(2), theirs(2)
+
+      any_partner = .false.
+      parts = [model%markers(marker(1))%part, model%markers(marker(2))%part]
+      a = model%axes(marker(2))
+      do k = 1, size(model%statements)
+         if (model%statements(k)%keyword /= "JOINT") cycle
+         if (.not. has_word(model%statements(k), word, 2)) cycle
+         call two_markers(model, model%statements(k), other, mistakes)
+         if (any(other == 0)) cycle
+         theirs = [model%markers(other(1))%part, model%markers(other(2))%part]
+         b = model%axes(other(2))
+         if ((all(theirs == parts) .or. all(theirs == parts(2:1:-1))) .and. &
+             abs(dot_product(a(:, 3), b(:, 3))) > 1.0_wp - same) any_partner = .true.
+      end do
+   end function any_partner
+
+   !> Initial conditions of the joint that was put last.
+   subroutine add_start(model, draft, statement, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the joint
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      real(wp), allocatable :: turn(:), way(:)
+      character(:), allocatable :: name
+      real(wp) :: now
+
+      call argument_numbers(statement, "ICROT", turn, mistakes, 3)
+      call argument_numbers(statement, "ICTRAN", way, mistakes, 3)
+      associate (joint => draft%joints(size(draft%joints)))
+         if (size(turn) > 0) then
+            now = angle_at_start(model, joint%marker)
+            if (abs(sin(0.5_wp*(turn(1) - now))) > same) call leave_out(model, statement, "ICROT asks for the angle "// &
+               real_text(turn(1), 6)//" rad at the start; it is "//real_text(now, 6)//" rad where the markers are")
+         end if
+         if (size(way) > 0) then
+            now = displacement_at_start(model, joint%marker)
+            if (abs(way(1)*model%units%length - now) > same*(abs(now) + model%units%length)) call leave_out(model, statement, &
+               "ICTRAN asks for the displacement "//real_text(way(1), 6)//" at the start; it is "// &
+               real_text(now/model%units%length, 6)//" where the markers are")
+         end if
+         if (size(way) > 1) call leave_out(model, statement, "the velocity of ICTRAN: give a body a velocity instead")
+         if (size(turn) < 2) return
+         if (joint%kind /= "joint.revolute" .and. joint%kind /= "joint.cylindrical") then
+            call leave_out(model, statement, "the speed of ICROT")
+            return
+         end if
+         call draft%new_name(joint%name//"_start", statement%id, name)
+         call draft%put("initial.speed", "name joint speed[rad/s]", &
+                        name//tab//joint%name//tab//real_text(turn(2)/model%units%time, 15))
+      end associate
+   end subroutine add_start
+
+   !> Angle of marker I against J about the axis z of J, from axis x to axis x.
+   pure real(wp) function angle_at_start(model, marker) result(angle)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+
+      real(wp) :: a(3, 3)
+
+      a = matmul(transpose(model%axes(marker(2))), model%axes(marker(1)))
+      angle = atan2(a(2, 1), a(1, 1))
+   end function angle_at_start
+
+   !> Displacement of marker I from J along the axis z of J.
+   pure real(wp) function displacement_at_start(model, marker) result(x)
+      type(adams_model_t), intent(in) :: model           !! the dataset
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+
+      real(wp) :: a(3, 3)
+
+      a = model%axes(marker(2))
+      x = dot_product(a(:, 3), model%place(marker(1)) - model%place(marker(2)))
+   end function displacement_at_start
+
+   !> All JPRIM statements.
+   subroutine add_primitives(model, draft, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(14), parameter :: adams(6) = [character(14) :: "ATPOINT", "INLINE", "INPLANE", "ORIENTATION", "PARALLEL_AXES", &
+                                                 "PERPENDICULAR"]
+      character(13), parameter :: deck(6) = [character(13) :: "spherical", "inline", "inplane", "orientation", "parallel_axes", &
+                                                "perpendicular"]
+      integer :: i, k, marker(2)
+
+      do k = 1, size(model%statements)
+         associate (it => model%statements(k))
+            if (it%keyword /= "JPRIM") cycle
+            call two_markers(model, it, marker, mistakes)
+            if (any(marker == 0)) cycle
+            do i = 1, size(adams)
+               if (has_word(it, trim(adams(i)), 3)) exit
+            end do
+            if (i > size(adams)) then
+               call leave_out(model, it, "a deck's space has no such primitive ("//first_word(it)//")")
+            else
+               call add_joint(model, draft, it, "joint."//trim(deck(i)), 3, marker, "")
+            end if
+         end associate
+      end do
+   end subroutine add_primitives
+
+   !> All MOTION statements.
+   subroutine add_motions(model, draft, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      integer :: i, j, k, marker(2)
+      logical :: turns
+
+      do k = 1, size(model%statements)
+         associate (it => model%statements(k))
+            if (it%keyword /= "MOTION") cycle
+            if (find_argument(it, "JOINT", 2) == 0) then
+               call add_point_motion(model, draft, it, mistakes)
+               cycle
+            end if
+            j = id_of(it, "JOINT", mistakes, 2)
+            do i = 1, size(draft%joints)
+               if (draft%joints(i)%id == j .and. .not. draft%joints(i)%is_primitive) exit
+            end do
+            if (i > size(draft%joints)) then
+               if (find_statement(model, "JOINT", j) == 0) then
+                  call mistake(mistakes, it%line, "MOTION/"//to_text(it%id)//" drives JOINT/"//to_text(j)// &
+                        ", which is not there", "")
+               else
+                  call leave_out(model, it, "its joint is not in the deck")
+               end if
+               cycle
+            end if
+            marker = draft%joints(i)%marker
+            turns = draft%joints(i)%kind == "joint.revolute" .or. &
+                    (draft%joints(i)%kind == "joint.cylindrical" .and. has_word(it, "ROTATION", 1))
+            if (turns) then
+               call add_turn(model, draft, it, draft%joints(i)%name, marker, mistakes)
+            else if (draft%joints(i)%kind == "joint.translational" .or. draft%joints(i)%kind == "joint.cylindrical") then
+               call add_way(model, draft, it, marker, 3, mistakes)
+            else
+               call leave_out(model, it, "a deck drives no "//draft%joints(i)%kind)
+            end if
+         end associate
+      end do
+   end subroutine add_motions
+
+   !> A motion between two markers: along an axis of J.
+   subroutine add_point_motion(model, draft, statement, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the motion
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(1), parameter :: axes(3) = ["X", "Y", "Z"]
+      integer :: axis, marker(2)
+
+      call two_markers(model, statement, marker, mistakes)
+      if (any(marker == 0)) return
+      do axis = 1, 3
+         if (has_word(statement, axes(axis))) exit
+      end do
+      if (axis > 3) then
+         call leave_out(model, statement, "a deck drives no angle between two markers without a joint")
+      else
+         call add_way(model, draft, statement, marker, axis, mistakes)
+      end if
+   end subroutine add_point_motion
+
+   !> A driver of an angle.
+   subroutine add_turn(model, draft, statement, joint, marker, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the motion
+      character(*), intent(in) :: joint                  !! name of the joint
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(:), allocatable :: name, text
+      real(wp) :: start
+      logical :: is_speed
+
+      start = angle_at_start(model, marker)
+      call motion_text(model, statement, start, .true., text, is_speed, mistakes)
+      if (text == "") return
+      call draft%new_name(named(statement), statement%id, name)
+      if (is_speed) then
+         call draft%put("driver.speed", "name joint speed", &
+                        name//tab//joint//tab//"{"//text//"*"//real_text(1.0_wp/model%units%time, 15)//"rad/s}")
+      else
+         call draft%put("driver.angle", "name joint angle", name//tab//joint//tab//"{"//text//"*1rad}")
+      end if
+   end subroutine add_turn
+
+   !> A driver of a way along an axis of marker J.
+   subroutine add_way(model, draft, statement, marker, axis, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the motion
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      integer, intent(in) :: axis                        !! axis of J, 1 to 3
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      character(:), allocatable :: name, point_i, point_j, text
+      real(wp) :: a(3, 3), start
+      logical :: is_speed
+
+      a = model%axes(marker(2))
+      start = dot_product(a(:, axis), model%place(marker(1)) - model%place(marker(2)))/model%units%length
+      call motion_text(model, statement, start, .false., text, is_speed, mistakes)
+      if (text == "") return
+      call draft%new_name(named(statement), statement%id, name)
+      call draft%point(model, marker(2), point_i)
+      call draft%point(model, marker(1), point_j)
+      call draft%put("driver.position", "name i j axis_i position", name//tab//point_i//tab//point_j//tab// &
+            direction_cell(body_axis(model, marker(2), axis))//tab//"{"//text//"*"// model%units%length_text()//"}")
+   end subroutine add_way
+
+   !> What a motion asks for as a function of time, a plain number in the units of the dataset; blank: it is left out.
+   subroutine motion_text(model, statement, start, turns, text, is_speed, mistakes)
+      type(adams_model_t), intent(inout) :: model           !! the dataset
+      type(statement_t), intent(in) :: statement            !! the motion
+      real(wp), intent(in) :: start                         !! value at the start, in the units of the dataset [any]
+      logical, intent(in) :: turns                          !! whether it is an angle, zero at the start in the deck
+      character(:), allocatable, intent(out) :: text        !! the function
+      logical, intent(out) :: is_speed                      !! whether it is the constant rate of an angle
+      type(diagnostics_t), intent(inout) :: mistakes        !! collects what is wrong
+
+      type(tree_t) :: tree
+      character(:), allocatable :: at_zero, first, message
+      type(words_t) :: at_start, words
+      real(wp), allocatable :: given(:), speed(:)
+      integer :: bits, k
+      logical :: by_acceleration, by_velocity
+
+      text = ""
+      is_speed = .false.
+      k = find_argument(statement, "FUNCTION", 3)
+      if (k == 0) then
+         call leave_out(model, statement, "it has no FUNCTION")
+         return
+      end if
+      call parse_tree(statement%arguments(k)%values(1)%s, tree)
+      message = tree%message
+      if (message == "") bits = depends_on(tree, tree%root, [0, 0], .false.)
+      if (message == "") then
+         if (iand(bits, not(on_time)) /= 0) message = "it is no function of the time alone"
+      end if
+      words = words_t("(t/"//model%units%time_text()//")", "")
+      at_start = words_t("0", "")
+      by_velocity = has_word(statement, "VELOCITY", 1)
+      by_acceleration = has_word(statement, "ACCELERATION", 1)
+      call argument_numbers(statement, "ICDISP", given, mistakes, 3)
+      call argument_numbers(statement, "ICVEL", speed, mistakes, 3)
+      if (message /= "") then
+         continue
+      else if (by_acceleration) then
+         if (bits /= 0) message = "an ACCELERATION that is no constant"
+         call deck_text(tree, tree%root, words, first, message)
+         if (size(speed) == 0) speed = [0.0_wp]
+         text = grouped(first)//"*"//words%time//"^2/2 + "//real_text(speed(1), 15)//"*"//words%time
+      else if (by_velocity .and. bits == 0 .and. turns) then
+         is_speed = .true.
+         call deck_text(tree, tree%root, words, first, message)
+         text = grouped(first)
+      else if (by_velocity) then
+         call integral_text(tree, tree%root, words, first, message)
+         call integral_text(tree, tree%root, at_start, at_zero, message)
+         text = first//" - "//grouped(at_zero)
+      else
+         call deck_text(tree, tree%root, words, text, message)
+         if (turns .and. abs(start) > 1.0e-14_wp) text = text//" - ("//real_text(start, 17)//")"
+      end if
+      if (message /= "") then
+         text = ""
+         call leave_out(model, statement, message//": "//statement%arguments(k)%values(1)%s)
+         return
+      end if
+      if (by_velocity .or. by_acceleration) then
+         if (size(given) > 0) then
+            if (abs(given(1) - start) > same*(1.0_wp + abs(start))) call leave_out(model, statement, "ICDISP = "// &
+               real_text(given(1), 6)//"; the motion begins at "//real_text(start, 6)//", where the markers are")
+         end if
+         if (.not. turns .and. abs(start) > 0.0_wp) text = real_text(start, 17)//" + "//text
+      end if
+      if (.not. is_speed) text = grouped(text)
+   end subroutine motion_text
+
+end module adams_joints

@@ -1,0 +1,391 @@
+!> The rigid parts and markers of an Adams dataset, in SI, and what is said of the rest.
+!>
+!> A part has a frame of its own (QG; REULER, three turns about z, x, z; or ZG and XG, points on its axis z and in its plane of x
+!> and
+!> z). A marker lies in it (QP; REULER; ZP and XP). The deck's body has the axes of that frame and the centre of mass as its
+!> origin.
+!> IP is the tensor about the origin of IM along its axes (CM, if there is no IM), its last three the integrals of xy, xz, yz:
+!> J_cm = A J A^T - m (d^2 E - d d^T), d from the centre of mass to the origin of IM.
+!>
+!> Source: the public descriptions of the statements of Adams/Solver. Limits: markers on rigid parts; no point masses, flexible
+!> bodies.
+module adams_model
+   use adams_units, only: adams_units_t, read_units
+   use dataset, only: find_argument, has_word, statement_t
+   use diagnostics, only: diagnostics_t
+   use item, only: location_t
+   use kinds, only: pi, wp
+   use motion, only: cross
+   use numbers, only: number_length, read_number
+   use rotations, only: rotation_of_axes, rotation_of_sequence
+   use text, only: lower, text_t, to_text
+   use text_list, only: text_list_t
+   implicit none (type, external)
+   private
+   public :: adams_model_t, argument_numbers, find_statement, id_of, leave_out, marker_t, mistake, new_model, part_t, &
+         vector_numbers
+
+   real(wp), parameter :: nothing = 1.0e-15_wp  !! less than this of a direction is round-off [1]
+
+   !> A part.
+   type :: part_t
+      integer :: id = 0                     !! its number
+      character(:), allocatable :: name     !! as the deck calls it
+      logical :: is_ground = .false.        !! it does not move
+      real(wp) :: r(3) = 0.0_wp             !! (3) origin of its frame, world [m]
+      real(wp) :: a(3, 3) = 0.0_wp          !! (3, 3) its frame to the world [1]
+      real(wp) :: centre(3) = 0.0_wp        !! (3) centre of mass in its frame [m]
+      real(wp) :: mass = 0.0_wp             !! [kg]
+      real(wp) :: inertia(3, 3) = 0.0_wp    !! (3, 3) tensor about the centre of mass, its axes [kg.m^2]
+      integer :: statement = 0              !! number of its statement
+   end type part_t
+
+   !> A marker.
+   type :: marker_t
+      integer :: id = 0                     !! its number
+      character(:), allocatable :: name     !! as the deck calls it
+      integer :: part = 0                   !! number of its part in the list
+      real(wp) :: r(3) = 0.0_wp             !! (3) in the frame of the part [m]
+      real(wp) :: a(3, 3) = 0.0_wp          !! (3, 3) its axes in that frame [1]
+      logical :: is_used = .false.          !! the deck has a point there
+   end type marker_t
+
+   !> A dataset that is understood.
+   type :: adams_model_t
+      character(:), allocatable :: title               !! first line
+      type(statement_t), allocatable :: statements(:)  !! (n) all
+      type(adams_units_t) :: units                     !! of its numbers
+      type(part_t), allocatable :: parts(:)            !! (parts) in the order of the dataset
+      type(marker_t), allocatable :: markers(:)        !! (markers) in the order of the dataset
+      type(text_list_t) :: left_out                    !! what the deck does not have, a line each
+      type(text_list_t) :: changed                     !! what it has otherwise, or was assumed, a line each
+   contains
+      procedure :: marker => find_marker
+      procedure :: place => place_of_marker
+      procedure :: axes => axes_of_marker
+   end type adams_model_t
+
+contains
+
+   !> Understand units, parts and markers.
+   subroutine new_model(title, statements, model, mistakes)
+      character(*), intent(in) :: title                      !! first line of the dataset
+      type(statement_t), intent(in) :: statements(:)         !! (n) its statements, with their names in full
+      type(adams_model_t), intent(out) :: model              !! what they say
+      type(diagnostics_t), intent(inout) :: mistakes         !! collects what is wrong
+
+      character(:), allocatable :: message
+      integer :: k
+
+      model%title = title
+      model%statements = statements
+      do k = 1, size(statements)
+         if (statements(k)%keyword /= "UNITS") cycle
+         call read_units(statements(k), model%units, message)
+         if (message /= "") call mistake(mistakes, statements(k)%line, message, "")
+      end do
+      if (.not. model%units%is_given) call model%changed%add("no UNITS: all numbers are taken in m, kg, N, s")
+      call read_parts(model, mistakes)
+      call read_markers(model, mistakes)
+      do k = 1, size(model%parts)
+         if (.not. model%parts(k)%is_ground) call read_mass(model, model%parts(k), mistakes)
+      end do
+   end subroutine new_model
+
+   !> A mistake of the dataset.
+   subroutine mistake(mistakes, line, message, help)
+      type(diagnostics_t), intent(inout) :: mistakes   !! the collection
+      integer, intent(in) :: line                      !! where it is
+      character(*), intent(in) :: message              !! what is wrong
+      character(*), intent(in) :: help                 !! what to do, or blank
+
+      call mistakes%add(location_t(1, line, 1, 1), message, "", help)
+   end subroutine mistake
+
+   !> Say that something is not in the deck.
+   subroutine leave_out(model, statement, reason)
+      type(adams_model_t), intent(inout) :: model   !! the dataset
+      type(statement_t), intent(in) :: statement    !! what is left out
+      character(*), intent(in) :: reason            !! why
+
+      call model%left_out%add("line "//to_text(statement%line)//": "//title_of(statement)//": "//reason)
+   end subroutine leave_out
+
+   !> A statement as people call it.
+   function title_of(statement) result(words)
+      type(statement_t), intent(in) :: statement   !! the statement
+      character(:), allocatable :: words           !! as `JOINT/3 (hinge)`
+
+      words = statement%keyword
+      if (statement%id >= 0) words = words//"/"//to_text(statement%id)
+      if (statement%view_name /= "") words = words//" ("//statement%view_name//")"
+   end function title_of
+
+   !> Number of a statement by its name and number; 0: there is none.
+   pure integer function find_statement(model, keyword, id) result(k)
+      type(adams_model_t), intent(in) :: model   !! the dataset
+      character(*), intent(in) :: keyword        !! name of the statement
+      integer, intent(in) :: id                  !! its number
+
+      do k = 1, size(model%statements)
+         if (model%statements(k)%id == id .and. model%statements(k)%keyword == keyword) return
+      end do
+      k = 0
+   end function find_statement
+
+   !> Numbers of an argument; angles in degrees become radians.
+   subroutine argument_numbers(statement, name, numbers, mistakes, least)
+      type(statement_t), intent(in) :: statement            !! the statement
+      character(*), intent(in) :: name                      !! of the argument
+      real(wp), allocatable, intent(out) :: numbers(:)      !! (n) none: there is no such argument [any]
+      type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
+      integer, intent(in), optional :: least                !! letters that do for the name
+
+      character(:), allocatable :: word
+      real(wp) :: x
+      integer :: i, k, length
+      logical :: is_finite
+
+      allocate (numbers(0))
+      k = find_argument(statement, name, least)
+      if (k == 0) return
+      do i = 1, size(statement%arguments(k)%values)
+         word = statement%arguments(k)%values(i)%s
+         length = number_length(word)
+         is_finite = length > 0
+         x = 0.0_wp
+         if (is_finite) call read_number(word(:length), 0, x, is_finite)
+         if (is_finite .and. length < len(word)) then
+            is_finite = lower(word(length + 1:)) == "d"
+            x = x*pi/180.0_wp
+         end if
+         if (.not. is_finite) call mistake(mistakes, statement%arguments(k)%line, "'"//word//"' of "//name//" is no number", "")
+         numbers = [numbers, x]
+      end do
+   end subroutine argument_numbers
+
+   !> Three numbers of an argument, zeros for those left out.
+   subroutine vector_numbers(statement, name, vector, is_given, mistakes)
+      type(statement_t), intent(in) :: statement            !! the statement
+      character(*), intent(in) :: name                      !! of the argument
+      real(wp), intent(out) :: vector(3)                    !! (3) the numbers [any]
+      logical, intent(out) :: is_given                      !! whether it is there
+      type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
+
+      real(wp), allocatable :: numbers(:)
+
+      call argument_numbers(statement, name, numbers, mistakes)
+      vector = 0.0_wp
+      is_given = size(numbers) > 0
+      vector(:min(3, size(numbers))) = numbers(:min(3, size(numbers)))
+      if (size(numbers) > 3) call mistake(mistakes, statement%line, name//" has more than three numbers", "")
+   end subroutine vector_numbers
+
+   !> The number of a statement that an argument names; 0: there is no such argument.
+   integer function id_of(statement, name, mistakes, least) result(id)
+      type(statement_t), intent(in) :: statement            !! the statement
+      character(*), intent(in) :: name                      !! of the argument
+      type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
+      integer, intent(in), optional :: least                !! letters that do for the name
+
+      real(wp), allocatable :: numbers(:)
+
+      call argument_numbers(statement, name, numbers, mistakes, least)
+      id = 0
+      if (size(numbers) > 0) id = nint(min(abs(numbers(1)), 1.0e9_wp))
+   end function id_of
+
+   !> Frames of all parts.
+   subroutine read_parts(model, mistakes)
+      type(adams_model_t), intent(inout) :: model       !! the dataset
+      type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
+
+      type(part_t) :: new
+      integer :: i, k
+
+      allocate (model%parts(0))
+      do k = 1, size(model%statements)
+         associate (it => model%statements(k))
+            if (it%keyword /= "PART") cycle
+            if (any([(model%parts(i)%id == it%id, i=1, size(model%parts))])) then
+               call mistake(mistakes, it%line, "PART/"//to_text(it%id)//" is there twice", "")
+               cycle
+            end if
+            new = part_t(id=it%id, statement=k)
+            new%is_ground = has_word(it, "GROUND", 2)
+            new%name = "PART_"//to_text(it%id)
+            if (it%view_name /= "") new%name = it%view_name
+            if (new%is_ground) new%name = "ground"
+            call read_frame(model%units%length, it, "QG", "ZG", "XG", .false., new%r, new%a, mistakes)
+            model%parts = [model%parts, new]
+         end associate
+      end do
+      if (size(model%parts) == 0) call mistake(mistakes, 1, "there is no PART in the dataset", "is it an Adams dataset (.adm)?")
+   end subroutine read_parts
+
+   !> Origin and axes of a part or marker.
+   subroutine read_frame(length, statement, origin, on_z, on_x, x_first, r, a, mistakes)
+      real(wp), intent(in) :: length                    !! unit of the dataset [m]
+      type(statement_t), intent(in) :: statement        !! PART or MARKER
+      character(*), intent(in) :: origin                !! argument of the origin
+      character(*), intent(in) :: on_z                  !! argument of a point on the axis z
+      character(*), intent(in) :: on_x                  !! argument of a point in the plane of x and z
+      logical, intent(in) :: x_first                    !! that point is on the axis x, the other in the plane
+      real(wp), intent(out) :: r(3)                     !! (3) origin [m]
+      real(wp), intent(out) :: a(3, 3)                  !! (3, 3) axes as columns [1]
+      type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
+
+      real(wp) :: angles(3), x(3), y(3), z(3)
+      logical :: has_angles, has_origin, has_x, has_z
+
+      call vector_numbers(statement, origin, r, has_origin, mistakes)
+      call vector_numbers(statement, "REULER", angles, has_angles, mistakes)
+      if (.not. has_angles) call vector_numbers(statement, "EULER", angles, has_angles, mistakes)
+      call vector_numbers(statement, on_z, z, has_z, mistakes)
+      call vector_numbers(statement, on_x, x, has_x, mistakes)
+      a = rotation_of_sequence("zxz", angles)
+      if (has_z .or. has_x) then
+         z = merge(z - r, [0.0_wp, 0.0_wp, 1.0_wp], has_z)
+         x = merge(x - r, [1.0_wp, 0.0_wp, 0.0_wp], has_x)
+         if (x_first) then
+            a = rotation_of_axes(x, cross(z, x))
+         else
+            if (.not. has_x .and. norm2(cross(z, x)) <= 1.0e-6_wp*norm2(z)) x = [0.0_wp, 0.0_wp, -sign(1.0_wp, z(1))]
+            y = cross(z, x)
+            a = rotation_of_axes(y, z)
+            a = reshape([cross(a(:, 1), a(:, 2)), a(:, 1), a(:, 2)], [3, 3])
+         end if
+         if (.not. any(abs(a) > 0.0_wp)) call mistake(mistakes, statement%line, "the points "//on_z//" and "//on_x// &
+                                                      " lie on one line, or at the origin", "")
+      end if
+      where (abs(a) < nothing) a = 0.0_wp
+      where (abs(abs(a) - 1.0_wp) < nothing) a = sign(1.0_wp, a)
+      r = r*length
+   end subroutine read_frame
+
+   !> All markers.
+   subroutine read_markers(model, mistakes)
+      type(adams_model_t), intent(inout) :: model       !! the dataset
+      type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
+
+      type(marker_t) :: new
+      integer :: id, i, k, last
+
+      allocate (model%markers(0))
+      last = 0
+      do k = 1, size(model%statements)
+         associate (it => model%statements(k))
+            if (it%keyword == "PART") last = it%id
+            if (it%keyword /= "MARKER") cycle
+            if (has_word(it, "FLOATING", 2) .or. find_argument(it, "FLEX_BODY", 2) > 0 .or. &
+                find_argument(it, "POINT_MASS", 2) > 0) cycle
+            id = id_of(it, "PART", mistakes, 1)
+            if (find_argument(it, "PART", 1) == 0) id = last
+            new = marker_t(id=it%id)
+            new%part = findloc([(model%parts(i)%id, i=1, size(model%parts))], id, dim=1)
+            if (new%part == 0) then
+               call mistake(mistakes, it%line, "MARKER/"//to_text(it%id)//" is on PART/"//to_text(id)//", which is not there", "")
+               cycle
+            end if
+            new%name = "MARKER_"//to_text(it%id)
+            if (it%view_name /= "") new%name = it%view_name
+            call read_frame(model%units%length, it, "QP", "ZP", "XP", has_word(it, "USEXP", 3), new%r, new%a, mistakes)
+            model%markers = [model%markers, new]
+         end associate
+      end do
+   end subroutine read_markers
+
+   !> Mass, centre of mass and tensor of inertia of a part.
+   subroutine read_mass(model, part, mistakes)
+      type(adams_model_t), intent(inout) :: model       !! the dataset, with its markers
+      type(part_t), intent(inout) :: part               !! the part
+      type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
+
+      real(wp), allocatable :: ip(:), mass(:)
+      real(wp) :: d(3), j(3, 3)
+      integer :: cm, im, k
+      character(:), allocatable :: words
+
+      associate (it => model%statements(part%statement), unit => model%units%mass*model%units%length**2)
+         call argument_numbers(it, "MASS", mass, mistakes, 1)
+         if (size(mass) > 0) part%mass = mass(1)*model%units%mass
+         cm = model%marker(id_of(it, "CM", mistakes))
+         im = model%marker(id_of(it, "IM", mistakes))
+         if (cm == 0 .and. find_argument(it, "CM") > 0) call mistake(mistakes, it%line, "the CM marker is not there", "")
+         if (im == 0 .and. find_argument(it, "IM") > 0) call mistake(mistakes, it%line, "the IM marker is not there", "")
+         if (cm > 0) part%centre = model%markers(cm)%r
+         if (im == 0) im = cm
+         call argument_numbers(it, "IP", ip, mistakes)
+         if (size(ip) > 0 .and. size(ip) /= 3 .and. size(ip) /= 6) call mistake(mistakes, it%line, &
+                                                                                 "IP has three numbers, or six", "")
+         j = 0.0_wp
+         if (size(ip) >= 3) then
+            do k = 1, 3
+               j(k, k) = ip(k)*unit
+            end do
+         end if
+         if (size(ip) == 6) then
+            j(1, 2) = -ip(4)*unit
+            j(1, 3) = -ip(5)*unit
+            j(2, 3) = -ip(6)*unit
+            j(2, 1) = j(1, 2)
+            j(3, 1) = j(1, 3)
+            j(3, 2) = j(2, 3)
+         end if
+         if (im > 0) then
+            j = matmul(model%markers(im)%a, matmul(j, transpose(model%markers(im)%a)))
+            d = model%markers(im)%r - part%centre
+            j = j + part%mass*matmul(reshape(d, [3, 1]), reshape(d, [1, 3]))
+            do k = 1, 3
+               j(k, k) = j(k, k) - part%mass*dot_product(d, d)
+            end do
+         end if
+         part%inertia = j
+         words = "PART/"//to_text(part%id)//" ("//part%name//")"
+         if (.not. part%mass > 0.0_wp) then
+            part%mass = 1.0e-6_wp
+            call model%changed%add("line "//to_text(it%line)//": "//words//" has no mass: 1e-6 kg assumed")
+         end if
+         if (.not. (j(1, 1) > 0.0_wp .and. j(2, 2) > 0.0_wp .and. j(3, 3) > 0.0_wp)) then
+            part%inertia = 0.0_wp
+            do k = 1, 3
+               part%inertia(k, k) = 1.0e-6_wp*part%mass
+            end do
+            call model%changed%add("line "//to_text(it%line)//": "//words// &
+                  " has no moments of inertia: 1e-6 m^2 of its mass assumed")
+         end if
+      end associate
+   end subroutine read_mass
+
+   !> Number of a marker in the list; 0: there is none.
+   pure integer function find_marker(self, id) result(k)
+      class(adams_model_t), intent(in) :: self   !! the dataset
+      integer, intent(in) :: id                  !! its number in the dataset
+
+      do k = 1, size(self%markers)
+         if (self%markers(k)%id == id) return
+      end do
+      k = 0
+   end function find_marker
+
+   !> Where a marker is at the start.
+   pure function place_of_marker(self, k) result(r)
+      class(adams_model_t), intent(in) :: self   !! the dataset
+      integer, intent(in) :: k                   !! the marker, by its place in the list
+      real(wp) :: r(3)                           !! (3) world [m]
+
+      associate (part => self%parts(self%markers(k)%part))
+         r = part%r + matmul(part%a, self%markers(k)%r)
+      end associate
+   end function place_of_marker
+
+   !> The axes of a marker at the start.
+   pure function axes_of_marker(self, k) result(a)
+      class(adams_model_t), intent(in) :: self   !! the dataset
+      integer, intent(in) :: k                   !! the marker, by its place in the list
+      real(wp) :: a(3, 3)                        !! (3, 3) as columns, world [1]
+
+      a = matmul(self%parts(self%markers(k)%part)%a, self%markers(k)%a)
+   end function axes_of_marker
+
+end module adams_model

@@ -1,0 +1,74 @@
+!> Statements of Adams by name: abbreviations in full, and which of them have a place in a deck.
+!>
+!> A name may be cut after the letters that make it the only one of the list; a name that could be two is taken as written.
+!> Source: the public descriptions of the statements of Adams/Solver.
+module adams_names
+   use dataset, only: statement_t
+   use text, only: split_blank, text_t
+   implicit none (type, external)
+   private
+   public :: full_names, is_refused, is_setting, is_understood
+
+   character(*), parameter :: understood = &
+      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE"
+   character(*), parameter :: refused = "BEAM FIELD NFORCE FLEX_BODY FE_PART FEMDATA"   !! elastic bodies
+   character(*), parameter :: settings = "DEBUG EQUILIBRIUM GRAPHICS IC INTEGRATOR KINEMATICS LSOLVER OUTPUT PREFERENCES " &
+      //"REQUEST MREQUEST RESULTS TITLE LIST MATERIAL"   !! no part of the mechanism
+   character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY BUSHING CONTACT COUPLER CURVE CVCV CVSF DIFF DV END " &
+      //"FRICTION FORCE GCON GEAR GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF SPLINE " &
+      //"STRING SURFACE TFSISO TIRE UCON USERCON"
+
+contains
+
+   !> Put the names of all statements in full.
+   subroutine full_names(statements)
+      type(statement_t), intent(inout) :: statements(:)   !! (n) their keywords are changed
+
+      type(text_t), allocatable :: known(:)
+      integer :: found, i, k
+
+      known = split_blank(understood//" "//refused//" "//settings//" "//others)
+      do k = 1, size(statements)
+         found = 0
+         do i = 1, size(known)
+            if (index(known(i)%s, statements(k)%keyword) /= 1) cycle
+            if (known(i)%s == statements(k)%keyword) then
+               found = i
+               exit
+            end if
+            found = merge(i, -1, found == 0)
+         end do
+         if (found > 0) statements(k)%keyword = known(found)%s
+      end do
+   end subroutine full_names
+
+   !> Whether a deck can have what a statement says.
+   pure logical function is_understood(keyword)
+      character(*), intent(in) :: keyword  !! in full
+
+      is_understood = is_one(keyword, understood)
+   end function is_understood
+
+   !> Whether a model with such a statement is no mechanism of rigid bodies.
+   pure logical function is_refused(keyword)
+      character(*), intent(in) :: keyword  !! in full
+
+      is_refused = is_one(keyword, refused)
+   end function is_refused
+
+   !> Whether a statement is about the simulation and not the mechanism.
+   pure logical function is_setting(keyword)
+      character(*), intent(in) :: keyword  !! in full
+
+      is_setting = is_one(keyword, settings)
+   end function is_setting
+
+   !> Whether a word stands in a list.
+   pure logical function is_one(word, list)
+      character(*), intent(in) :: word  !! the word
+      character(*), intent(in) :: list  !! blank-separated
+
+      is_one = index(" "//list//" ", " "//word//" ") > 0
+   end function is_one
+
+end module adams_names

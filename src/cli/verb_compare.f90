@@ -1,0 +1,297 @@
+!> `gudgeon compare A B`: a run against another run, or against columns of another program.
+module verb_compare
+   use channel_spec, only: parse_spec, spec_t
+   use column_file, only: column_table_t, read_columns
+   use comparison, only: compare_histories, comparison_t, history_of_columns
+   use comparison_report, only: comparison_json, comparison_rows, comparison_text, verdict_text, write_overlays
+   use console, only: say
+   use errors, only: error_t, exit_different, exit_file, exit_usage, set_error
+   use figures, only: draw_figures
+   use kinds, only: wp
+   use options, only: options_t
+   use output_directory, only: output_directory_t
+   use output_marker, only: enter_file
+   use posix, only: make_directory, path_exists
+   use run_history, only: read_run
+   use series, only: history_t
+   use source_text, only: line_of, n_line_of, read_source, source_t
+   use text, only: append_text, lower, starts_with, text_t, to_text
+   use text_file, only: fail_file, replace_file
+   implicit none (type, external)
+   private
+   public :: compare_runs
+
+   real(wp), parameter :: usual = 1.0e-6_wp   !! difference allowed, of a channel's greatest magnitude [1]
+
+contains
+
+   !> Compare, write, and say; exit code 1 if something differs.
+   subroutine compare_runs(options, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(error_t), allocatable, intent(out) :: error     !! nothing to compare, or a difference
+
+      type(comparison_t) :: found
+      type(history_t) :: a, b
+      type(spec_t) :: time
+      type(spec_t), allocatable :: specs(:)
+      character(:), allocatable :: first, second
+      real(wp) :: relative
+
+      if (size(options%operands) /= 2) then
+         call set_error(error, exit_usage, "'gudgeon compare' needs two things: a run, and a run or a file of columns"// &
+                        new_line("a")//"  = gudgeon compare outputs/NAME legacy.csv --channel ""slider.position.x=2 unit=mm""")
+         return
+      end if
+      first = run_file(options%operands(1)%s)
+      second = run_file(options%operands(2)%s)
+      call gather_specs(options, specs, time, error)
+      if (.not. allocated(error)) call read_run(first, a, error)
+      if (allocated(error)) then
+         if (.not. is_run(first) .and. is_run(second)) error%message = error%message//new_line("a")// &
+            "  = the run comes first, the columns second"
+         return
+      end if
+      if (is_run(second)) then
+         call read_run(second, b, error)
+         if (.not. allocated(error)) call shift_time(b, time)
+         if (.not. allocated(error)) call adapt(b, specs, error)
+      else
+         call read_legacy(second, specs, time, a, b, error)
+      end if
+      if (allocated(error)) return
+      relative = options%legacy%relative
+      if (relative < 0.0_wp) relative = usual
+      call compare_histories(a, b, specs, options%legacy%absolute, relative, options%legacy%by_statistics, found, error)
+      if (.not. allocated(error)) call write_results(options, found, first, second, error)
+      if (.not. allocated(error) .and. found%n_different > 0) call set_error(error, exit_different, "different: "// &
+            verdict_text(found))
+   end subroutine compare_runs
+
+   !> The run.h5 of a directory; a file as it is.
+   function run_file(path) result(file)
+      character(*), intent(in) :: path         !! of the command line
+      character(:), allocatable :: file        !! what is read
+
+      file = path
+      if (path_exists(path//"/run.h5")) file = path//"/run.h5"
+   end function run_file
+
+   !> Whether a file is taken as a run.
+   pure logical function is_run(path)
+      character(*), intent(in) :: path  !! of the file
+
+      is_run = .false.
+      if (len(path) > 3) is_run = lower(path(len(path) - 2:)) == ".h5"
+   end function is_run
+
+   !> What is asked for, from the command line and the table.
+   subroutine gather_specs(options, specs, time, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(spec_t), allocatable, intent(out) :: specs(:)   !! (n) channels
+      type(spec_t), intent(out) :: time                    !! the time
+      type(error_t), allocatable, intent(out) :: error     !! a mistake in one of them
+
+      type(source_t) :: source
+      type(spec_t) :: one
+      character(:), allocatable :: line, message, time_text
+      integer :: at, k
+
+      allocate (specs(0))
+      time_text = ""
+      if (allocated(options%legacy%time)) time_text = options%legacy%time
+      do k = 1, size(options%legacy%channels)
+         call parse_spec(options%legacy%channels(k)%s, .false., one, error)
+         if (allocated(error)) return
+         specs = [specs, one]
+      end do
+      if (allocated(options%legacy%table)) then
+         call read_source(options%legacy%table, source, message, may_be_stream=.true.)
+         if (message /= "") call set_error(error, exit_file, "cannot read '"//options%legacy%table//"': "//message)
+         do k = 1, n_line_of(source)
+            if (allocated(error)) return
+            line = trim(adjustl(line_of(source, k)))
+            at = index(line, "#")
+            if (at > 0) line = trim(line_before(line, at))
+            if (line == "") cycle
+            if (starts_with(line, "time") .and. scan(line(5:), "= ") == 1) then
+               if (time_text == "") time_text = behind_sign(line)
+               cycle
+            end if
+            call parse_spec(line, .false., one, error)
+            if (allocated(error)) error%message = error%message//new_line("a")//"  = "//options%legacy%table//", line "//to_text(k)
+            if (.not. allocated(error)) specs = [specs, one]
+         end do
+      end if
+      if (.not. allocated(error)) call parse_spec(time_text, .true., time, error)
+   end subroutine gather_specs
+
+   !> A line before its comment.
+   pure function line_before(line, at) result(part)
+      character(*), intent(in) :: line         !! the line
+      integer, intent(in) :: at                !! where the comment begins
+      character(:), allocatable :: part        !! what is before it
+
+      part = line(:at - 1)
+   end function line_before
+
+   !> What stands behind the first equals sign.
+   pure function behind_sign(line) result(part)
+      character(*), intent(in) :: line         !! `time = ...`
+      character(:), allocatable :: part        !! the rest
+
+      part = trim(adjustl(line(index(line, "=") + 1:)))
+   end function behind_sign
+
+   !> Read the columns of another program.
+   subroutine read_legacy(path, specs, time, like, history, error)
+      character(*), intent(in) :: path                     !! of the file, perhaps with `:K` for its table number K
+      type(spec_t), intent(in) :: specs(:)                 !! (n) channels
+      type(spec_t), intent(in) :: time                     !! the time
+      type(history_t), intent(in) :: like                  !! the run
+      type(history_t), intent(out) :: history              !! the columns
+      type(error_t), allocatable, intent(out) :: error     !! it cannot be read, or has no such table
+
+      type(column_table_t), allocatable :: tables(:)
+      type(source_t) :: source
+      character(:), allocatable :: file, message
+      integer :: at, k, status
+
+      file = path
+      k = 1
+      at = index(path, ":", back=.true.)
+      if (at > 1 .and. at < len(path)) then
+         if (verify(path(at + 1:), "0123456789") == 0 .and. len(path) - at < 6) then
+            read (path(at + 1:), *, iostat=status) k
+            if (status == 0) file = line_before(path, at)
+         end if
+      end if
+      call read_source(file, source, message, may_be_stream=.true.)
+      if (message /= "") then
+         call set_error(error, exit_file, "cannot read '"//file//"': "//message)
+         return
+      end if
+      call read_columns(source, tables)
+      if (size(tables) == 0) then
+         call set_error(error, exit_file, "'"//file//"' has no rows of numbers"//new_line("a")// &
+                        "  = a row has at least two numbers, apart by commas, semicolons, tabs or blanks")
+      else if (k < 1 .or. k > size(tables)) then
+         call set_error(error, exit_usage, "'"//file//"' has "//to_text(size(tables))//" tables, not "//to_text(k))
+      else
+         call history_of_columns(file, tables(k), specs, time, like, history, error)
+      end if
+   end subroutine read_legacy
+
+   !> Shift and scale the time of a run.
+   subroutine shift_time(history, time)
+      type(history_t), intent(inout) :: history   !! the run
+      type(spec_t), intent(in) :: time            !! how
+
+      integer :: k
+
+      history%time = time%scale*history%time + time%offset
+      do k = 1, size(history%impacts)
+         history%impacts(k)%time = time%scale*history%impacts(k)%time + time%offset
+      end do
+   end subroutine shift_time
+
+   !> Scale, shift and turn the channels of a run as asked for.
+   subroutine adapt(history, specs, error)
+      type(history_t), intent(inout) :: history            !! the run
+      type(spec_t), intent(in) :: specs(:)                 !! (n) channels
+      type(error_t), allocatable, intent(out) :: error     !! columns of a run
+
+      character(2), parameter :: axes(3) = [".x", ".y", ".z"]
+      real(wp), allocatable :: x(:, :)
+      integer :: c, k, place(3), s
+
+      do s = 1, size(specs)
+         if (size(specs(s)%columns) > 0) then
+            call set_error(error, exit_usage, "a run has no columns: write --channel "//specs(s)%channel)
+            return
+         end if
+         place = 0
+         do k = 1, size(history%list)
+            do c = 1, 3
+               if (history%list(k)%name == specs(s)%channel//axes(c)) place(c) = k
+            end do
+            if (history%list(k)%name == specs(s)%channel .or. starts_with(history%list(k)%name, specs(s)%channel//".")) &
+               history%list(k)%x = specs(s)%scale*history%list(k)%x + specs(s)%offset
+         end do
+         if (any(place(:2) == 0)) cycle
+         allocate (x(size(history%time), 3), source=0.0_wp)
+         do c = 1, 3
+            if (place(c) > 0) x(:, c) = history%list(place(c))%x
+         end do
+         x = matmul(x, transpose(specs(s)%turn))
+         do c = 1, 3
+            if (place(c) > 0) history%list(place(c))%x = x(:, c)
+         end do
+         deallocate (x)
+      end do
+   end subroutine adapt
+
+   !> Files, figures, and what is said.
+   subroutine write_results(options, found, first, second, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(comparison_t), intent(in) :: found              !! what was found
+      character(*), intent(in) :: first                    !! where A was read
+      character(*), intent(in) :: second                   !! where B was read
+      type(error_t), allocatable, intent(out) :: error     !! a file cannot be written
+
+      type(output_directory_t) :: directory
+      type(text_t), allocatable :: names(:), pictures(:), warnings(:)
+      character(:), allocatable :: folder, object, text
+      integer :: code, k
+
+      call directory%open(directory_of(options, first), error)
+      if (allocated(error)) return
+      warnings = directory%warnings
+      allocate (pictures(0))
+      folder = directory%path//"/figures"
+      code = enter_file(folder//"/")
+      if (code == 0) code = make_directory(folder)
+      if (code /= 0) call fail_file(error, "cannot make the directory", folder, code, "")
+      if (.not. allocated(error)) call write_overlays(found, folder, first, second, names, error)
+      if (.not. allocated(error)) call draw_figures(folder, names, pictures, warnings)
+      text = comparison_text(found, first, second)//"output     "//directory%path//"/"//new_line("a")
+      do k = 1, size(warnings)
+         text = text//"warning: "//warnings(k)%s//new_line("a")
+      end do
+      object = comparison_json(found, first, second, directory%path, pictures, warnings)
+      if (.not. allocated(error)) call replace_file(directory%path//"/compare.csv", comparison_rows(found), error)
+      if (.not. allocated(error)) call replace_file(directory%path//"/summary.txt", text, error)
+      if (.not. allocated(error)) call replace_file(directory%path//"/summary.json", object//new_line("a"), error)
+      call directory%close()
+      if (allocated(error)) return
+      if (options%is_json) then
+         call say(object)
+      else if (.not. options%is_quiet) then
+         call say(text(:len(text) - 1))
+      end if
+   end subroutine write_results
+
+   !> Where the results go: beside those of the first run.
+   function directory_of(options, first) result(directory)
+      type(options_t), intent(in) :: options       !! the command line
+      character(*), intent(in) :: first            !! file of the first run
+      character(:), allocatable :: directory       !! of the comparison
+
+      character(:), allocatable :: place
+      integer :: slash
+
+      if (allocated(options%directory)) then
+         directory = options%directory
+         return
+      end if
+      place = first
+      slash = index(place, "/", back=.true.)
+      if (slash > 1) then
+         place = line_before(place, slash)
+         place = place(index(place, "/", back=.true.) + 1:)
+      else
+         place = "run"
+      end if
+      directory = "outputs/"//place//"_compare"
+   end function directory_of
+
+end module verb_compare

@@ -1,0 +1,235 @@
+!> Columns of numbers that another program wrote.
+!>
+!> Numbers stand apart by commas, semicolons, tabs or blanks; `#`, `!` and `%` begin a comment. A row is a line of at least two
+!> numbers and nothing else. What stands before the first row with as many words as there are columns names them; a name may end
+!> with
+!> its unit in brackets or parentheses: `x [mm]`, `"TIME (sec)"`. Other lines are titles. A title between rows, or a time that
+!> steps
+!> back, begins another table, as in the request tables of Adams; a page that repeats its titles and goes on in time does not.
+!> `D` in a number is `E`.
+!>
+!> Limits: one file of at most 64 MB; numbers with a decimal point.
+module column_file
+   use kinds, only: not_a_number, wp
+   use numbers, only: number_length, read_number
+   use source_text, only: line_of, n_line_of, source_t
+   use text, only: append_text, lower, text_t, to_text
+   implicit none (type, external)
+   private
+   public :: column_table_t, find_column_of, read_columns, unit_in_name
+
+   !> A table of a file.
+   type :: column_table_t
+      type(text_t), allocatable :: names(:)     !! (columns) as written; none: the file does not name them
+      real(wp), allocatable :: x(:, :)          !! (columns, rows) the numbers [any]
+   end type column_table_t
+
+contains
+
+   !> Read all tables of a file.
+   subroutine read_columns(source, tables)
+      type(source_t), intent(in) :: source                             !! the file
+      type(column_table_t), allocatable, intent(out) :: tables(:)      !! (n) its tables
+
+      type(text_t), allocatable :: words(:), names(:), pending(:)
+      real(wp), allocatable :: row(:), rows(:, :), larger(:, :)
+      logical :: has_title, is_row
+      integer :: k, n, n_column
+
+      allocate (tables(0), pending(0))
+      n = 0
+      n_column = 0
+      has_title = .false.
+      do k = 1, n_line_of(source)
+         call split_line(line_of(source, k), words)
+         if (size(words) == 0) cycle
+         call numbers_of(words, row, is_row)
+         if (.not. is_row) then
+            has_title = n > 0
+            pending = words
+            cycle
+         end if
+         if (n > 0) then
+            if (size(row) /= n_column .or. (row(1) < rows(1, n) .and. n_column > 0) .or. (has_title .and. row(1) <= rows(1, &
+                  n))) then
+               call close_table()
+            end if
+         end if
+         if (n == 0) then
+            n_column = size(row)
+            if (allocated(names)) deallocate (names)
+            if (allocated(rows)) deallocate (rows)
+            allocate (names(0))
+            if (size(pending) == n_column) names = pending
+            allocate (rows(n_column, 256))
+         end if
+         if (n == size(rows, 2)) then
+            allocate (larger(n_column, 2*n))
+            larger(:, :n) = rows
+            call move_alloc(larger, rows)
+         end if
+         n = n + 1
+         rows(:, n) = row
+         has_title = .false.
+      end do
+      if (n > 0) call close_table()
+
+   contains
+
+      !> Put the rows so far on the list.
+      subroutine close_table()
+         type(column_table_t) :: new
+
+         new%names = names
+         new%x = rows(:, :n)
+         tables = [tables, new]
+         n = 0
+      end subroutine close_table
+
+   end subroutine read_columns
+
+   !> The words of a line, without its comment; words in quotes are one.
+   subroutine split_line(line, words)
+      character(*), intent(in) :: line                         !! any line
+      type(text_t), allocatable, intent(out) :: words(:)       !! (n) its words
+
+      character(:), allocatable :: word
+      character :: quote
+      integer :: first, i
+      logical :: by_comma
+
+      allocate (words(0))
+      by_comma = scan(line, ",;"//achar(9)) > 0
+      first = verify(line, " "//achar(9))
+      if (first == 0) return
+      if (scan(line(first:first), "#!%") > 0) then      ! names may stand in a comment
+         first = first + 1
+         by_comma = scan(line(first:), ",;"//achar(9)) > 0
+      end if
+      word = ""
+      quote = " "
+      do i = first, len(line) + 1
+         if (i <= len(line)) then
+            if (quote /= " ") then
+               if (line(i:i) == quote) then
+                  quote = " "
+               else
+                  word = word//line(i:i)
+               end if
+               cycle
+            else if (scan(line(i:i), """'") > 0) then
+               quote = line(i:i)
+               cycle
+            else if (scan(line(i:i), "#!") > 0) then
+               exit
+            else if (scan(line(i:i), ",;"//achar(9)) == 0 .and. (by_comma .or. line(i:i) /= " ")) then
+               if (line(i:i) /= achar(13)) word = word//line(i:i)
+               cycle
+            end if
+         end if
+         if (by_comma .or. len_trim(word) > 0) call append_text(words, trim(adjustl(word)))
+         word = ""
+      end do
+      if (len_trim(word) > 0) call append_text(words, trim(adjustl(word)))
+      do while (size(words) > 0)      ! a comma at the end of a line
+         if (words(size(words))%s /= "") exit
+         words = words(:size(words) - 1)
+      end do
+      if (.not. by_comma) call join_units(words)
+   end subroutine split_line
+
+   !> Units that stand apart from their names by a blank go with them: `time (s)`.
+   subroutine join_units(words)
+      type(text_t), allocatable, intent(inout) :: words(:)     !! (n) words of a line
+
+      type(text_t), allocatable :: joined(:)
+      integer :: k
+
+      allocate (joined(0))
+      do k = 1, size(words)
+         if (size(joined) > 0 .and. scan(words(k)%s(1:1), "[(") > 0 .and. number_length(words(k)%s) == 0) then
+            joined(size(joined))%s = joined(size(joined))%s//" "//words(k)%s
+         else
+            joined = [joined, words(k)]
+         end if
+      end do
+      words = joined
+   end subroutine join_units
+
+   !> The numbers of a line, if it has nothing but at least two of them.
+   subroutine numbers_of(words, row, is_row)
+      type(text_t), intent(in) :: words(:)                !! (n) its words
+      real(wp), allocatable, intent(out) :: row(:)        !! (n) the numbers; NaN where the file says so [any]
+      logical, intent(out) :: is_row                      !! whether they are
+
+      integer :: k
+
+      is_row = size(words) >= 2
+      allocate (row(size(words)), source=0.0_wp)
+      do k = 1, size(words)
+         if (.not. is_row) return
+         is_row = number_length(words(k)%s) == len(words(k)%s) .and. len(words(k)%s) > 0
+         if (is_row) call read_number(words(k)%s, 0, row(k), is_row)
+         if (.not. is_row .and. index(" nan -nan ", " "//lower(words(k)%s)//" ") > 0) then
+            is_row = k > 1
+            row(k) = not_a_number()
+         end if
+      end do
+   end subroutine numbers_of
+
+   !> The number of a column by its name or number; 0: there is none. A name may leave out its unit.
+   pure integer function find_column_of(table, word) result(k)
+      type(column_table_t), intent(in) :: table   !! the table
+      character(*), intent(in) :: word            !! as the user writes it
+
+      integer :: status
+
+      do k = 1, size(table%names)
+         if (table%names(k)%s == word) return
+      end do
+      do k = 1, size(table%names)
+         if (lower(bare_name(table%names(k)%s)) == lower(word)) return
+      end do
+      k = 0
+      if (len(word) == 0 .or. len(word) > 6 .or. verify(word, "0123456789") > 0) return
+      read (word, *, iostat=status) k
+      if (status /= 0 .or. k > size(table%x, 1)) k = 0
+   end function find_column_of
+
+   !> A name without its unit.
+   pure function bare_name(name) result(bare)
+      character(*), intent(in) :: name        !! as written
+      character(:), allocatable :: bare       !! before the bracket
+
+      integer :: at
+
+      at = scan(name, "[(")
+      bare = name
+      if (at > 1) bare = trim(name(:at - 1))
+   end function bare_name
+
+   !> The unit that stands in a name; blank: none.
+   pure function unit_in_name(name) result(unit)
+      character(*), intent(in) :: name        !! as written
+      character(:), allocatable :: unit       !! between brackets or parentheses
+
+      integer :: first, last
+
+      unit = ""
+      first = scan(name, "[(", back=.true.)
+      last = len_trim(name)
+      if (first == 0 .or. last < first + 2) return
+      if (scan(name(last:last), "])") == 0) return
+      unit = trim(adjustl(name(first + 1:last - 1)))
+      select case (lower(unit))     ! as other programs write them
+      case ("sec", "second", "seconds"); unit = "s"
+      case ("newton", "newtons"); unit = "N"
+      case ("meter", "meters", "metre"); unit = "m"
+      case ("millimeter", "millimeters"); unit = "mm"
+      case ("degrees", "degree"); unit = "deg"
+      case ("radians", "radian"); unit = "rad"
+      case ("no_units", "-"); unit = "1"
+      end select
+   end function unit_in_name
+
+end module column_file

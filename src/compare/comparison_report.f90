@@ -1,0 +1,330 @@
+!> A comparison as text for people, as rows, as an object of JSON, and as figures.
+module comparison_report
+   use comparison, only: comparison_t
+   use differences_of_series, only: difference_t, moments_t
+   use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use json_text, only: json_object_t
+   use kinds, only: i8, wp
+   use plot_table, only: draw_lines, draw_points, plot_curve_t, plot_table_t, write_plot
+   use text, only: append_text, counted, exact_text, real_text, text_t, to_text
+   use text_buffer, only: buffer_t
+   implicit none (type, external)
+   private
+   public :: comparison_json, comparison_rows, comparison_text, verdict_text, write_overlays
+
+   integer, parameter :: most_figures = 12   !! channels that are drawn
+   integer, parameter :: few = 200           !! instants up to which each is a dot
+   integer, parameter :: most_missing = 20   !! channels of one alone that are named
+
+contains
+
+   !> The verdict in a line.
+   function verdict_text(found) result(words)
+      type(comparison_t), intent(in) :: found     !! what was found
+      character(:), allocatable :: words          !! one line
+
+      words = counted(size(found%list), "channel", "channels")
+      if (found%n_different == 0) then
+         words = words//" compared, none differs by more than is allowed"
+      else
+         words = to_text(found%n_different)//" of "//words//" differ"
+         if (found%n_different == 1) words = words//"s"
+         words = words//" by more than is allowed"
+      end if
+      if (found%by_statistics) words = words//" (means and RMS)"
+   end function verdict_text
+
+   !> For people.
+   function comparison_text(found, first, second) result(text)
+      type(comparison_t), intent(in) :: found     !! what was found
+      character(*), intent(in) :: first           !! where A was read
+      character(*), intent(in) :: second          !! where B was read
+      character(:), allocatable :: text           !! whole lines
+
+      type(buffer_t) :: lines
+      integer :: k, width
+
+      call lines%line("A          "//first)
+      call lines%line("B          "//second)
+      call lines%line("compared   "//counted(size(found%t), "instant", "instants")//" of B, "//real_text(found%t(1), 6)//" to "// &
+                      real_text(found%t(size(found%t)), 6)//" s")
+      call lines%line("")
+      width = 20
+      do k = 1, size(found%list)
+         width = max(width, len(found%list(k)%name) + len(found%list(k)%unit) + 4)
+      end do
+      call lines%line(padded("channel", width)// &
+            "     RMS   greatest    at [s]   allowed    peak A    peak B   lag [s]   magn.   phase")
+      do k = 1, size(found%list)
+         associate (d => found%list(k))
+            call lines%line(padded(d%name//" ["//d%unit//"]", width)//cell(d%rms)//" "//cell(d%greatest)//cell(d%at)// &
+                  cell(d%allowed) &
+                            //cell(d%peak(1))//cell(d%peak(2))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
+                            trim(merge("  differs  ", "           ", d%is_different))//of_interpolation(d))
+         end associate
+      end do
+      if (found%by_statistics) call add_statistics(lines, found, width)
+      if (size(found%pairs) > 0) then
+         call lines%line("")
+         call lines%line(padded("impact", width)//"onset A [s]      B - A [s]   speed A   speed B [m/s]   peak A    peak B [N]")
+         do k = 1, size(found%pairs)
+            associate (p => found%pairs(k))
+               call lines%line(padded(p%item//" "//to_text(p%number), width)//padded(real_text(p%a%time, 9), 16)// &
+                               cell(p%b%time - p%a%time)//cell(p%a%speed)//cell(p%b%speed)//"   "//cell(p%a%force)// &
+                                     cell(p%b%force))
+            end associate
+         end do
+      end if
+      do k = 1, min(size(found%missing), most_missing)
+         call lines%line("not compared: "//found%missing(k)%s)
+      end do
+      if (size(found%missing) > most_missing) call lines%line("not compared: "//to_text(size(found%missing) - most_missing)// &
+            " more")
+      call lines%line("")
+      call lines%line(verdict_text(found))
+      text = lines%get()
+   end function comparison_text
+
+   !> Means and RMS with their significance.
+   subroutine add_statistics(lines, found, width)
+      type(buffer_t), intent(inout) :: lines      !! the text
+      type(comparison_t), intent(in) :: found     !! what was found
+      integer, intent(in) :: width                !! of the first column
+
+      integer :: k
+
+      call lines%line("")
+      call lines%line(padded("channel", width)//"  mean A   +-          mean B   +-          p       RMS A     RMS B     p")
+      do k = 1, size(found%list)
+         associate (d => found%list(k))
+            call lines%line(padded(d%name//" ["//d%unit//"]", width)//cell(d%mean%a%value)//cell(d%mean%a%half)// &
+                            cell(d%mean%b%value)//cell(d%mean%b%half)//cell(d%mean%significance)// &
+                            cell(sqrt(d%square%a%value))//cell(sqrt(d%square%b%value))//cell(d%square%significance))
+         end associate
+      end do
+   end subroutine add_statistics
+
+   !> What the interpolation may have added, where that matters.
+   function of_interpolation(difference) result(words)
+      type(difference_t), intent(in) :: difference   !! of a channel
+      character(:), allocatable :: words             !! blank where it does not matter
+
+      words = ""
+      if (difference%interpolation > 0.1_wp*max(difference%allowed, difference%greatest)) &
+         words = "  (interpolation up to "//real_text(difference%interpolation, 2)//")"
+   end function of_interpolation
+
+   !> A text of some width.
+   pure function padded(text, width) result(s)
+      character(*), intent(in) :: text     !! the text
+      integer, intent(in) :: width         !! at least
+      character(:), allocatable :: s       !! with blanks behind it
+
+      s = text//repeat(" ", max(0, width - len(text)))
+   end function padded
+
+   !> A number in ten places.
+   pure function cell(x) result(s)
+      real(wp), intent(in) :: x            !! the number [any]
+      character(:), allocatable :: s       !! with blanks behind it
+
+      s = "-"
+      if (ieee_is_finite(x)) s = real_text(x, 3)
+      s = padded(s, 10)
+   end function cell
+
+   !> A measure of Sprague and Geers in eight places.
+   pure function short(x) result(s)
+      real(wp), intent(in) :: x            !! the measure [1]
+      character(:), allocatable :: s       !! with blanks behind it
+
+      s = padded(real_text(x, 2), 8)
+      if (len(s) > 8) s = real_text(x, 1)//" "
+   end function short
+
+   !> A row of numbers for each channel.
+   function comparison_rows(found) result(text)
+      type(comparison_t), intent(in) :: found     !! what was found
+      character(:), allocatable :: text           !! comma-separated, SI
+
+      type(buffer_t) :: lines
+      integer :: k
+
+      call lines%line("channel,unit,instants,rms,greatest,at,allowed,differs,interpolation,peak_a,peak_a_at,peak_b,peak_b_at,"// &
+                      "lag,magnitude,phase,mean_a,mean_a_half,mean_b,mean_b_half,mean_significance,square_a,square_b,"// &
+                      "square_significance")
+      do k = 1, size(found%list)
+         associate (d => found%list(k))
+            call lines%line(d%name//","//d%unit//","//to_text(d%n)//joined([d%rms, d%greatest, d%at, d%allowed])//","// &
+                            to_text(merge(1, 0, d%is_different))//joined([d%interpolation, d%peak(1), d%peak_at(1), d%peak(2), &
+                            d%peak_at(2), d%lag, d%magnitude, d%phase, d%mean%a%value, d%mean%a%half, d%mean%b%value, &
+                            d%mean%b%half, d%mean%significance, d%square%a%value, d%square%b%value, d%square%significance]))
+         end associate
+      end do
+      text = lines%get()
+   end function comparison_rows
+
+   !> Numbers with a comma before each.
+   pure function joined(x) result(s)
+      real(wp), intent(in) :: x(:)         !! (n) numbers [any]
+      character(:), allocatable :: s       !! the row
+
+      integer :: k
+
+      s = ""
+      do k = 1, size(x)
+         s = s//","//exact_text(x(k))
+      end do
+   end function joined
+
+   !> For scripts.
+   function comparison_json(found, first, second, directory, figures, warnings) result(text)
+      type(comparison_t), intent(in) :: found     !! what was found
+      character(*), intent(in) :: first           !! where A was read
+      character(*), intent(in) :: second          !! where B was read
+      character(*), intent(in) :: directory       !! of the output
+      type(text_t), intent(in) :: figures(:)      !! (n) pictures
+      type(text_t), intent(in) :: warnings(:)     !! (m) what was not made
+      character(:), allocatable :: text           !! an object
+
+      type(json_object_t) :: json, one
+      type(text_t), allocatable :: channels(:), pairs(:)
+      integer :: k
+
+      allocate (channels(size(found%list)), pairs(size(found%pairs)))
+      do k = 1, size(found%list)
+         associate (d => found%list(k))
+            one = json_object_t()
+            call one%start(2)
+            call one%put_text("channel", d%name)
+            call one%put_text("unit", d%unit)
+            call one%put_integer("instants", int(d%n, i8))
+            call one%put_logical("differs", d%is_different)
+            call one%put_real("rms", d%rms)
+            call one%put_real("greatest", d%greatest)
+            call one%put_real("at", d%at)
+            call one%put_real("allowed", d%allowed)
+            call one%put_real("interpolation", d%interpolation)
+            call one%put_real("peak_a", d%peak(1))
+            call one%put_real("peak_a_at", d%peak_at(1))
+            call one%put_real("peak_b", d%peak(2))
+            call one%put_real("peak_b_at", d%peak_at(2))
+            call one%put_real("lag", d%lag)
+            call one%put_real("magnitude", d%magnitude)
+            call one%put_real("phase", d%phase)
+            call put_moments(one, "mean", d%mean)
+            call put_moments(one, "square", d%square)
+            channels(k)%s = one%get()
+         end associate
+      end do
+      do k = 1, size(found%pairs)
+         associate (p => found%pairs(k))
+            one = json_object_t()
+            call one%start(2)
+            call one%put_text("item", p%item)
+            call one%put_integer("number", int(p%number, i8))
+            call one%put_real("onset_a", p%a%time)
+            call one%put_real("onset_b", p%b%time)
+            call one%put_real("impact_speed_a", p%a%speed)
+            call one%put_real("impact_speed_b", p%b%speed)
+            call one%put_real("peak_force_a", p%a%force)
+            call one%put_real("peak_force_b", p%b%force)
+            pairs(k)%s = one%get()
+         end associate
+      end do
+      call json%start(0)
+      call json%put_text("a", first)
+      call json%put_text("b", second)
+      call json%put_text("directory", directory)
+      call json%put_text("verdict", verdict_text(found))
+      call json%put_logical("by_statistics", found%by_statistics)
+      call json%put_integer("different", int(found%n_different, i8))
+      call json%put_objects("channels", channels)
+      call json%put_objects("impacts", pairs)
+      call json%put_list("not_compared", found%missing)
+      call json%put_list("figures", figures)
+      call json%put_list("warnings", warnings)
+      text = json%get()
+   end function comparison_json
+
+   !> A mean of both.
+   subroutine put_moments(json, name, moments)
+      type(json_object_t), intent(inout) :: json   !! the object
+      character(*), intent(in) :: name             !! of the mean
+      type(moments_t), intent(in) :: moments       !! the means
+
+      call json%put_real(name//"_a", moments%a%value)
+      call json%put_real(name//"_a_half", moments%a%half)
+      call json%put_real(name//"_b", moments%b%value)
+      call json%put_real(name//"_b_half", moments%b%half)
+      call json%put_real(name//"_significance", moments%significance)
+   end subroutine put_moments
+
+   !> Figures of the channels that are furthest apart: both over one another, and the difference.
+   subroutine write_overlays(found, folder, first, second, names, error)
+      type(comparison_t), intent(in) :: found               !! what was found
+      character(*), intent(in) :: folder                    !! where they go
+      character(*), intent(in) :: first                     !! what A is called
+      character(*), intent(in) :: second                    !! what B is called
+      type(text_t), allocatable, intent(out) :: names(:)    !! (n) figures
+      type(error_t), allocatable, intent(out) :: error      !! a file cannot be written
+
+      type(plot_table_t) :: table
+      real(wp) :: worst(size(found%list))
+      integer :: i, k
+      logical :: is_written
+
+      allocate (names(0))
+      do k = 1, size(found%list)
+         worst(k) = found%list(k)%greatest/max(found%list(k)%allowed, tiny(1.0_wp)*1.0e10_wp)
+         if (.not. ieee_is_finite(worst(k))) worst(k) = huge(1.0_wp)
+      end do
+      do i = 1, min(most_figures, size(found%list))
+         k = maxloc(worst, dim=1)
+         worst(k) = -1.0_wp
+         associate (d => found%list(k))
+            table = plot_table_t()
+            table%name = d%name
+            table%heading = ""
+            table%x_name = "time"
+            table%x_unit = "s"
+            allocate (table%labels(0), table%categories(0), table%panels(2), table%values(4, size(found%t)))
+            call append_text(table%labels, "time [s]")
+            call append_text(table%labels, "A ["//d%unit//"]")
+            call append_text(table%labels, "B ["//d%unit//"]")
+            call append_text(table%labels, "B - A ["//d%unit//"]")
+            table%values(1, :) = found%t
+            table%values(2, :) = found%a(:, k)
+            table%values(3, :) = found%b(:, k)
+            table%values(4, :) = found%b(:, k) - found%a(:, k)
+            allocate (table%panels(1)%curves(2), table%panels(2)%curves(1))
+            table%panels(1)%y_name = d%name
+            table%panels(2)%y_name = "B - A"
+            table%panels(1)%y_unit = d%unit
+            table%panels(2)%y_unit = d%unit
+            call set_curve(table%panels(1)%curves(1), 2, 1, draw_lines, "A: "//first)
+            call set_curve(table%panels(1)%curves(2), 3, 2, merge(draw_points, draw_lines, size(found%t) <= few), "B: "//second)
+            call set_curve(table%panels(2)%curves(1), 4, 6, draw_lines, "")
+            call write_plot(folder, d%name, table, is_written, error)
+            if (allocated(error)) return
+            if (is_written) call append_text(names, d%name)
+         end associate
+      end do
+   end subroutine write_overlays
+
+   !> A curve over the time.
+   subroutine set_curve(curve, column, colour, style, title)
+      type(plot_curve_t), intent(out) :: curve   !! the curve
+      integer, intent(in) :: column              !! of the ordinate
+      integer, intent(in) :: colour              !! number of the colour
+      integer, intent(in) :: style               !! how it is drawn
+      character(*), intent(in) :: title          !! in the legend; blank: none
+
+      curve%style = style
+      curve%y = column
+      curve%colour = colour
+      curve%title = title
+   end subroutine set_curve
+
+end module comparison_report

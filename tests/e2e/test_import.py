@@ -1,0 +1,206 @@
+"""Adams datasets: five models with every statement that a deck can have, imported, run, and held against closed forms and scipy."""
+
+import functools
+
+import h5py
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from support import ROOT, call, scratch, written
+
+MODELS = ROOT / "tests" / "adams"
+INCH = 0.0254
+
+
+@functools.cache
+def imported(program, name, end="1s", every="10ms"):
+    """The run of an imported model, and what the import said."""
+    folder = scratch()
+    said = call(program, "import", MODELS / f"{name}.adm", cwd=folder).stdout
+    call(program, "run", f"{name}.deck", "--set", f"end={end}", "--set", f"every={every}", "--tolerance", "1e-10", "--quiet", cwd=folder)
+    return h5py.File(folder / "outputs" / name / "run.h5"), said
+
+
+def column(run, room, quantity, item):
+    """All components of a quantity of an item."""
+    names = [n.decode() for n in run[f"{room}/names"][:]]
+    return run[f"{room}/{quantity}"][:, names.index(item)]
+
+
+def test_pendulum_with_inertia_told_elsewhere(gudgeon):
+    """The tensor is that about the frame of the part; the speed at the start is that of the joint about its axis, which is -y."""
+    run, said = imported(gudgeon, "pendulum")
+    about_hinge = 0.25 - 2 * 0.1**2 + 2 * 0.3**2
+    t = run["time"][:]
+
+    def rates(_, y):
+        return [y[1], -2 * 9.80665 * 0.3 * np.cos(y[0]) / about_hinge]
+
+    want = solve_ivp(rates, (0, 1), [0.0, 2.0], t_eval=t, rtol=1e-12, atol=1e-12).y[0]
+    r = column(run, "bodies", "position", "swinging_bar")
+    assert np.abs(r[:, 0] - 0.3 * np.cos(want)).max() < 1e-7
+    assert np.abs(r[:, 2] - 1 - 0.3 * np.sin(want)).max() < 1e-7
+    assert "nothing of the mechanism was left out" in said
+    assert "PART_99" not in said  # behind END
+
+
+def test_slider_crank_in_any_order(gudgeon):
+    run, _ = imported(gudgeon, "slider_crank", every="1ms")
+    t = run["time"][:]
+    angle = 10 * np.pi * t
+    x = 0.1 * np.cos(angle) + np.sqrt(0.16 - (0.1 * np.sin(angle)) ** 2)
+    assert np.abs(column(run, "bodies", "position", "PART_4")[:, 0] - x).max() < 1e-9
+    assert np.abs(column(run, "forces", "force", "SFORCE_1")[:, 0] + 20 + 10 * np.sin(4 * np.pi * t)).max() < 1e-9
+    power = column(run, "drivers", "power", "motor") + column(run, "forces", "power", "SFORCE_1")
+    kinetic = np.gradient(run["energy/kinetic"][:], t, edge_order=2)
+    assert np.abs(power - kinetic)[2:-2].max() < 0.002 * np.abs(power).max()
+
+
+def test_springs_in_inches_and_pounds(gudgeon):
+    """SPRINGDAMPER, and the same forces as expressions, against the equations in the dataset's own units."""
+    run, said = imported(gudgeon, "springs")
+    t = run["time"][:]
+    smooth = lambda u: np.clip(u, 0, 1) ** 2 * (3 - 2 * np.clip(u, 0, 1))  # noqa: E731
+
+    def solve(force, start, inertia):
+        rates = lambda time, y: [y[1], force(time, *y) / inertia]  # noqa: E731
+        return solve_ivp(rates, (0, 1), start, t_eval=t, rtol=1e-11, atol=1e-11, max_step=2e-3).y[0]
+
+    g = -38.60886
+    spring = solve(lambda _, z, v: g - 40 * (z - 10) - 0.3 * v + 2, [12.0, 5.0], 0.1)
+    hard = solve(
+        lambda s, z, v: g - 40 * (z - 10) - 2 * (z - 10) ** 3 - 0.3 * v + 1.5 * np.sin(6 * s) + 3 * smooth((s - 0.2) / 0.3), [12.0, 5.0], 0.1
+    )
+    stop = solve(lambda _, z, v: g + 400 * max(10 - z, 0) ** 1.5, [12.0, -20.0], 0.1)
+    wheel = solve(lambda _, a, w: -50 * (a - np.pi / 18) - 0.2 * w + 4, [np.pi / 6, 3.0], 0.4)
+    for name, want in (("PART_2", spring), ("PART_3", hard), ("PART_6", stop)):
+        z = column(run, "bodies", "position", name)[:, 2] / INCH
+        assert np.abs(z - want).max() < 1e-6, name
+    for name in ("SPRINGDAMPER_3", "SFORCE_4"):
+        angle = column(run, "forces", "angle", name) + np.pi / 6
+        assert np.abs(angle - wheel).max() < 1e-6, name
+    spin = column(run, "bodies", "angular_velocity", "PART_6")[:, 2]
+    assert np.abs(spin - 0.25 * t**2 / 0.4).max() < 1e-7
+    assert "nothing of the mechanism was left out" in said
+
+
+def test_joint_primitives(gudgeon):
+    """Primitives against the joint that they make up, closed forms, and a deck with the joint."""
+    run, _ = imported(gudgeon, "primitives")
+    t = run["time"][:]
+    made, joint = (column(run, "bodies", "position", name) for name in ("PART_2", "PART_3"))
+    assert np.abs(made + [3, 0, 0] - joint).max() < 1e-8
+    lean = np.radians(40)
+    way = -0.5 * 9.81 * np.cos(lean) * t**2
+    slider = column(run, "bodies", "position", "PART_4")
+    assert np.abs(slider - [6, 0, 0] - np.outer(way, [np.sin(lean), 0, np.cos(lean)])).max() < 1e-9
+    plate = column(run, "bodies", "position", "PART_6")
+    assert np.abs(plate - [12, 0, 0] - np.outer(t, [1, 0, 0])).max() < 1e-9
+    assert np.abs(column(run, "bodies", "angular_velocity", "PART_6") - [0, 0, 2]).max() < 1e-9
+    deck = """deck = 1
+[scene]
+title = "cross"
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] z[m] wx[rad/s] wy[rad/s]
+bob 1 0.1 0.2 0.3 -0.4 1 2
+[points]
+name body zeta[m]
+hook ground 0
+eye bob 0.4
+[joint.universal]
+name i j axis_i axis_j
+cross hook eye "1 0 0" "0 -1 0"
+[analysis.dynamic]
+end = 1 s
+tolerance = 1e-10
+[output]
+every = 10 ms
+channels = bob.position
+"""
+    folder = scratch()
+    call(gudgeon, "run", written(folder, deck), "--out", folder / "out", "--quiet")
+    want = column(h5py.File(folder / "out" / "run.h5"), "bodies", "position", "bob")
+    assert np.abs(column(run, "bodies", "position", "PART_5") - [9, 0, 0] - want).max() < 1e-7
+
+
+def test_motions(gudgeon):
+    """Every MOTION, the screw, forces that turn with a body, the Hooke joint; closed forms."""
+    run, _ = imported(gudgeon, "drives")
+    t = run["time"][:]
+    u = np.clip((t - 0.1) / 0.2, 0, 1)
+    speed = 4 * u**2 * (3 - 2 * u) + 2 * np.sin(3 * t) + 0.5 * t**2
+    assert np.abs(column(run, "bodies", "angular_velocity", "PART_2")[:, 2] - speed).max() < 1e-6
+    u = np.clip((t - 0.1) / 0.3, 0, 1)
+    angle = np.pi / 9 + np.pi / 3 * u**3 * (10 - 15 * u + 6 * u**2)
+    e = column(run, "bodies", "orientation", "PART_3")
+    assert np.abs(2 * np.arctan2(e[:, 3], e[:, 0]) - angle).max() < 1e-8
+    u = np.clip(t / 0.5, 0, 1)
+    z = 0.05 + 0.02 * (1 - np.cos(np.pi * u)) / 2
+    nut = column(run, "bodies", "position", "PART_4")[:, 2]
+    assert np.abs(nut - z).max() < 1e-8
+    rate = column(run, "bodies", "velocity", "PART_4")[:, 2]
+    assert np.abs(column(run, "bodies", "angular_velocity", "PART_4")[:, 2] - 2 * np.pi * rate / 0.005).max() < 1e-4
+    y = column(run, "bodies", "position", "PART_5")[:, 1]
+    assert np.abs(y + 0.01 - 0.03 * t + 0.1 * t**2).max() < 1e-8
+
+    def plate(time, s):
+        push = -3 if time < 0.25 else 5
+        return [s[2], s[3], (2 + push * np.sin(time)) / 2, (-4 * time - push * np.cos(time)) / 2]
+
+    states = np.array([0.0, 0, 0, 0])
+    half = solve_ivp(plate, (0, 0.25 - 1e-15), states, rtol=1e-11, atol=1e-12, t_eval=t[t < 0.25]).y
+    at = solve_ivp(plate, (0, 0.25 - 1e-15), states, rtol=1e-11, atol=1e-12).y[:, -1]
+    rest = solve_ivp(plate, (0.25, 1), at, rtol=1e-11, atol=1e-12, t_eval=t[t >= 0.25]).y
+    r = column(run, "bodies", "position", "PART_6") - [4, 0, 0]
+    assert np.abs(r[:, :2] - np.hstack([half, rest])[:2].T).max() < 1e-6
+    first = column(run, "joints", "angular_rate", "JOINT_8") if "angular_rate" in run["joints"] else None
+    first = column(run, "bodies", "angular_velocity", "PART_7")[:, 2] if first is None else first
+    second = column(run, "bodies", "spin", "PART_8")[:, 2]
+    turned = column(run, "bodies", "orientation", "PART_7")
+    theta = 2 * np.arctan2(turned[:, 3], turned[:, 0])
+    lean = np.radians(30)
+    ratio = np.cos(lean) / (1 - (np.sin(lean) * np.cos(theta)) ** 2)
+    other = np.cos(lean) / (1 - (np.sin(lean) * np.sin(theta)) ** 2)
+    assert min(np.abs(second / first - ratio).max(), np.abs(second / first - other).max()) < 1e-6
+    assert np.abs(column(run, "bodies", "position", "PART_9") - [6, 0, 0]).max() < 1e-10
+    ball = column(run, "bodies", "position", "PART_10") - [6, 0, 0]
+    assert np.abs(np.linalg.norm(ball, axis=1) - 0.1).max() < 1e-8
+
+
+def test_what_is_left_out_is_named_with_its_line(gudgeon):
+    _, said = imported(gudgeon, "drives")
+    text = (MODELS / "drives.adm").read_text().splitlines()
+    for statement in ("JOINT/11", "FRICTION/1", "CONTACT/1", "ARRAY/1", "SFORCE/7", "SFORCE/8", "MOTION/9", "INTEGRATOR"):
+        line = next(k for k, words in enumerate(text, 1) if words.startswith(statement))
+        assert f"line {line}: {statement}" in said, statement
+    assert "IMPACT with damping" in said
+    assert "VX" in said
+
+
+def test_refused_by_name(gudgeon):
+    """Elastic bodies are no mechanism of rigid ones; markers and parts that are not there are mistakes with their line."""
+    folder = scratch()
+    model = (MODELS / "primitives.adm").read_text()
+    (folder / "a.adm").write_text(model.replace("JPRIM/8, PARALLEL_AXES, I = 61, J = 5", "BEAM/8, I = 61, J = 5, LENGTH = 1"))
+    done = call(gudgeon, "import", "a.adm", cwd=folder, expect=3)
+    assert "BEAM/8 is an elastic body" in done.stderr
+    assert "a.adm:34:" in done.stderr
+    (folder / "b.adm").write_text(model.replace("I = 61, J = 5\nACC", "I = 61, J = 999\nACC").replace("ZG", "ZG"))
+    done = call(gudgeon, "import", "b.adm", cwd=folder, expect=3)
+    assert "J = 999" in done.stderr
+    assert not (folder / "b.deck").exists()
+    call(gudgeon, "import", MODELS / "pendulum.adm", cwd=folder)
+    done = call(gudgeon, "import", MODELS / "pendulum.adm", cwd=folder, expect=9)
+    assert "already" in done.stderr
+    call(gudgeon, "import", "missing.adm", cwd=folder, expect=9)
+    (folder / "empty.adm").write_text("only a title\n")
+    assert "no PART" in call(gudgeon, "import", "empty.adm", cwd=folder, expect=3).stderr
+
+
+@pytest.mark.parametrize("broken", ["PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
+def test_broken_statements_end_with_a_message(gudgeon_debug, broken):
+    folder = scratch()
+    (folder / "a.adm").write_text((MODELS / "pendulum.adm").read_text().replace("END\n", broken + "\nEND\n"))
+    call(gudgeon_debug, "import", "a.adm", cwd=folder, expect=(0, 3))
