@@ -3,7 +3,7 @@ program gudgeon
    use, intrinsic :: ieee_arithmetic, only: ieee_set_underflow_mode, ieee_support_underflow_control
    use blas_threads, only: use_one_blas_thread
    use console, only: write_said
-   use errors, only: error_t, exit_ok
+   use errors, only: error_t, exit_ok, exit_stopped
    use kinds, only: wp
    use options, only: options_t, read_options
    use posix, only: write_error
@@ -51,7 +51,7 @@ program gudgeon
    call write_said(console_error)
    if (allocated(console_error) .and. .not. allocated(error)) call move_alloc(console_error, error)
    if (allocated(error)) then
-      if (.not. starts_with(error%message, "error: ")) error%message = "error: "//error%message
+      if (error%code /= exit_stopped .and. .not. starts_with(error%message, "error: ")) error%message = "error: "//error%message
       call write_error(printable(error%message)//new_line("a"))
       call end_process(error%code)
    end if
