@@ -1,7 +1,7 @@
 !> Whether two files of HDF5 hold the same in their datasets, bit for bit. Limits: attributes are not compared.
 module hdf5_equal
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dget_type_f, h5dopen_f, h5dread_f, h5gget_obj_info_idx_f, h5gn_members_f
-   use hdf5, only: h5fclose_f, h5g_dataset_f, h5g_group_f, h5sclose_f, h5sget_simple_extent_npoints_f
+   use hdf5, only: h5fclose_f, h5g_dataset_f, h5g_group_f, h5sclose_f, h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f
    use hdf5, only: h5tclose_f, h5tget_size_f, h5tis_variable_str_f, hid_t, hsize_t, size_t
    use hdf5_calls, only: open_file
    use hdf5_read, only: read_texts
@@ -112,9 +112,10 @@ contains
 
       type(c_ptr) :: memory
       integer(hid_t) :: dataset, kind, space
+      integer(hsize_t), allocatable :: most(:), shape(:)
       integer(hsize_t) :: points
       integer(size_t) :: width
-      integer :: closed
+      integer :: closed, rank
 
       are_texts = .false.
       allocate (bytes(0))
@@ -124,7 +125,11 @@ contains
       call h5dget_type_f(dataset, kind, status)
       if (status >= 0) call h5tis_variable_str_f(kind, are_texts, status)
       if (status >= 0) call h5dget_space_f(dataset, space, status)
-      if (status >= 0) call h5sget_simple_extent_npoints_f(space, points, status)
+      if (status >= 0) call h5sget_simple_extent_ndims_f(space, rank, status)
+      if (status < 0) return
+      allocate (most(rank), shape(rank))
+      if (rank > 0) call h5sget_simple_extent_dims_f(space, shape, most, status)  ! the number of points of none is an error
+      points = product(shape)
       if (status >= 0) call h5tget_size_f(kind, width, status)
       if (status < 0) return
       n = n + points
