@@ -11,6 +11,7 @@ module run_memory
    use mechanism, only: mechanism_t
    use memory, only: get, put
    use moving_part, only: moving_part_t
+   use run_failure, only: describe_failure
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
    use saved_run, only: saved_run_t
@@ -141,7 +142,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! it is another run's; nothing is changed
 
       type(smooth_piece_t) :: piece
-      integer :: place
+      integer :: place, status
 
       call checkpoint%compare(list_of_part(part), error)
       if (allocated(error)) return
@@ -166,6 +167,9 @@ contains
       end do
       call part%system%linkage%set_motion(part%method%t, part%method%step%y1)
       call part%instants%note_turning(part%system)
+      if (.not. part%method%begins_anew()) return
+      call part%method%restart(part%system, 0.0_wp, status)  ! what the last evaluation leaves behind is that of this state
+      if (status /= 0) call describe_failure(part%system, part%method, status, error)
    end subroutine load_part_memory
 
    !> The pieces of a part, in the order in which they are saved.
