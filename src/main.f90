@@ -3,7 +3,7 @@ program gudgeon
    use, intrinsic :: ieee_arithmetic, only: ieee_set_underflow_mode, ieee_support_underflow_control
    use blas_threads, only: use_one_blas_thread
    use console, only: write_said
-   use errors, only: error_t, exit_different, exit_ok
+   use errors, only: error_t, exit_different, exit_ok, exit_stopped
    use kinds, only: wp
    use options, only: options_t, read_options
    use posix, only: write_error
@@ -57,7 +57,9 @@ program gudgeon
    call write_said(console_error)
    if (allocated(console_error) .and. .not. allocated(error)) call move_alloc(console_error, error)
    if (allocated(error)) then
-      if (.not. starts_with(error%message, "error: ") .and. error%code /= exit_different) error%message = "error: "//error%message
+      if (all(error%code /= [exit_different, exit_stopped]) .and. .not. starts_with(error%message, "error: ")) then
+         error%message = "error: "//error%message
+      end if
       call write_error(printable(error%message)//new_line("a"))
       call end_process(error%code)
    end if

@@ -24,14 +24,16 @@ module cpu_budget
 contains
 
    !> Begin to count.
-   subroutine begin(self, limit)
+   subroutine begin(self, limit, used)
       class(cpu_budget_t), intent(inout) :: self  !! the budget
       real(wp), intent(in) :: limit               !! time allowed, 0: no limit [s]
+      real(wp), intent(in), optional :: used      !! time used up before; absent: none [s]
 
       self%until = 0.0_wp
       if (limit <= 0.0_wp) return
       call cpu_time(self%until)
       self%until = self%until + limit
+      if (present(used)) self%until = self%until - used
    end subroutine begin
 
    !> Whether it is used up.

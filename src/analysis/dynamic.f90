@@ -1,29 +1,34 @@
 !> Motion in time: drives the parts of a mechanism from event to event and hands everything to a recorder.
+!>
+!> A run is saved where its recorder wishes, after any step, and goes on from there as if nothing had been. A method with a history
+!> that it does not save, and several parts with steps of their own, can be saved at instants only that the plan sets: there all
+!> steps end, and what was saved is taken back at once, so that a run that is ended there and resumed does the same.
 module dynamic
    use contact_watch, only: close_open
    use cpu_budget, only: cpu_budget_t
-   use errors, only: error_t
-   use guards, only: guards_t
+   use errors, only: error_t, exit_integration, exit_stopped, set_error
    use integrator, only: advance_event, advance_failed_evaluation, integrator_t
-   use kind_info, only: kind_info_t
-   use kinds, only: i8, not_a_number, wp
+   use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use moving_part, only: advance_part, begin_part, handle_part_events, pass_part_instant
-   use recorder, only: event_t, recorder_t, status_complete, status_failed, summary_t
-   use run_audit, only: audit, limits_t, warn_of_errors
+   use recorder, only: event_t, recorder_t, status_stopped, summary_t
+   use run_audit, only: limits_t
    use run_failure, only: describe_failure, guard_reached, time_used_up
+   use run_memory, only: load_run, save_run
+   use run_summary, only: sum_up
    use run_tally, only: run_tally_t
    use sampling, only: new_sampler, sampler_t
+   use saved_run, only: saved_run_t, wish_nothing, wish_stop
    use stop_condition, only: stop_t
    use subsystems, only: subsystem_t
    use time_plan, only: time_plan_t
+   use text, only: real_text
    use whole_motion, only: new_whole_motion, whole_motion_t
    implicit none (type, external)
    private
    public :: run_dynamic
 
    integer, parameter :: progress_every = 256      !! steps between two reports of progress
-   integer, parameter :: many_steps = 100000       !! from which on a run is told what makes its steps short
 
    !> The state of a run.
    type :: run_t
@@ -33,12 +38,19 @@ module dynamic
       type(run_tally_t) :: tally                 !! sums and maxima so far
       type(stop_t) :: stop                       !! conditions that end it by intent
       integer, allocatable :: waiting(:)         !! (parts) scratch: parts at the front for which something waits
+      logical :: is_scheduled = .false.          !! it can be saved at the instants of the plan only
+      integer :: n_checkpoint = 0                !! instants of the plan passed
+      real(wp) :: next_checkpoint = huge(1.0_wp) !! the next of them [s]
+      logical :: is_stopped = .false.            !! it was ended from outside
+      real(wp) :: saved_at = -1.0_wp             !! time of the motion at which it was saved last; negative: it was not [s]
+      real(wp) :: cpu_before = 0.0_wp            !! processor time used before it was resumed [s]
+      real(wp) :: cpu_begin = 0.0_wp             !! processor time of the program at its begin [s]
    end type run_t
 
 contains
 
    !> Run from a state at t = 0 to the end.
-   subroutine run_dynamic(system, method, subsystems, y, plan, limits, recorder, summary, error)
+   subroutine run_dynamic(system, method, subsystems, y, plan, limits, recorder, summary, error, saved)
       type(mechanism_t), intent(inout), target :: system          !! the system
       class(integrator_t), intent(inout), target :: method        !! the integrator, with its controls
       type(subsystem_t), intent(inout), target :: subsystems(:)   !! (parts) groups of bodies to be integrated apart; none: as one
@@ -48,6 +60,7 @@ contains
       class(recorder_t), intent(inout) :: recorder                !! keeps the results
       type(summary_t), intent(out) :: summary                     !! cost and errors
       type(error_t), allocatable, intent(out) :: error            !! the integration failed, or a file could not be written
+      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; absent, unallocated: it begins
 
       type(error_t), allocatable :: late_error
       type(run_t) :: run
@@ -62,27 +75,36 @@ contains
       call recorder%start(run%sampler%catalogue, error)
       if (.not. allocated(error)) call run%sampler%ask(system, recorder, run%stop)
       call cpu_time(cpu_0)
-      call run%budget%begin(limits%cpu)
-      if (.not. allocated(error)) call integrate(run, y, plan, recorder, error)
+      run%cpu_begin = cpu_0
+      run%is_scheduled = size(run%whole%parts) > 1 .or. method%begins_anew()
+      if (.not. allocated(error)) call integrate(run, y, plan, limits%cpu, recorder, saved, error)
       call cpu_time(cpu_1)
       call run%sampler%finish(run%whole, plan, run%tally%residual, recorder, late_error)
       if (allocated(error) .and. allocated(late_error)) deallocate (late_error)  ! told already
       if (.not. allocated(late_error)) call close_contacts(run, recorder, late_error)
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
       call system_clock(clock_1)
-      call sum_up(run, method, limits, summary, error)
-      summary%cpu_seconds = cpu_1 - cpu_0 - run%tally%aside - run%sampler%aside
+      call sum_up(run%whole, run%sampler, run%tally, run%stop, method, limits, summary, error)
+      if (run%is_stopped .and. .not. allocated(error)) then
+         summary%status = status_stopped
+         summary%message = stopped_words(run)
+      end if
+      summary%cpu_seconds = run%cpu_before + cpu_1 - cpu_0 - run%tally%aside - run%sampler%aside
       summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
       call recorder%finish(summary, late_error)
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
+      if (.not. run%is_stopped .or. allocated(error)) return
+      call set_error(error, merge(exit_stopped, exit_integration, run%saved_at >= 0.0_wp), summary%message)
    end subroutine run_dynamic
 
    !> From step to step.
-   subroutine integrate(run, y, plan, recorder, error)
+   subroutine integrate(run, y, plan, limit_cpu, recorder, saved, error)
       type(run_t), intent(inout) :: run                   !! state of the run
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
+      real(wp), intent(in) :: limit_cpu                   !! processor time that it may take, 0: no limit [s]
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; none: it begins
       type(error_t), allocatable, intent(out) :: error    !! the integration failed, or a file could not be written
 
       integer :: n_since_progress
@@ -92,9 +114,14 @@ contains
       if (run%sampler%films%has_least) call look_at_films(run)
       call look_for_stop(run, error)
       if (allocated(error)) return
-      call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
+      if (present(saved)) then
+         if (allocated(saved)) call go_on(run, saved, recorder, error)
+      end if
+      call run%budget%begin(limit_cpu, run%cpu_before)
+      call next_checkpoint(run, plan)
+      if (.not. allocated(error)) call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
       n_since_progress = 0
-      do while (run%whole%t < plan%end .and. run%stop%met == 0 .and. .not. allocated(error))
+      do while (run%whole%t < plan%end .and. run%stop%met == 0 .and. .not. (run%is_stopped .or. allocated(error)))
          call step(run, plan, error)
          if (allocated(error)) return
          call look_for_stop(run, error)
@@ -107,11 +134,68 @@ contains
             n_since_progress = 0
             call recorder%progress(run%whole%t/plan%end)
          end if
+         if (run%stop%met == 0 .and. run%whole%t < plan%end .and. .not. allocated(error)) call heed(run, plan, recorder, error)
       end do
       if (run%stop%met > 0 .and. .not. allocated(error)) then
          call run%sampler%take_stop(run%whole, plan, run%tally%residual, recorder, error)
       end if
    end subroutine integrate
+
+   !> Go on from what was saved, instead of from the start.
+   subroutine go_on(run, saved, recorder, error)
+      type(run_t), intent(inout) :: run                   !! state of the run, begun
+      type(saved_run_t), intent(inout) :: saved           !! what was remembered
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! it is another run's
+
+      call load_run(saved, run%whole, run%sampler, run%tally, run%stop, run%cpu_before, error)
+      if (.not. allocated(error)) call recorder%go_on(saved, error)
+      run%saved_at = run%whole%t
+   end subroutine go_on
+
+   !> The instant of the plan that comes next.
+   subroutine next_checkpoint(run, plan)
+      type(run_t), intent(inout) :: run                   !! state of the run
+      type(time_plan_t), intent(in) :: plan               !! times
+
+      if (plan%checkpoint <= 0.0_wp) return
+      do
+         run%next_checkpoint = (run%n_checkpoint + 1)*plan%checkpoint
+         if (run%next_checkpoint > run%whole%t) return
+         run%n_checkpoint = run%n_checkpoint + 1
+      end do
+   end subroutine next_checkpoint
+
+   !> Save the run if it is time for it or wished for, and end it if that is.
+   subroutine heed(run, plan, recorder, error)
+      type(run_t), intent(inout) :: run                   !! state of the run, between two steps
+      type(time_plan_t), intent(in) :: plan               !! times
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+
+      type(saved_run_t) :: saved
+      integer :: wish
+      logical :: can_save, is_due
+      real(wp) :: cpu_0, cpu_1
+
+      is_due = run%whole%t >= run%next_checkpoint .and. run%whole%is_together()
+      can_save = is_due .or. .not. run%is_scheduled
+      wish = recorder%wish(can_save)
+      if (wish == wish_stop .and. run%is_scheduled .and. run%next_checkpoint < plan%end) wish = merge(wish, wish_nothing, can_save)
+      run%is_stopped = wish == wish_stop
+      if (.not. (is_due .or. (wish /= wish_nothing .and. can_save))) return
+      call cpu_time(cpu_0)
+      call save_run(run%whole, run%sampler, run%tally, run%stop, run%cpu_before + cpu_0 - run%cpu_begin, saved)
+      call recorder%save(saved, error)
+      if (allocated(error)) return
+      run%saved_at = run%whole%t
+      if (run%is_scheduled .and. .not. run%is_stopped) then
+         call load_run(saved, run%whole, run%sampler, run%tally, run%stop, cpu_1, error)
+      end if
+      call next_checkpoint(run, plan)
+      call cpu_time(cpu_1)
+      run%tally%aside = run%tally%aside + (cpu_1 - cpu_0)
+   end subroutine heed
 
    !> All parts begin.
    subroutine begin(run, y, plan, recorder, error)
@@ -157,7 +241,7 @@ contains
          do k = 1, whole%n_front
             associate (part => whole%parts(whole%front(k)))
                part%method%events%look = merge(plan%every, huge(1.0_wp), part%method%t >= plan%first_output)
-               call advance_part(part, run%tally, error)
+               call advance_part(part, run%tally, error, merge(run%next_checkpoint, huge(1.0_wp), run%is_scheduled))
                if (.not. allocated(error) .and. run%budget%is_spent()) then
                   call describe_failure(part%system, part%method, time_used_up, error)
                end if
@@ -301,88 +385,20 @@ contains
       end do
    end subroutine close_contacts
 
-   !> Cost and errors of a run, and whether it kept its limits.
-   subroutine sum_up(run, method, limits, summary, error)
-      type(run_t), intent(in) :: run                         !! state of the run
-      class(integrator_t), intent(in) :: method              !! the integrator, for its name and controls
-      type(limits_t), intent(in) :: limits                   !! what the results must fulfil
-      type(summary_t), intent(out) :: summary                !! cost and errors
-      type(error_t), allocatable, intent(inout) :: error     !! why it ended early; or a limit was not kept
+   !> That a run was ended from outside, and whether it can go on.
+   function stopped_words(run) result(words)
+      type(run_t), intent(in) :: run              !! state of the run
+      character(:), allocatable :: words          !! one line or several
 
-      type(guards_t) :: guards
-      integer :: p, worst
-
-      allocate (summary%warnings(0))
-      associate (whole => run%whole, tally => run%tally)
-         summary%method%integrator = method_name(method)
-         summary%method%solver = whole%system%linkage%solution%solver%name()
-         summary%method%stabilisation = whole%system%way%words()
-         summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
-         summary%quality%has_ledger = whole%system%ledger%is_kept
-         summary%time_end = run%stop%t
-         if (run%stop%met == 0) summary%time_end = minval([(whole%parts(p)%method%t, p=1, size(whole%parts))])
-         do p = 1, size(whole%parts)
-            associate (part => whole%parts(p))
-               summary%count%steps = summary%count%steps + part%method%count%n_steps
-               summary%count%rejected_steps = summary%count%rejected_steps + part%method%count%n_rejected
-               summary%count%rhs_evaluations = summary%count%rhs_evaluations + part%system%n_evaluations
-               summary%count%output_evaluations = summary%count%output_evaluations + part%method%count%n_output_evaluations
-               summary%count%factorisations = summary%count%factorisations + part%system%linkage%solution%solver%n_factorisations
-            end associate
-         end do
-         summary%groups = size(whole%parts)
-         if (summary%groups > 1) summary%count%rhs_evaluations = summary%count%rhs_evaluations + whole%system%n_evaluations
-         summary%count%output_evaluations = summary%count%output_evaluations + run%sampler%n_reports
-         summary%count%events = tally%events
-         summary%count%contacts = tally%contacts
-         summary%count%samples = int(run%sampler%n_sample)
-         summary%count%rows = run%sampler%n_row
-         summary%quality%energy_max = tally%energy_max
-         summary%quality%energy_residual_max = tally%residual_max
-         if (.not. summary%quality%has_ledger) summary%quality%energy_residual_max = not_a_number()
-         summary%quality%violation_max = tally%violation_max
-         summary%quality%violation_rate_max = tally%violation_rate_max
-         if (.not. allocated(error)) call audit(summary, limits, error)
-         worst = maxloc(whole%parts%worst, dim=1)
-         call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%worst, whole%parts(worst)%worst_row, &
-                             tally%least_lost, summary)
-         do p = 1, size(whole%parts)
-            call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
-         end do
-         guards = limits%guards
-         call whole%seen(guards)
-         call warn_by_guards(guards, whole%system, method, summary)
-      end associate
-      summary%status = status_complete
-      summary%message = ""
-      if (run%stop%met > 0) summary%message = run%stop%message()
-      if (allocated(error)) then
-         summary%status = status_failed
-         summary%message = error%message
+      words = "stopped from outside at t = "//real_text(run%whole%t, 9)//" s"
+      if (run%saved_at >= 0.0_wp) then
+         words = words//"; it was saved at t = "//real_text(run%saved_at, 9)//" s, and --resume goes on from there"
+      else
+         words = words//"; it was not saved: "//trim(merge("groups of bodies with steps of their own", &
+                                                                 "a method that keeps a history           ", &
+                                                                 size(run%whole%parts) > 1))// &
+                 " can be at the instants only that the key 'checkpoint' of [analysis.dynamic] sets"
       end if
-   end subroutine sum_up
-
-   !> What the guards have seen.
-   subroutine warn_by_guards(guards, system, method, summary)
-      type(guards_t), intent(in) :: guards           !! the guards
-      type(mechanism_t), intent(in) :: system        !! the whole
-      class(integrator_t), intent(in) :: method      !! the integrator
-      type(summary_t), intent(inout) :: summary      !! its warnings grow
-
-      call guards%warn(system, summary%warnings)
-      if (.not. method%is_explicit() .or. summary%count%steps < many_steps) return
-      call guards%films%warn_of_stiffness(system, summary%method%integrator, summary%warnings)
-   end subroutine warn_by_guards
-
-   !> Name of an integrator.
-   function method_name(method) result(name)
-      class(integrator_t), intent(in) :: method  !! the integrator
-      character(:), allocatable :: name          !! its name
-
-      type(kind_info_t) :: info
-
-      info = method%info()
-      name = info%name
-   end function method_name
+   end function stopped_words
 
 end module dynamic

@@ -8,6 +8,7 @@ module film_moments
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use recorder, only: recorder_t
+   use tape, only: tape_t
    implicit none (type, external)
    private
    public :: film_moments_t
@@ -32,6 +33,8 @@ module film_moments
       procedure :: next => moments_next
       procedure :: tell_at => moments_tell_at
       procedure :: tell_rest => moments_tell_rest
+      procedure :: save => moments_save
+      procedure :: load => moments_load
    end type film_moments_t
 
 contains
@@ -173,5 +176,38 @@ contains
       call recorder%field(field)
       film%slot = 0
    end subroutine tell
+
+   !> Write what is remembered of the least films, and which were told.
+   subroutine moments_save(self, tape)
+      class(film_moments_t), intent(in) :: self  !! the films
+      type(tape_t), intent(inout) :: tape        !! what is remembered
+
+      integer :: k
+
+      if (.not. allocated(self%films)) return
+      do k = 1, size(self%films)
+         call tape%put(self%films(k)%slot)
+         call tape%put([self%films(k)%distance, self%films(k)%t])
+         call tape%put(transfer(self%films(k)%motion, [0.0_wp]))
+      end do
+   end subroutine moments_save
+
+   !> Take it back.
+   subroutine moments_load(self, tape)
+      class(film_moments_t), intent(inout) :: self  !! the films, begun
+      type(tape_t), intent(inout) :: tape           !! what was remembered
+
+      real(wp) :: numbers(size(transfer(film_motion_t(), [0.0_wp])))
+      integer :: k
+
+      if (.not. allocated(self%films)) return
+      do k = 1, size(self%films)
+         call tape%get(self%films(k)%slot)
+         call tape%get(self%films(k)%distance)
+         call tape%get(self%films(k)%t)
+         call tape%get(numbers)
+         self%films(k)%motion = transfer(numbers, self%films(k)%motion)
+      end do
+   end subroutine moments_load
 
 end module film_moments

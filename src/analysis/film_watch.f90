@@ -12,6 +12,7 @@ module film_watch
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use motion, only: motion_t
+   use tape, only: tape_t
    use text, only: append_text, real_text, text_t
    implicit none (type, external)
    private
@@ -64,6 +65,8 @@ module film_watch
       procedure :: look => watch_look
       procedure :: gather => watch_gather
       procedure :: warn => watch_warn
+      procedure :: save => watch_save
+      procedure :: load => watch_load
       procedure :: warn_of_stiffness => watch_warn_of_stiffness
    end type film_watch_t
 
@@ -278,5 +281,35 @@ contains
 
       words = real_text(1.0e6_wp*length, 4)//" um"
    end function micrometres
+
+   !> Write what was seen.
+   subroutine watch_save(self, tape)
+      class(film_watch_t), intent(in) :: self   !! the watch
+      type(tape_t), intent(inout) :: tape       !! receives it
+
+      integer :: k
+
+      if (.not. allocated(self%joint)) return
+      call tape%put(self%t)
+      do k = 1, size(self%joint)
+         call tape%put(transfer(self%joint(k), [0.0_wp]))
+      end do
+   end subroutine watch_save
+
+   !> Take it back.
+   subroutine watch_load(self, tape)
+      class(film_watch_t), intent(inout) :: self  !! the watch, begun
+      type(tape_t), intent(inout) :: tape         !! holds it
+
+      real(wp) :: numbers(size(transfer(thin_film_t(), [0.0_wp])))
+      integer :: k
+
+      if (.not. allocated(self%joint)) return
+      call tape%get(self%t)
+      do k = 1, size(self%joint)
+         call tape%get(numbers)
+         self%joint(k) = transfer(numbers, self%joint(k))
+      end do
+   end subroutine watch_load
 
 end module film_watch

@@ -19,6 +19,7 @@ module guards
    use scene, only: scene_t
    use scene_size, only: extent_of_scene
    use surfaces, only: shape_plane
+   use tape, only: tape_t
    use text, only: append_text, real_text, text_t
    implicit none (type, external)
    private
@@ -69,6 +70,8 @@ module guards
       procedure :: look => guards_look
       procedure :: look_at_energy => guards_look_at_energy
       procedure :: warn => guards_warn
+      procedure :: save => guards_save
+      procedure :: load => guards_load
    end type guards_t
 
 contains
@@ -389,5 +392,48 @@ contains
          k = i
       end do
    end function greatest_of
+
+   !> Write what was seen.
+   subroutine guards_save(self, tape)
+      class(guards_t), intent(in) :: self   !! the guards of a run that need not end
+      type(tape_t), intent(inout) :: tape   !! receives it
+
+      integer :: g, k
+
+      call self%films%save(tape)
+      call tape%put(self%n_wrong)
+      if (.not. self%is_set) return
+      do k = 1, size(self%breach, 2)
+         do g = 1, n_contact_guard
+            call tape%put(transfer(self%breach(g, k), [0.0_wp]))
+         end do
+      end do
+      do k = 1, size(self%travel)
+         call tape%put(transfer(self%travel(k), [0.0_wp]))
+      end do
+   end subroutine guards_save
+
+   !> Take it back.
+   subroutine guards_load(self, tape)
+      class(guards_t), intent(inout) :: self  !! the guards, begun
+      type(tape_t), intent(inout) :: tape     !! holds it
+
+      real(wp) :: numbers(size(transfer(breach_t(), [0.0_wp])))
+      integer :: g, k
+
+      call self%films%load(tape)
+      call tape%get(self%n_wrong)
+      if (.not. self%is_set) return
+      do k = 1, size(self%breach, 2)
+         do g = 1, n_contact_guard
+            call tape%get(numbers)
+            self%breach(g, k) = transfer(numbers, self%breach(g, k))
+         end do
+      end do
+      do k = 1, size(self%travel)
+         call tape%get(numbers)
+         self%travel(k) = transfer(numbers, self%travel(k))
+      end do
+   end subroutine guards_load
 
 end module guards

@@ -1,24 +1,117 @@
-!> All that a part of a motion must remember to go on: the integrator's memory, the system's, what is watched of the contacts, and
-!> where ledger and events stand.
+!> All that a motion must remember to go on: of each part the integrator's memory, the system's, what is watched of the contacts,
+!> where ledger and events stand; of the whole what is reported, sums and what guards and drivers' jumps have noted.
 !>
 !> A part that takes it back is, with a one-step method, equal bit for bit to the one that was not interrupted. What was saved by
 !> another method, another mechanism or another form is refused by name, and nothing is changed.
-!> Limits: what guards and drivers' jumps have noted for the warnings at the end is not kept.
+!> Limits: several parts must have come to the same time, since nothing is kept of the way within their last steps.
 module run_memory
    use checkpoint, only: add_piece, checkpoint_t, piece_t
-   use errors, only: error_t
+   use errors, only: error_t, exit_usage, set_error
+   use kinds, only: wp
+   use mechanism, only: mechanism_t
    use memory, only: get, put
    use moving_part, only: moving_part_t
+   use run_failure, only: describe_failure
+   use run_tally, only: run_tally_t
+   use sampling, only: sampler_t
+   use saved_run, only: saved_run_t
    use smooth_piece, only: smooth_piece_t
+   use stop_condition, only: stop_t
+   use text, only: to_text
+   use whole_motion, only: whole_motion_t
    implicit none (type, external)
    private
-   public :: load_part_memory, save_part_memory
+   public :: load_part_memory, load_run, save_part_memory, save_run
 
    integer, parameter :: watch_version = 1   !! of the form of what is kept of contacts from step to step
    integer, parameter :: part_version = 1    !! of the form of where ledger and events stand
    integer, parameter :: n_part = 10         !! numbers of the latter
 
 contains
+
+   !> Save a run all of whose parts have come to the same time.
+   subroutine save_run(whole, sampler, tally, stop, cpu, saved)
+      type(whole_motion_t), intent(in) :: whole     !! the motion, between two steps
+      type(sampler_t), intent(in) :: sampler        !! what is reported
+      type(run_tally_t), intent(in) :: tally        !! sums and maxima
+      type(stop_t), intent(in) :: stop              !! conditions that would end the run
+      real(wp), intent(in) :: cpu                   !! processor time used so far [s]
+      type(saved_run_t), intent(out) :: saved       !! what is remembered
+
+      integer :: p, place
+
+      associate (n => size(whole%parts), tape => saved%motion)
+         saved%t = whole%t
+         allocate (saved%parts(merge(n + 1, n, n > 1)))
+         do p = 1, n
+            call save_part_memory(whole%parts(p), saved%parts(p))
+            call whole%parts(p)%guards%save(tape)
+            call whole%parts(p)%jumps%save(tape)
+         end do
+         if (n > 1) then
+            call saved%parts(n + 1)%begin(list_of_system(whole%system))
+            place = 0
+            call whole%system%save(saved%parts(n + 1)%row, place)
+         end if
+         call tape%put([whole%t, cpu])
+         call sampler%save(tape)
+         call tally%save(tape)
+         call stop%save(tape)
+      end associate
+   end subroutine save_run
+
+   !> Take it back into a run of the same deck that has begun.
+   subroutine load_run(saved, whole, sampler, tally, stop, cpu, error)
+      type(saved_run_t), intent(inout) :: saved            !! what was remembered
+      type(whole_motion_t), intent(inout) :: whole         !! the motion, begun
+      type(sampler_t), intent(inout) :: sampler            !! what is reported
+      type(run_tally_t), intent(inout) :: tally            !! sums and maxima
+      type(stop_t), intent(inout) :: stop                  !! conditions that end the run, looked at at the start
+      real(wp), intent(out) :: cpu                         !! processor time used by then [s]
+      type(error_t), allocatable, intent(out) :: error     !! it is another run's
+
+      integer :: p, place
+
+      cpu = 0.0_wp
+      associate (n => size(whole%parts), tape => saved%motion)
+         if (size(saved%parts) /= merge(n + 1, n, n > 1)) then
+            call set_error(error, exit_usage, "the checkpoint does not belong to this run: it holds "// &
+                           to_text(size(saved%parts))//" parts, and "//to_text(merge(n + 1, n, n > 1))//" are wanted")
+            return
+         end if
+         do p = 1, n
+            call load_part_memory(saved%parts(p), whole%parts(p), error)
+            if (allocated(error)) return
+            call whole%parts(p)%guards%load(tape)
+            call whole%parts(p)%jumps%load(tape)
+         end do
+         if (n > 1) then
+            call saved%parts(n + 1)%compare(list_of_system(whole%system), error)
+            if (allocated(error)) return
+            place = 0
+            call whole%system%load(saved%parts(n + 1)%row, place)
+            do while (whole%instants%next%at < whole%system%linkage%piece%end)
+               call whole%instants%pass(whole%system%linkage%piece)
+            end do
+         end if
+         call tape%get(whole%t)
+         call tape%get(cpu)
+         call sampler%load(tape)
+         call tally%load(tape)
+         call stop%load(tape)
+         if (tape%is_at_end()) return
+      end associate
+      call set_error(error, exit_usage, "the checkpoint does not belong to this run: what it holds of samples and sums is of "// &
+                     "another length")
+   end subroutine load_run
+
+   !> The pieces of a system.
+   function list_of_system(system) result(pieces)
+      type(mechanism_t), intent(in) :: system        !! the system
+      type(piece_t), allocatable :: pieces(:)        !! (any) the list
+
+      call system%list_memory(pieces)
+   end function list_of_system
 
    !> Save it.
    subroutine save_part_memory(part, checkpoint)
@@ -49,7 +142,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! it is another run's; nothing is changed
 
       type(smooth_piece_t) :: piece
-      integer :: place
+      integer :: place, status
 
       call checkpoint%compare(list_of_part(part), error)
       if (allocated(error)) return
@@ -74,6 +167,9 @@ contains
       end do
       call part%system%linkage%set_motion(part%method%t, part%method%step%y1)
       call part%instants%note_turning(part%system)
+      if (.not. part%method%begins_anew()) return
+      call part%method%restart(part%system, 0.0_wp, status)  ! what the last evaluation leaves behind is that of this state
+      if (status /= 0) call describe_failure(part%system, part%method, status, error)
    end subroutine load_part_memory
 
    !> The pieces of a part, in the order in which they are saved.

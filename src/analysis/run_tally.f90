@@ -1,6 +1,7 @@
 !> What a run adds up and holds the greatest of, over all parts of the mechanism.
 module run_tally
    use kinds, only: wp
+   use tape, only: tape_t
    implicit none (type, external)
    private
    public :: run_tally_t
@@ -19,6 +20,40 @@ module run_tally
       real(wp) :: energy_max = 0.0_wp             !! greatest level [J]
       real(wp) :: violation_max = 0.0_wp          !! greatest |Phi|; rotations times 1 m [m]
       real(wp) :: violation_rate_max = 0.0_wp     !! greatest |dPhi/dt| [m/s]
+   contains
+      procedure :: save => save_tally
+      procedure :: load => load_tally
    end type run_tally_t
+
+contains
+
+   !> Write it.
+   subroutine save_tally(self, tape)
+      class(run_tally_t), intent(in) :: self  !! the tally
+      type(tape_t), intent(inout) :: tape     !! receives it
+
+      call tape%put([self%events, self%contacts])
+      call tape%put([self%aside, self%residual, self%level, self%magnitude, self%lost, self%least_lost, self%residual_max, &
+                     self%energy_max, self%violation_max, self%violation_rate_max])
+   end subroutine save_tally
+
+   !> Take it back.
+   subroutine load_tally(self, tape)
+      class(run_tally_t), intent(inout) :: self  !! the tally
+      type(tape_t), intent(inout) :: tape        !! holds it
+
+      call tape%get(self%events)
+      call tape%get(self%contacts)
+      call tape%get(self%aside)
+      call tape%get(self%residual)
+      call tape%get(self%level)
+      call tape%get(self%magnitude)
+      call tape%get(self%lost)
+      call tape%get(self%least_lost)
+      call tape%get(self%residual_max)
+      call tape%get(self%energy_max)
+      call tape%get(self%violation_max)
+      call tape%get(self%violation_rate_max)
+   end subroutine load_tally
 
 end module run_tally

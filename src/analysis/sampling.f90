@@ -14,6 +14,7 @@ module sampling
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure
    use stop_condition, only: stop_t
+   use tape, only: tape_t
    use time_plan, only: instant, last_instant, time_plan_t
    use whole_motion, only: whole_motion_t
    implicit none (type, external)
@@ -44,6 +45,8 @@ module sampling
       procedure :: after_events
       procedure :: before_instant
       procedure :: finish => finish_samples
+      procedure :: save => save_samples
+      procedure :: load => load_samples
    end type sampler_t
 
 contains
@@ -359,5 +362,32 @@ contains
          call describe_failure(part%system, part%method, advance_failed_evaluation, error)
       end associate
    end subroutine report
+
+   !> Write how far the reports are.
+   subroutine save_samples(self, tape)
+      class(sampler_t), intent(in) :: self  !! what is reported
+      type(tape_t), intent(inout) :: tape   !! what is remembered
+
+      call tape%put(self%n_sample)
+      call tape%put(self%n_strobe)
+      call tape%put(self%n_row)
+      call tape%put(self%n_reports)
+      call tape%put([self%t_row, self%aside])
+      call self%films%save(tape)
+   end subroutine save_samples
+
+   !> Take it back.
+   subroutine load_samples(self, tape)
+      class(sampler_t), intent(inout) :: self  !! what is reported, at the start
+      type(tape_t), intent(inout) :: tape      !! what was remembered
+
+      call tape%get(self%n_sample)
+      call tape%get(self%n_strobe)
+      call tape%get(self%n_row)
+      call tape%get(self%n_reports)
+      call tape%get(self%t_row)
+      call tape%get(self%aside)
+      call self%films%load(tape)
+   end subroutine load_samples
 
 end module sampling

@@ -9,6 +9,7 @@ module stop_condition
    use kinds, only: wp
    use mechanism_report, only: report_state
    use mechanism, only: mechanism_t
+   use tape, only: tape_t
    use text, only: real_text
    implicit none (type, external)
    private
@@ -38,6 +39,8 @@ module stop_condition
       procedure :: wants => stop_wants
       procedure :: look => stop_look
       procedure :: message => stop_message
+      procedure :: save => stop_save
+      procedure :: load => stop_load
    end type stop_t
 
 contains
@@ -163,5 +166,21 @@ contains
 
       words = "stopped by intent at t = "//real_text(self%t, 9)//" s: "//self%list(self%met)%words
    end function stop_message
+
+   !> Write how far each condition is from being met.
+   subroutine stop_save(self, tape)
+      class(stop_t), intent(in) :: self     !! the conditions, none of them met
+      type(tape_t), intent(inout) :: tape   !! what is remembered
+
+      if (self%n > 0) call tape%put(self%before)
+   end subroutine stop_save
+
+   !> Take it back.
+   subroutine stop_load(self, tape)
+      class(stop_t), intent(inout) :: self  !! the conditions, looked at at the start
+      type(tape_t), intent(inout) :: tape   !! what was remembered
+
+      if (self%n > 0) call tape%get(self%before)
+   end subroutine stop_load
 
 end module stop_condition

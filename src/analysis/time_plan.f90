@@ -5,7 +5,7 @@ module time_plan
    use item, only: place_of, value_t
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
-   use scene, only: analysis_kinematic, analysis_static, scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_static, scene_t
    use spelling, only: nearest_word
    use text, only: join, to_text
    use text_list, only: text_list_t
@@ -14,6 +14,8 @@ module time_plan
    public :: instant, last_instant, new_time_plan, seconds, time_plan_t
 
    real(wp), parameter :: intervals = 1000.0_wp  !! output intervals of a motion if the deck gives none [1]
+
+   real(wp), parameter :: most_checkpoints = 1.0e5_wp  !! of a motion [1]
 
    !> What a user can do about too many instants.
    character(*), parameter :: most_help = "each takes 8 bytes in run.h5 and up to 25 in a .dat file for every number kept; " &
@@ -25,6 +27,7 @@ module time_plan
       real(wp) :: first_output = 0.0_wp     !! first output instant [s]
       real(wp) :: every = 0.0_wp            !! output interval [s]
       real(wp) :: after = 0.0_wp            !! end of the transient, for the statistics [s]
+      real(wp) :: checkpoint = 0.0_wp       !! interval of the instants at which the run is saved; 0: none is set [s]
       real(wp) :: period = 0.0_wp           !! of the drive, on average in the window of the statistics; 0: none [s]
       real(wp), allocatable :: strobes(:)   !! (n) multiples of the period from `after` to `end` [s]
       type(instants_t) :: instants          !! when functions of time are not smooth
@@ -54,6 +57,7 @@ contains
          plan%first_output = seconds(from, "from", -1.0_wp, system, diagnostics)
          last = seconds(stretch, "last", plan%end, system, diagnostics)
          plan%every = every%number
+         if (scene%analysis == analysis_dynamic) call plan_checkpoints(scene, system, plan, diagnostics)
          if (diagnostics%count() > 0) return
          if (plan%end <= 0.0_wp) then
             call diagnostics%add(end%location, "the end must be after the start", "not positive", "a motion begins at t = 0")
@@ -88,6 +92,25 @@ contains
       end if
       if (diagnostics%count() == 0) call new_instants(scene, plan%end, system%loose%n > 0, plan%instants)
    end subroutine new_time_plan
+
+   !> How often the run is saved.
+   subroutine plan_checkpoints(scene, system, plan, diagnostics)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      type(mechanism_t), intent(in) :: system             !! its system, for the drivers
+      type(time_plan_t), intent(inout) :: plan            !! times
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      associate (value => scene%settings%dynamic%values(place_of(scene%settings%dynamic, "checkpoint")))
+         plan%checkpoint = seconds(value, "checkpoint", -1.0_wp, system, diagnostics)
+         if (diagnostics%count() > 0) return
+         if (plan%checkpoint < 0.0_wp) then
+            call diagnostics%add(value%location, "'checkpoint' must not be negative", "a negative time")
+         else if (plan%checkpoint > 0.0_wp .and. plan%end > most_checkpoints*plan%checkpoint) then
+            call diagnostics%add(value%location, "there would be "//to_text(plan%end/plan%checkpoint)// &
+                                 " checkpoints, allowed are "//to_text(most_checkpoints), "too many")
+         end if
+      end associate
+   end subroutine plan_checkpoints
 
    !> The transient and the stroboscopic instants: exact multiples of the period, or of a number of turns of a driver.
    subroutine plan_statistics(scene, system, plan, diagnostics)

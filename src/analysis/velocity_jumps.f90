@@ -17,6 +17,7 @@ module velocity_jumps
    use kinds, only: wp
    use mechanism_energy, only: mechanical_energy
    use mechanism, only: mechanism_t
+   use tape, only: tape_t
    use text, only: append_text, real_text, text_t, to_text
    implicit none (type, external)
    private
@@ -34,6 +35,8 @@ module velocity_jumps
       procedure :: before_instant
       procedure :: after_instant
       procedure :: warn
+      procedure :: save => save_jumps
+      procedure :: load => load_jumps
    end type velocity_jumps_t
 
    real(wp), parameter :: is_violated = 1.0e-6_wp  !! violation of a row whose driver has jumped, of the size of the bodies [1]
@@ -109,5 +112,26 @@ contains
                        trim(merge(" rad/s", " m/s  ", system%linkage%rows%is_angle(self%row)))//" at t = "//real_text(self%t, 6)// &
                        " s; the bodies followed at once, and took "//real_text(self%work, 3)//" J from the drivers")
    end subroutine warn
+
+   !> Write what is remembered.
+   subroutine save_jumps(self, tape)
+      class(velocity_jumps_t), intent(in) :: self   !! what is remembered
+      type(tape_t), intent(inout) :: tape           !! receives it
+
+      call tape%put([self%n, self%row])
+      call tape%put([self%t, self%jump, self%work])
+   end subroutine save_jumps
+
+   !> Take it back.
+   subroutine load_jumps(self, tape)
+      class(velocity_jumps_t), intent(inout) :: self  !! what is remembered
+      type(tape_t), intent(inout) :: tape             !! holds it
+
+      call tape%get(self%n)
+      call tape%get(self%row)
+      call tape%get(self%t)
+      call tape%get(self%jump)
+      call tape%get(self%work)
+   end subroutine load_jumps
 
 end module velocity_jumps

@@ -43,6 +43,7 @@ module whole_motion
       procedure :: owes_row => whole_owes_row
       procedure :: state_at => whole_state_at
       procedure :: seen => whole_seen
+      procedure :: is_together => whole_is_together
    end type whole_motion_t
 
 contains
@@ -192,6 +193,13 @@ contains
          owes = owes .or. any(self%parts(self%front(k))%watch%owes_row)
       end do
    end function whole_owes_row
+
+   !> Whether all parts have come to the same time.
+   pure logical function whole_is_together(self) result(is_together)
+      class(whole_motion_t), intent(in) :: self   !! the motion
+
+      is_together = self%n_front == size(self%parts)
+   end function whole_is_together
 
    !> What the guards of all parts have seen.
    subroutine whole_seen(self, guards)

@@ -6,6 +6,7 @@ module event_list
    use kinds, only: wp
    use recorder, only: event_t
    use name_table, only: name_table_t
+   use tape, only: tape_t
    use text_list, only: text_list_t
    implicit none (type, external)
    private
@@ -56,6 +57,8 @@ module event_list
       procedure :: add => add_event
       procedure :: word => word_of_event
       procedure :: order_by_onset
+      procedure :: save => save_events
+      procedure :: load => load_events
    end type event_list_t
 
 contains
@@ -177,5 +180,53 @@ contains
          takes_left = self%numbers(1, order(left)) <= self%numbers(1, order(right))
       end function takes_left
    end function order_by_onset
+
+   !> Write all events.
+   subroutine save_events(self, tape)
+      class(event_list_t), intent(in) :: self  !! the list
+      type(tape_t), intent(inout) :: tape      !! receives it
+
+      integer :: k
+
+      call tape%put([self%words%n, self%n])
+      do k = 1, self%words%n
+         call tape%put(self%words%at(k))
+      end do
+      do k = 1, self%n
+         call tape%put(self%numbers(:, k))
+         call tape%put(self%codes(:, k))
+      end do
+   end subroutine save_events
+
+   !> Take them back, instead of those told so far.
+   subroutine load_events(self, tape)
+      class(event_list_t), intent(inout) :: self  !! the list
+      type(tape_t), intent(inout) :: tape         !! holds them
+
+      type(event_list_t) :: fresh
+      character(:), allocatable :: word
+      integer :: code, k, n, n_word
+      logical :: has_room
+
+      call tape%get(n_word)
+      call tape%get(n)
+      do k = 1, n_word
+         call tape%get_text(word)
+         call encode(fresh, word, code)
+      end do
+      do k = 1, n
+         call make_room(fresh, has_room)
+         if (.not. (has_room .and. tape%is_good)) return
+         fresh%n = k
+         call tape%get(fresh%numbers(:, k))
+         call tape%get(fresh%codes(:, k))
+      end do
+      self%n = fresh%n
+      self%words = fresh%words
+      self%numbers_of_words = fresh%numbers_of_words
+      if (.not. allocated(fresh%numbers)) return
+      call move_alloc(fresh%numbers, self%numbers)
+      call move_alloc(fresh%codes, self%codes)
+   end subroutine load_events
 
 end module event_list

@@ -7,6 +7,7 @@ module frames
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use scene_poses, only: pose_reader_t
+   use tape, only: tape_t
    implicit none (type, external)
    private
    public :: frame_keeper_t, frame_plan_t, frame_t, track_t, wanted_frames_t
@@ -64,6 +65,8 @@ module frames
       procedure :: reads
       procedure :: sample
       procedure :: follow
+      procedure :: save => save_frames
+      procedure :: load => load_frames
    end type frame_keeper_t
 
 contains
@@ -176,6 +179,15 @@ contains
       end do
    end subroutine follow
 
+   !> Room for a path.
+   subroutine new_track(n_joint, track)
+      integer, intent(in) :: n_joint          !! joints with clearance
+      type(track_t), intent(inout) :: track   !! the path
+
+      allocate (track%t(longest_track), track%x(3, longest_track), track%e(3, n_joint, longest_track))
+      allocate (track%f(n_joint, longest_track))
+   end subroutine new_track
+
    !> Append a row to a path, or join it to the last.
    subroutine add_row(track, t, x, e, f)
       type(track_t), intent(inout) :: track   !! the path
@@ -186,10 +198,7 @@ contains
 
       integer :: k
 
-      if (.not. allocated(track%t)) then
-         allocate (track%t(longest_track), track%x(3, longest_track), track%e(3, size(f), longest_track))
-         allocate (track%f(size(f), longest_track))
-      end if
+      if (.not. allocated(track%t)) call new_track(size(f), track)
       if (track%n > 0 .and. track%skipped < track%stride - 1) then
          track%skipped = track%skipped + 1
          track%f(:, track%n) = max(track%f(:, track%n), f)
@@ -212,5 +221,97 @@ contains
       track%e(:, :, track%n) = e
       track%f(:, track%n) = f
    end subroutine add_row
+
+   !> Write the pictures and paths so far.
+   subroutine save_frames(self, tape)
+      class(frame_keeper_t), intent(in) :: self  !! the keeper
+      type(tape_t), intent(inout) :: tape        !! receives them
+
+      integer :: i, k
+
+      do k = 1, size(self%n)
+         call tape%put(self%n(k))
+         do i = 1, self%n(k)
+            associate (frame => self%frames(i, k))
+               call tape%put(frame%t)
+               call tape%put(reshape(frame%r, [size(frame%r)]))
+               call tape%put(reshape(frame%a, [size(frame%a)]))
+               call tape%put(reshape(frame%f, [size(frame%f)]))
+               call tape%put(reshape(frame%e, [size(frame%e)]))
+            end associate
+         end do
+         associate (track => self%tracks(k))
+            call tape%put([track%n, track%skipped, track%stride])
+            do i = 1, track%n
+               call tape%put([track%t(i), track%x(:, i), reshape(track%e(:, :, i), [3*self%n_joint]), track%f(:, i)])
+            end do
+         end associate
+      end do
+   end subroutine save_frames
+
+   !> Take them back.
+   subroutine load_frames(self, tape)
+      class(frame_keeper_t), intent(inout) :: self  !! the keeper, started
+      type(tape_t), intent(inout) :: tape           !! holds them
+
+      integer :: i, k
+
+      do k = 1, size(self%n)
+         call tape%get(self%n(k))
+         do i = 1, self%n(k)
+            call load_frame(self, tape, self%frames(i, k))
+         end do
+         associate (track => self%tracks(k))
+            call tape%get(track%n)
+            call tape%get(track%skipped)
+            call tape%get(track%stride)
+            if (track%n > 0 .and. .not. allocated(track%t)) call new_track(self%n_joint, track)
+            do i = 1, track%n
+               call load_row(tape, i, track)
+            end do
+         end associate
+      end do
+   end subroutine load_frames
+
+   !> Take back a picture.
+   subroutine load_frame(self, tape, frame)
+      type(frame_keeper_t), intent(in) :: self     !! the keeper
+      type(tape_t), intent(inout) :: tape          !! holds it
+      type(frame_t), intent(out) :: frame          !! the picture
+
+      integer :: k
+
+      allocate (frame%r(3, 0:self%reader%n_body), frame%a(3, 3, 0:self%reader%n_body))
+      allocate (frame%f(3, self%n_joint), frame%e(3, self%n_joint))
+      call tape%get(frame%t)
+      do k = 0, self%reader%n_body
+         call tape%get(frame%r(:, k))
+      end do
+      do k = 0, 3*self%reader%n_body + 2
+         call tape%get(frame%a(:, modulo(k, 3) + 1, k/3))
+      end do
+      do k = 1, self%n_joint
+         call tape%get(frame%f(:, k))
+      end do
+      do k = 1, self%n_joint
+         call tape%get(frame%e(:, k))
+      end do
+   end subroutine load_frame
+
+   !> Take back a row of a path.
+   subroutine load_row(tape, i, track)
+      type(tape_t), intent(inout) :: tape     !! holds it
+      integer, intent(in) :: i                !! its number
+      type(track_t), intent(inout) :: track   !! the path
+
+      integer :: k
+
+      call tape%get(track%t(i))
+      call tape%get(track%x(:, i))
+      do k = 1, size(track%e, 2)
+         call tape%get(track%e(:, k, i))
+      end do
+      call tape%get(track%f(:, i))
+   end subroutine load_row
 
 end module frames

@@ -2,8 +2,7 @@
 !> and the completions of shells take them from here.
 module command_words
    use errors, only: exit_assembly, exit_audit, exit_deck, exit_different, exit_file, exit_integration, exit_internal, exit_ok, &
-         exit_sweep, &
-      exit_usage
+      exit_stopped, exit_sweep, exit_usage
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
    use kind_info, only: kind_info_t
@@ -18,12 +17,12 @@ module command_words
       character(9) :: name = ""      !! the verb
       character(8) :: operand = ""   !! what it works on: DECK, NAME, [KIND]; blank: nothing
       character(88) :: help = ""     !! one line
-      character(132) :: options = ""  !! the options that it takes, blank-separated
+      character(170) :: options = ""  !! the options that it takes, blank-separated
    end type command_t
 
    !> An option.
    type :: option_t
-      character(12) :: name = ""      !! with its dashes
+      character(16) :: name = ""      !! with its dashes
       character(10) :: value = ""     !! name of its value; blank: it has none
       character(100) :: help = ""     !! one line
       logical :: is_repeated = .false.   !! may stand more than once
@@ -32,7 +31,7 @@ module command_words
    type(command_t), parameter :: known_verbs(*) = [ &
       command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
                 "--out --set --ideal --analysis --tolerance --method --accuracy --budget --horizon --quiet --json --member "// &
-                "--write --legacy"), &
+                 "--write --legacy --resume --walltime --verify-restart"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
       command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
@@ -62,6 +61,9 @@ module command_words
       option_t("--member", "K", "run number K of the deck's ensemble"), &
       option_t("--write", "W", "leave out what takes long to write"), &
       option_t("--horizon", "", "how fast neighbouring motions part (Lyapunov exponent), and how long digits mean anything"), &
+      option_t("--resume", "", "go on from the checkpoint in the directory of the run; without one, begin"), &
+      option_t("--walltime", "TIME", "save the run and end it before so much time of the clock is over, as 2h"), &
+      option_t("--verify-restart", "", "run, run again with restarts from checkpoints, and compare all numbers bit for bit"), &
       option_t("--jobs", "N", "runs at once; default one for each processor"), &
       option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
       option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &
@@ -80,12 +82,12 @@ module command_words
       !! in the order of the help
 
    integer, parameter :: exit_codes(*) = [exit_ok, exit_different, exit_usage, exit_deck, exit_assembly, exit_integration, &
-         exit_audit, &
-                                          exit_sweep, exit_file, exit_internal]  !! that a run may end with
+                                          exit_audit, exit_stopped, exit_sweep, exit_file, exit_internal]  !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "compared and found different", "a wrong command line", "a mistake in the deck", &
-            "the mechanism cannot be assembled", "the integration failed", &
-      "energy or constraints above a limit, or accuracy not reached", "part of a sweep failed", "a file, the disk or memory", &
+      "the mechanism cannot be assembled", "the integration failed", &
+      "energy or constraints above a limit, or accuracy not reached", "stopped from outside, and saved", &
+      "part of a sweep failed", "a file, the disk or memory", &
       "a mistake of the program itself"]
       !! what they mean
 

@@ -3,8 +3,9 @@ module options
    use command_words, only: find_option, options_of, option_info => option_t, takers_of, verb_names, words_of_value
    use errors, only: error_t, exit_usage, set_error
    use kind_info, only: dim_time, same_dimension
-   use kinds, only: least_tolerance, wp
+   use kinds, only: i8, least_tolerance, wp
    use numbers, only: number_length, read_number
+   use processes, only: clock_ms
    use spelling, only: nearest_word
    use text, only: append_text, join, piece, split_blank, starts_with, text_t, to_text
    use units, only: parse_unit, read_quantity, unit_t
@@ -41,6 +42,14 @@ module options
       logical :: by_statistics = .false.             !! `--statistics`
    end type legacy_options_t
 
+   !> Runs that are stopped and go on.
+   type :: restart_options_t
+      logical :: is_resumed = .false.                !! `--resume`
+      logical :: is_verified = .false.               !! `--verify-restart`
+      real(wp) :: walltime = 0.0_wp                  !! `--walltime TIME`; 0: none [s]
+      integer(i8) :: begun = 0                       !! when the program began, on the clock of `clock_ms` [ms]
+   end type restart_options_t
+
    !> What the user asked for.
    type :: options_t
       character(:), allocatable :: verb              !! one of `known_verbs`
@@ -56,6 +65,7 @@ module options
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
       logical :: with_horizon = .false.              !! `--horizon`
+      type(restart_options_t) :: restart             !! runs that are stopped and go on
       type(help_options_t) :: help                   !! what help is asked for
       type(legacy_options_t) :: legacy               !! what concerns other programs
    end type options_t
@@ -70,6 +80,7 @@ contains
       character(:), allocatable :: known, value, word
       integer :: k, sign
 
+      options%restart%begun = clock_ms()
       allocate (options%operands(0), options%change%overrides(0), options%legacy%channels(0))
       options%command = "gudgeon"
       do k = 1, command_argument_count()
@@ -143,6 +154,8 @@ contains
       case ("--horizon"); options%with_horizon = .true.
       case ("--adams"); options%legacy%with_adams = .true.
       case ("--statistics"); options%legacy%by_statistics = .true.
+      case ("--resume"); options%restart%is_resumed = .true.
+      case ("--verify-restart"); options%restart%is_verified = .true.
       case ("--manual"); options%help%is_manual = .true.
       case ("--man"); options%help%is_man = .true.
       case default
@@ -179,6 +192,7 @@ contains
          case ("--set"); call append_text(options%change%overrides, value)
          case ("--methods"); options%methods = value
          case ("--accuracy"); call take_accuracy(word, value, options%accuracy, error)
+         case ("--walltime"); call take_time(word, value, options%restart%walltime, error)
          case ("--budget"); call take_time(word, value, options%budget, error)
          case ("--tolerance")
             is_finite = number_length(value) == len(value) .and. len(value) > 0

@@ -1,6 +1,6 @@
 !> What a run of a deck is to write and to say: the plan that its recorder follows.
 module run_plan
-   use build_info, only: compiler, git_sha1
+   use build_info, only: compile_flags, compiler, git_sha1
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
    use consistent_start, only: assembly_t
@@ -96,6 +96,12 @@ contains
       plan%origin%compiler = compiler
       plan%origin%libraries = library_versions()
       plan%origin%command = options%command
+      plan%origin%flags = compile_flags
+      plan%origin%choices = "--write "//options%write
+      if (options%change%member > 0) plan%origin%choices = plan%origin%choices//" --member "//to_text(options%change%member)
+      if (options%with_horizon) plan%origin%choices = plan%origin%choices//" --horizon"
+      plan%life%begun = options%restart%begun
+      plan%life%walltime = options%restart%walltime
       call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)
       allocate (plan%origin%parameter_names(loaded%deck%symbols%n_parameter))
       do k = 1, loaded%deck%symbols%n_parameter

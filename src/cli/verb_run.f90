@@ -2,9 +2,10 @@
 module verb_run
    use accurate_run, only: check_accuracy, choose_tolerance, tell_accuracy
    use build_system, only: levels_as_written, levels_ideal, new_system
+   use checkpoint_file, only: read_checkpoint
    use consistent_start, only: assembly_t
    use dynamic, only: run_dynamic
-   use errors, only: error_t, exit_usage, set_error
+   use errors, only: error_t, exit_file, exit_integration, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t
    use exponent_runs, only: find_horizon, plan_horizon
    use integrator, only: integrator_t
@@ -19,14 +20,19 @@ module verb_run
    use mobility, only: mobility_t
    use options, only: options_t
    use output_directory, only: output_directory_t
-   use output_plan, only: output_plan_t, show_nothing
+   use output_tree, only: remove_run
+   use output_plan, only: lifetime_t, output_plan_t, show_nothing
    use perturbation, only: new_shift
+   use posix, only: write_error
    use prescribed_motion, only: newton_t
-   use recorder, only: summary_t
+   use processes, only: asked_by, end_by, listen
+   use recorder, only: status_stopped, summary_t
    use run_audit, only: limits_t
    use run_limits, only: limits_of, twin_limits
    use run_plan, only: make_plan
+   use restart_run, only: check_restart, check_schedule, compare_restarted, open_directory
    use run_recorder, only: run_recorder_t
+   use saved_run, only: saved_run_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
    use setting_run, only: first_line, job_t
@@ -49,6 +55,7 @@ contains
 
       call load_deck(options, loaded, error)
       if (.not. allocated(error)) call check_accuracy(options, loaded, error)
+      if (.not. allocated(error)) call check_restart(options, loaded, error)
       if (.not. allocated(error) .and. options%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
                         trim(analysis_names(loaded%scene%analysis)))
@@ -60,33 +67,40 @@ contains
       case (analysis_static)
          call run_equilibrium(options, loaded, error)
       case default
-         call run_motion(options, loaded, error)
+         call run_motion(options, loaded, huge(1.0_wp), error)
+         if (options%restart%is_verified .and. .not. allocated(error)) call verify_restart(options, loaded%plan%end, error)
       end select
    end subroutine run_deck
 
    !> Motion in time under forces.
-   subroutine run_motion(options, loaded, error)
+   subroutine run_motion(options, loaded, stop_at, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(inout) :: loaded              !! the deck
+      real(wp), intent(in) :: stop_at                      !! time of the motion after which it is saved and ends; huge: it does not [s]
       type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
-      type(error_t), allocatable :: twin_error
       type(ideal_start_t) :: ideal
       type(limits_t) :: limits
       type(output_directory_t) :: directory
       type(output_plan_t) :: plan
       type(run_recorder_t) :: keeper
+      type(saved_run_t), allocatable :: saved
       type(subsystem_t), allocatable :: subsystems(:)
       type(summary_t) :: summary
+      logical :: goes_on, is_complete
       real(wp), allocatable :: y(:)
 
       call begin_motion(options, loaded, y, assembly, ideal, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
-      if (allocated(error)) return
+      call open_directory(options, directory_of(options, loaded), directory, goes_on, is_complete, error)
+      if (allocated(error) .or. is_complete) return
       call make_plan(options, loaded, directory, assembly, plan)
+      plan%life%is_saved = .true.
+      plan%life%is_concluded_later = .true.
+      plan%life%goes_on = goes_on
+      plan%life%stop_at = stop_at
       if (options%accuracy > 0.0_wp) then
          call choose_tolerance(options, loaded, plan, error)
          if (.not. allocated(error)) then
@@ -98,20 +112,98 @@ contains
          if (allocated(error)) return
       end if
       call new_method(loaded%scene, method)
-      if (size(plan%figures) > 0 .and. options%write == "all" .and. loaded%system%loose%n > 0) then
-         call run_twin(loaded, plan, ideal, twin_error)
-         if (allocated(twin_error)) call append_text(plan%warnings, "the figures have no ideal joint overlaid: "// &
-                                                     first_line(twin_error%message))
-      end if
       call limits_of(loaded%scene, loaded%system, loaded%catalogue, limits, plan%warnings)
       if (options%with_horizon) call look_ahead(options, loaded, plan%horizon)
       keeper%plan = plan
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")
       call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
-      call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error)
+      call check_schedule(options, loaded, method, size(subsystems), error)
+      if (goes_on .and. .not. allocated(error)) then
+         allocate (saved)
+         call read_checkpoint(plan, saved, error)
+      end if
+      if (allocated(error)) then
+         call directory%close()
+         return
+      end if
+      call listen(.true.)
+      call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error, saved)
+      call listen(.false.)
+      call conclude(loaded, ideal, keeper, summary, error)
       call directory%close()
       call tell_accuracy(plan%accuracy, error)
+      call end_as_asked(summary, error)
    end subroutine run_motion
+
+   !> After the motion: that of the ideal twin for the figures, the figures, the summary.
+   subroutine conclude(loaded, ideal, keeper, summary, error)
+      type(loaded_t), intent(in) :: loaded                      !! the deck
+      type(ideal_start_t), intent(inout) :: ideal               !! the start with ideal joints, if it was needed
+      type(run_recorder_t), intent(inout) :: keeper             !! kept the motion
+      type(summary_t), intent(in) :: summary                    !! its cost and errors
+      type(error_t), allocatable, intent(inout) :: error        !! why it ended early; or a file could not be written
+
+      type(error_t), allocatable :: late_error, twin_error
+      character(:), allocatable :: warning
+      logical :: has_twin
+
+      warning = ""
+      has_twin = size(keeper%plan%figures) > 0 .and. keeper%plan%with%figures .and. loaded%system%loose%n > 0 .and. &
+                 summary%status /= status_stopped
+      if (has_twin .and. allocated(error)) has_twin = error%code /= exit_file
+      if (has_twin) then
+         call run_twin(loaded, keeper%plan, ideal, twin_error)
+         if (allocated(twin_error)) warning = "the figures have no ideal joint overlaid: "//first_line(twin_error%message)
+      end if
+      call keeper%conclude(late_error, warning)
+      if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
+   end subroutine conclude
+
+   !> A run that a signal has ended without being saved: whoever waits for it learns which.
+   subroutine end_as_asked(summary, error)
+      type(summary_t), intent(in) :: summary                    !! how the run ended
+      type(error_t), allocatable, intent(in) :: error           !! why
+
+      if (.not. allocated(error) .or. asked_by() == 0) return
+      if (summary%status /= status_stopped .or. error%code == exit_stopped) return
+      call write_error(error%message//new_line("a"))
+      call end_by(asked_by())
+   end subroutine end_as_asked
+
+   !> The run once more, stopped and resumed several times: it must be the same.
+   subroutine verify_restart(options, end, error)
+      type(options_t), intent(in) :: options               !! the command line
+      real(wp), intent(in) :: end                          !! of the motion [s]
+      type(error_t), allocatable, intent(out) :: error     !! it is another one
+
+      integer, parameter :: n_restart = 3
+      type(loaded_t), allocatable :: loaded
+      type(options_t) :: other
+      character(:), allocatable :: directory
+      integer :: k, done
+
+      other = options
+      other%restart%is_verified = .false.
+      other%is_quiet = .true.
+      other%is_json = .false.
+      done = 0
+      do k = 1, n_restart + 1
+         allocate (loaded)
+         call load_deck(other, loaded, error)
+         if (allocated(error)) return
+         if (k == 1) directory = directory_of(options, loaded)
+         other%directory = directory//".restart"
+         call run_motion(other, loaded, merge(end*k/(n_restart + 1), huge(1.0_wp), k <= n_restart), error)
+         deallocate (loaded)
+         if (.not. allocated(error)) exit
+         if (error%code /= exit_stopped .or. asked_by() /= 0) return
+         deallocate (error)
+         done = done + 1
+         other%restart%is_resumed = .true.
+      end do
+      call compare_restarted(directory, other%directory, done, options%is_quiet .or. options%is_json, error)
+      if (.not. allocated(error)) call remove_run(other%directory, k)
+   end subroutine verify_restart
 
    !> The start of a motion, perturbed if it is one of an ensemble.
    subroutine begin_motion(options, loaded, y, assembly, ideal, error)
@@ -269,6 +361,7 @@ contains
       call new_method(loaded%scene, method)
       keeper%plan = plan
       keeper%plan%suffix = ".ideal"
+      keeper%plan%life = lifetime_t()
       keeper%plan%with%hdf5 = .false.
       keeper%plan%with%summary = .false.
       keeper%plan%with%motion = .false.

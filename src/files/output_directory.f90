@@ -6,7 +6,7 @@
 !> What is in use, not ours or a link is neither renamed nor removed.
 module output_directory
    use errors, only: error_t, exit_file, set_error
-   use output_marker, only: begin_marker, end_marker, marker_name, marker_t, read_marker
+   use output_marker, only: begin_marker, end_marker, go_on_with_marker, marker_name, marker_t, read_marker
    use output_tree, only: inspect, remove_run, tree_t
    use posix, only: close_file, host_name, is_alive, is_busy, is_directory, is_link, is_missing, list_directory, lock_file
    use posix, only: make_directory, path_exists, real_path, remove_file, rename_path
@@ -30,6 +30,7 @@ module output_directory
    contains
       procedure :: open => open_directory
       procedure :: close => close_directory
+      procedure :: open_again => open_directory_again
    end type output_directory_t
 
 contains
@@ -74,6 +75,34 @@ contains
       call close_file(self%descriptor)
       self%descriptor = -1
    end subroutine open_directory
+
+   !> Take the directory of an earlier run of ours as it is, to go on with that.
+   subroutine open_directory_again(self, path, error)
+      class(output_directory_t), intent(inout) :: self   !! the directory
+      character(*), intent(in) :: path                   !! where it is
+      type(error_t), allocatable, intent(out) :: error   !! it is in use, or not ours
+
+      type(marker_t) :: marker
+      integer :: code
+
+      call self%close()
+      if (allocated(self%warnings)) deallocate (self%warnings)
+      allocate (self%warnings(0))
+      self%path = without_slash(path)
+      self%place = real_path(self%path)
+      call lock_marker(self%place, .false., "go on in "//self%path, self%descriptor, error)
+      if (allocated(error)) return
+      if (self%descriptor >= 0) call read_marker(self%place, marker)
+      if (.not. marker%is_ours) then
+         call set_error(error, exit_file, self%path//" is not the output of gudgeon: it has no marker "//marker_name)
+      else
+         code = go_on_with_marker(self%path, marker)
+         if (code /= 0) call fail_file(error, "cannot write", self%path//"/"//marker_name, code, "")
+      end if
+      if (.not. allocated(error)) return
+      if (self%descriptor >= 0) call close_file(self%descriptor)
+      self%descriptor = -1
+   end subroutine open_directory_again
 
    !> Give the directory free for other runs; what is in it stays.
    subroutine close_directory(self)

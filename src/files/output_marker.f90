@@ -12,7 +12,7 @@ module output_marker
    use version, only: program_version
    implicit none (type, external)
    private
-   public :: begin_marker, end_marker, enter_file, marker_name, marker_t, read_marker
+   public :: begin_marker, end_marker, go_on_with_marker, enter_file, marker_name, marker_t, read_marker
 
    character(*), parameter :: marker_name = ".gudgeon"                     !! file in the directory
    character(*), parameter :: first_line = "gudgeon output directory, format 1"  !! by which it is known
@@ -45,13 +45,16 @@ module output_marker
 contains
 
    !> Say in an empty marker whose directory this is.
-   integer function begin_marker(directory) result(code)
-      character(*), intent(in) :: directory  !! as all paths of its files begin
+   integer function begin_marker(directory, id) result(code)
+      character(*), intent(in) :: directory     !! as all paths of its files begin
+      character(*), intent(in), optional :: id  !! by which a copy is known; absent: a new one
 
-      character(:), allocatable :: text
+      character(:), allocatable :: name, text
 
       here = open_marker_t()
-      text = first_line//new_line("a")//"id = "//random_name()//new_line("a")//"program = gudgeon "//program_version// &
+      name = random_name()
+      if (present(id)) name = id
+      text = first_line//new_line("a")//"id = "//name//new_line("a")//"program = gudgeon "//program_version// &
              new_line("a")//"host = "//printable(host_name())//new_line("a")//"process = "//to_text(process_number())// &
              new_line("a")//files_line//new_line("a")
       code = write_at(directory//"/"//marker_name, text, 0_i8)
@@ -61,6 +64,19 @@ contains
       allocate (here%files(64))
       call here%table%start(size(here%files))
    end function begin_marker
+
+   !> Say in the marker of an earlier run that this process goes on with it.
+   integer function go_on_with_marker(directory, marker) result(code)
+      character(*), intent(in) :: directory     !! as all paths of its files begin
+      type(marker_t), intent(in) :: marker      !! what the marker says
+
+      integer :: k
+
+      code = begin_marker(directory, marker%id)
+      do k = 1, size(marker%files)
+         if (code == 0) code = enter_file(directory//"/"//marker%files(k)%s)
+      end do
+   end function go_on_with_marker
 
    !> Enter a file that is about to be made, or a directory with a slash at its end, unless it is there.
    integer function enter_file(path) result(code)

@@ -7,7 +7,8 @@ module posix
    use kinds, only: i8
    use posix_interfaces, only: c_close, c_getpid, c_host_name, c_is_alive, c_is_link, c_isatty, c_list, c_lock
    use posix_interfaces, only: c_make_directory, c_own_path, c_path_kind, c_processors, c_random, c_real_path, c_release
-   use posix_interfaces, only: c_remove_file, c_remove_within, c_rename, c_reserve, c_setenv, c_sync, c_utc_time
+   use posix_interfaces, only: c_cut, c_free_space, c_remove_file, c_remove_within, c_rename
+   use posix_interfaces, only: c_reserve, c_setenv, c_sync, c_utc_time
    use posix_interfaces, only: c_write_at, c_write_open
    use system_file, only: system_message
    use text, only: text_t
@@ -15,6 +16,7 @@ module posix
    private
    public :: close_file, host_name, is_alive, is_busy, is_directory, is_link, is_missing, is_pipe_gone
    public :: is_terminal, list_directory, lock_file, make_directory, n_processors, own_path, path_exists, process_number
+   public :: cut_file, free_space
    public :: random_name, real_path, release_space, remove_file, remove_within, rename_path, reserve_space, set_default_variable
    public :: sync_path, system_message, utc_time, write_at, write_error, write_output
 
@@ -206,6 +208,21 @@ contains
 
       code = c_reserve(path//c_null_char, n)
    end function reserve_space
+
+   !> Cut a file off at a length that it must have.
+   integer function cut_file(path, length) result(code)
+      character(*), intent(in) :: path      !! the file
+      integer(i8), intent(in) :: length     !! bytes that stay
+
+      code = c_cut(path//c_null_char, length)
+   end function cut_file
+
+   !> Bytes that are free where a path is; negative: not known.
+   integer(i8) function free_space(path) result(n)
+      character(*), intent(in) :: path      !! any path there
+
+      n = c_free_space(path//c_null_char)
+   end function free_space
 
    !> Give back space that was reserved and not used.
    subroutine release_space(path)

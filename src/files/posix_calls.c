@@ -16,6 +16,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/types.h>
 #include <time.h>
 #include <unistd.h>
@@ -259,6 +260,23 @@ int gudgeon_reserve(const char *path, int64_t n)
    (void)n;
    return 0;
 #endif
+}
+
+/* Cuts a file off at a length that it must have. */
+int gudgeon_cut(const char *path, int64_t length)
+{
+   struct stat status;
+   if (stat(path, &status) != 0) return errno;
+   if (status.st_size < (off_t)length) return ENODATA;
+   return truncate(path, (off_t)length) == 0 ? 0 : errno;
+}
+
+/* Bytes that are free where a path is, for this user; -1: not known. */
+int64_t gudgeon_free_space(const char *path)
+{
+   struct statvfs space;
+   if (statvfs(path, &space) != 0) return -1;
+   return (int64_t)space.f_bavail * (int64_t)space.f_frsize;
 }
 
 /* Gives back what was reserved behind the end of a file and not used. */

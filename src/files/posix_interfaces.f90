@@ -5,7 +5,7 @@ module posix_interfaces
    private
    public :: c_close, c_getpid, c_host_name, c_is_alive, c_is_link, c_isatty, c_list, c_lock, c_make_directory, c_own_path
    public :: c_path_kind, c_processors, c_random, c_real_path, c_release, c_remove_file, c_remove_within, c_rename
-   public :: c_reserve, c_setenv, c_sync, c_utc_time, c_write_at, c_write_open
+   public :: c_cut, c_free_space, c_reserve, c_setenv, c_sync, c_utc_time, c_write_at, c_write_open
 
    ! allow(assumed-size, assumed-size-character-intent)
    interface
@@ -126,6 +126,19 @@ module posix_interfaces
          character(kind=c_char), intent(in) :: path(*)  !! (n) file
          integer(c_int64_t), value :: n                 !! bytes behind its end
       end function c_reserve
+
+      integer(c_int) function c_cut(path, length) bind(c, name="gudgeon_cut")
+         import :: c_char, c_int, c_int64_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)  !! (n) file
+         integer(c_int64_t), value :: length            !! bytes that stay
+      end function c_cut
+
+      integer(c_int64_t) function c_free_space(path) bind(c, name="gudgeon_free_space")
+         import :: c_char, c_int64_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)  !! (n) any path on the file system
+      end function c_free_space
 
       subroutine c_release(path) bind(c, name="gudgeon_release")
          import :: c_char

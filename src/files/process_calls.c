@@ -265,3 +265,39 @@ int gudgeon_wait_group(int process, int64_t until, int *is_late)
       if (groups[k] == process) groups[k] = 0;
    return exit_code(status);
 }
+
+static volatile sig_atomic_t asked_by; /* signal that asked this process to end; 0: none did */
+static const int asking[] = {SIGHUP, SIGINT, SIGTERM, SIGUSR1};
+enum { n_asking = sizeof asking / sizeof asking[0] };
+
+/* The first signal asks, the next one ends. */
+static void note_request(int signal_number)
+{
+   asked_by = signal_number;
+   for (int k = 0; k < n_asking; k++) {
+      struct sigaction now;
+      if (sigaction(asking[k], NULL, &now) == 0 && now.sa_handler == note_request) signal(asking[k], SIG_DFL);
+   }
+}
+
+/* From here on a signal that would end the process asks it to end, `gudgeon_asked_by` tells which; or no longer. */
+void gudgeon_listen(int is_on)
+{
+   struct sigaction now, action = {.sa_handler = note_request, .sa_flags = SA_RESTART};
+   if (is_on) asked_by = 0;
+   for (int k = 0; k < n_asking; k++) {
+      if (sigaction(asking[k], NULL, &now) != 0) continue;
+      if (is_on && now.sa_handler == SIG_DFL) sigaction(asking[k], &action, NULL);
+      if (!is_on && now.sa_handler == note_request) signal(asking[k], SIG_DFL);
+   }
+}
+
+/* The signal that asked, 0: none. */
+int gudgeon_asked_by(void) { return (int)asked_by; }
+
+/* Ends this process by the signal that asked. */
+void gudgeon_end_by(int signal_number)
+{
+   signal(signal_number, SIG_DFL);
+   raise(signal_number);
+}

@@ -8,7 +8,7 @@ module processes
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: begin_process, clock_ms, end_process, start_program, wait_any, wait_group
+   public :: asked_by, begin_process, clock_ms, end_by, end_process, listen, start_program, wait_any, wait_group
 
    ! allow(assumed-size)
    interface
@@ -22,6 +22,23 @@ module processes
          implicit none (type, external)
          integer(c_int), value :: code  !! exit code
       end subroutine c_end
+
+      subroutine c_listen(is_on) bind(c, name="gudgeon_listen")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: is_on  !! 1: from here on, 0: no longer
+      end subroutine c_listen
+
+      integer(c_int) function c_asked_by() bind(c, name="gudgeon_asked_by")
+         import :: c_int
+         implicit none (type, external)
+      end function c_asked_by
+
+      subroutine c_end_by(number) bind(c, name="gudgeon_end_by")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: number  !! of the signal
+      end subroutine c_end_by
 
       integer(c_int) function c_start_program(directory, program, arguments, n_arguments, log, is_group, process) &
          bind(c, name="gudgeon_start_program")
@@ -64,6 +81,25 @@ contains
 
       call c_end(int(code, c_int))
    end subroutine end_process
+
+   !> Let signals that would end the program (TERM, INT, HUP, USR1) ask for it instead, once; or no longer.
+   subroutine listen(is_on)
+      logical, intent(in) :: is_on  !! from here on, or no longer
+
+      call c_listen(merge(1_c_int, 0_c_int, is_on))
+   end subroutine listen
+
+   !> The signal that asked the program to end, 0: none did.
+   integer function asked_by()
+      asked_by = c_asked_by()
+   end function asked_by
+
+   !> End by a signal that asked: whoever waits for the program learns what ended it.
+   subroutine end_by(number)
+      integer, intent(in) :: number  !! of the signal
+
+      call c_end_by(int(number, c_int))
+   end subroutine end_by
 
    !> A clock that only goes forward.
    integer(i8) function clock_ms()

@@ -3,7 +3,7 @@ module text_file
    use errors, only: error_t, exit_file, set_error
    use kinds, only: i8
    use output_marker, only: enter_file
-   use posix, only: remove_file, rename_path, sync_path, system_message, write_at
+   use posix, only: cut_file, remove_file, rename_path, sync_path, system_message, write_at
    implicit none (type, external)
    private
    public :: fail_file, put_in_place, replace_file, text_file_t, write_file
@@ -15,6 +15,7 @@ module text_file
       integer(i8) :: length = 0          !! bytes that are safely written
    contains
       procedure :: append => append_to_file
+      procedure :: go_on => go_on_with_file
    end type text_file_t
 
 contains
@@ -53,6 +54,22 @@ contains
       end if
       self%length = self%length + len(text, i8)
    end subroutine append_to_file
+
+   !> Go on with a file that an earlier run has left behind: what it wrote behind some length is dropped.
+   subroutine go_on_with_file(self, length, error)
+      class(text_file_t), intent(inout) :: self          !! the file
+      integer(i8), intent(in) :: length                  !! bytes that stay
+      type(error_t), allocatable, intent(out) :: error   !! it is not there, or shorter
+
+      integer :: code
+
+      code = cut_file(self%path, length)
+      if (code /= 0) then
+         call fail_file(error, "cannot go on with", self%path, code, "It is not as the checkpoint knows it; run the deck anew.")
+         return
+      end if
+      self%length = length
+   end subroutine go_on_with_file
 
    !> Write a whole file.
    subroutine write_file(path, text, error)

@@ -81,6 +81,7 @@ module integrator
       procedure(refine_interface), deferred :: refine
       procedure, nopass :: steps => integrator_steps
       procedure, nopass :: is_explicit => integrator_is_explicit
+      procedure, nopass :: begins_anew => integrator_begins_anew
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
       procedure :: state_at => integrator_state_at
@@ -214,6 +215,11 @@ contains
    pure integer function integrator_steps() result(steps)
       steps = steps_any
    end function integrator_steps
+
+   !> Whether a method that takes back what it remembers begins anew, because it has a history that it does not save: most have none.
+   pure logical function integrator_begins_anew() result(begins_anew)
+      begins_anew = .false.
+   end function integrator_begins_anew
 
    !> Room for states and event functions, made once.
    subroutine make_room(self, system)

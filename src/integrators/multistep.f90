@@ -53,6 +53,7 @@ module multistep
       procedure :: prepare_output => multistep_prepare_output
       procedure :: within => multistep_within
       procedure :: load => multistep_load
+      procedure, nopass :: begins_anew => multistep_begins_anew
    end type multistep_t
 
    abstract interface
@@ -70,6 +71,11 @@ contains
    pure integer function multistep_steps() result(steps)
       steps = steps_variable
    end function multistep_steps
+
+   !> The history of past steps is not saved.
+   pure logical function multistep_begins_anew() result(begins_anew)
+      begins_anew = .true.
+   end function multistep_begins_anew
 
    !> Begin at a state.
    subroutine multistep_start(self, system, t, y, t_end, status)

@@ -8,6 +8,7 @@ module recorder
    use film_fields, only: field_request_t, film_field_t
    use kinds, only: i8, wp
    use linearised, only: linearised_t
+   use saved_run, only: saved_run_t, wish_nothing
    use text, only: text_t
    implicit none (type, external)
    private
@@ -109,6 +110,9 @@ module recorder
       procedure :: field => skip_field
       procedure(event_interface), deferred :: event
       procedure(progress_interface), deferred :: progress
+      procedure :: wish => wish_for_nothing
+      procedure :: save => skip_checkpoint
+      procedure :: go_on => skip_going_on
       procedure(finish_interface), deferred :: finish
    end type recorder_t
 
@@ -188,6 +192,29 @@ contains
       real(wp), intent(in) :: t                          !! time [s]
       type(catalogue_t), intent(in) :: catalogue         !! values at t
    end subroutine skip_strobe
+
+   !> Whether the run is to be saved, or to end: asked after every step, so it must be cheap. Nothing, unless a recorder knows
+   !> better; `can_save` tells it whether the run could be saved just now.
+   integer function wish_for_nothing(self, can_save) result(wish)
+      class(recorder_t), intent(inout) :: self           !! the recorder
+      logical, intent(in) :: can_save                    !! the run can be saved after this step
+
+      wish = wish_nothing
+   end function wish_for_nothing
+
+   !> Keep what a run remembers, with what the recorder remembers itself: unless it keeps such, nothing.
+   subroutine skip_checkpoint(self, saved, error)
+      class(recorder_t), intent(inout) :: self           !! the recorder
+      type(saved_run_t), intent(inout) :: saved          !! what the run remembers; the recorder's is added
+      type(error_t), allocatable, intent(out) :: error   !! it cannot be kept
+   end subroutine skip_checkpoint
+
+   !> The run goes on from what was saved: the recorder, started, takes back what it remembered. Unless it keeps such, nothing.
+   subroutine skip_going_on(self, saved, error)
+      class(recorder_t), intent(inout) :: self           !! the recorder
+      type(saved_run_t), intent(inout) :: saved          !! what was remembered
+      type(error_t), allocatable, intent(out) :: error   !! it does not belong to what the recorder finds
+   end subroutine skip_going_on
 
    !> Keep a film that was asked for: unless a recorder asks for some, nothing.
    subroutine skip_field(self, field)

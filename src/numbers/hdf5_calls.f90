@@ -5,6 +5,7 @@
 !> Fortran's order: reversed in the file.
 module hdf5_calls
    use hdf5, only: h5dcreate_f, h5dont_atexit_f, h5eset_auto_f, h5fcreate_f, h5gcreate_f, h5open_f, h5pclose_f, h5pcreate_f
+   use hdf5, only: h5f_acc_rdonly_f, h5fopen_f
    use hdf5, only: h5pset_alloc_time_f, h5pset_chunk_cache_f, h5pset_chunk_f, h5pset_create_inter_group_f
    use hdf5, only: h5pset_local_heap_size_hint_f, h5pset_obj_track_times_f, h5sclose_f, h5screate_f, h5screate_simple_f
    use hdf5, only: h5d_alloc_time_early_f, hid_t, hsize_t, size_t, h5f_acc_trunc_f, h5p_dataset_access_f, h5p_dataset_create_f
@@ -13,7 +14,7 @@ module hdf5_calls
    use posix, only: set_default_variable
    implicit none (type, external)
    private
-   public :: creation_list, is_memory_short, new_dataset, new_file, new_group, open_library
+   public :: creation_list, is_memory_short, new_dataset, new_file, new_group, open_file, open_library
 
    logical :: is_open = .false.  !! whether the library has been opened
 
@@ -100,6 +101,18 @@ contains
       call h5pclose_f(creation, closed)
       call h5pclose_f(access, closed)
    end subroutine new_file
+
+   !> Open a file to read it.
+   subroutine open_file(path, file, status)
+      character(*), intent(in) :: path      !! where
+      integer(hid_t), intent(out) :: file   !! the open file; negative: there is none that can be read
+      integer, intent(inout) :: status      !! negative: failed
+
+      file = -1
+      call open_library(status)
+      if (status >= 0) call h5fopen_f(path, h5f_acc_rdonly_f, file, status)
+      if (status < 0) file = -1
+   end subroutine open_file
 
    !> Make a group, and those above it.
    subroutine new_group(file, path, group, status)

@@ -32,6 +32,7 @@ contains
       integer, intent(inout) :: status                 !! negative: failed
 
       type(text_t) :: names(size(extremes%channels)), units(size(extremes%channels))
+      type(text_t) :: of_joints(size(joints))
       integer :: k, n
 
       n = size(extremes%channels)
@@ -50,8 +51,10 @@ contains
          call put("channels/rms", [(extremes%rms(k), k=1, n)], "list", "root mean square over the time")
       end if
       if (size(joints) == 0) return
-      call text_dataset(file, "extremes/joints/name", [(text_t(joints(k)%name), k=1, size(joints))], .false., "loose joints", &
-                        status)
+      do k = 1, size(joints)
+         of_joints(k)%s = joints(k)%name
+      end do
+      call text_dataset(file, "extremes/joints/name", of_joints, .false., "loose joints", status)
       call integer_dataset(file, "extremes/joints/impacts", [size(joints)], joints%impacts, "contacts that began", status)
       call put("joints/contact_fraction", joints%contact_fraction, "1", "part of the time in contact")
       call put("joints/impact_speed", joints%speed, "m/s", "greatest impact speed")

@@ -16,7 +16,8 @@ module hdf5_writer
    use hdf5_accuracy, only: bytes_of_accuracy, write_accuracy
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5gclose_f, h5f_scope_local_f, hid_t, hsize_t
    use hdf5_attributes, only: text_attribute
-   use hdf5_calls, only: is_memory_short, new_file, new_group, open_library
+   use hdf5_calls, only: is_memory_short, new_file, new_group, open_file, open_library
+   use hdf5_copy, only: copy_rows
    use hdf5_datasets, only: text_dataset
    use hdf5_events, only: event_table_t
    use hdf5_extremes, only: bytes_of_extremes, write_extremes
@@ -30,9 +31,10 @@ module hdf5_writer
    use kinds, only: i8, wp
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: release_space, remove_file, reserve_space, sync_path, system_message
+   use posix, only: release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t
+   use tape, only: tape_t
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -64,6 +66,9 @@ module hdf5_writer
    contains
       procedure, public :: start => start_file
       procedure, public :: sample => sample_file
+      procedure, public :: flush => write_block
+      procedure, public :: save => save_file
+      procedure, public :: go_on => go_on_with_file
       procedure, public :: finish => finish_file
    end type hdf5_writer_t
 
@@ -81,6 +86,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/run.h5"
+      if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that goes on stays until its rows are here
       self%with_histories = plan%with%histories
       self%accuracy = plan%accuracy
       block = rows_of_block(catalogue)
@@ -167,9 +173,63 @@ contains
       waited = real(now - self%flushed_at, wp) > longest_wait*real(rate, wp)
    end function waited
 
+   !> Write where the file stands: all rows and events must be in it.
+   subroutine save_file(self, tape)
+      class(hdf5_writer_t), intent(in) :: self  !! the file, flushed
+      type(tape_t), intent(inout) :: tape       !! receives it
+
+      call tape%put([self%written, self%events%written])
+      call tape%put(self%last_time)
+   end subroutine save_file
+
+   !> Take over the rows and events that the file of an earlier run had when it was saved, and its place.
+   subroutine go_on_with_file(self, tape, error)
+      class(hdf5_writer_t), intent(inout) :: self        !! the file, made
+      type(tape_t), intent(inout) :: tape                !! holds where that file stood
+      type(error_t), allocatable, intent(out) :: error   !! it is not as it was, or cannot be read
+
+      character(:), allocatable :: path
+      integer(hid_t) :: earlier
+      integer(i8) :: bytes
+      integer :: closed, k, status
+
+      status = 0
+      path = self%path(:len(self%path) - len(".part"))
+      call tape%get(self%written)
+      call tape%get(self%events%written)
+      call tape%get(self%last_time)
+      bytes = 9_i8*self%written
+      do k = 1, size(self%datasets)
+         bytes = bytes + 8_i8*size(self%datasets(k)%rows, 1, i8)*self%written
+      end do
+      call reserve(self, bytes + int(self%events%record, i8)*self%events%written, error)
+      if (allocated(error)) return
+      call open_file(path, earlier, status)
+      call copy_rows(earlier, self%kinds%id, self%written, status)
+      do k = 1, size(self%datasets)
+         call copy_rows(earlier, self%datasets(k)%id, self%written, status)
+      end do
+      call copy_rows(earlier, self%events%id, self%events%written, status)
+      call copy_rows(earlier, self%time, self%written, status)
+      if (earlier >= 0) call h5fclose_f(earlier, closed)
+      if (status < 0) then
+         self%is_broken = .true.
+         call set_error(error, exit_file, "cannot go on with "//path//": it does not have the "//to_text(self%written)// &
+                        " rows of the checkpoint; run the deck anew")
+         return
+      end if
+      call flush_file(self, status)
+      if (status >= 0) status = -rename_path(self%path, path)
+      if (status < 0) then
+         call fail(self, "cannot make", "no space, or no right to write there", error)
+         return
+      end if
+      self%path = path
+   end subroutine go_on_with_file
+
    !> Write the waiting rows and events.
    subroutine write_block(self, events, error)
-      type(hdf5_writer_t), intent(inout) :: self         !! the file
+      class(hdf5_writer_t), intent(inout) :: self         !! the file
       type(event_list_t), intent(in) :: events           !! all events so far
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
 
@@ -210,7 +270,7 @@ contains
 
    !> Make sure that what is written next finds its space.
    subroutine reserve(self, bytes, error)
-      type(hdf5_writer_t), intent(inout) :: self         !! the file
+      class(hdf5_writer_t), intent(inout) :: self         !! the file
       integer(i8), intent(in) :: bytes                   !! of data
       type(error_t), allocatable, intent(out) :: error   !! there is no space
 
@@ -222,7 +282,7 @@ contains
 
    !> Hand all to the operating system.
    subroutine flush_file(self, status)
-      type(hdf5_writer_t), intent(inout) :: self  !! the file
+      class(hdf5_writer_t), intent(inout) :: self  !! the file
       integer, intent(inout) :: status            !! negative: failed
 
       call h5fflush_f(self%file, h5f_scope_local_f, status)
@@ -231,7 +291,7 @@ contains
 
    !> Note that nothing more can be written, and say what is safe.
    subroutine fail(self, action, why, error)
-      type(hdf5_writer_t), intent(inout) :: self         !! the file
+      class(hdf5_writer_t), intent(inout) :: self         !! the file
       character(*), intent(in) :: action                 !! what failed
       character(*), intent(in) :: why                    !! why, as far as known
       type(error_t), allocatable, intent(out) :: error   !! the error

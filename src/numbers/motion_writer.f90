@@ -11,7 +11,8 @@ module motion_writer
    use errors, only: error_t, exit_file, set_error
    use hdf5, only: h5dclose_f, h5fclose_f, h5fflush_f, h5f_scope_local_f, hid_t
    use hdf5_attributes, only: text_attribute
-   use hdf5_calls, only: is_memory_short, new_file, open_library
+   use hdf5_calls, only: is_memory_short, new_file, open_file, open_library
+   use hdf5_copy, only: copy_rows
    use hdf5_datasets, only: text_dataset
    use hdf5_layout, only: write_status
    use hdf5_rows, only: write_rows
@@ -19,9 +20,10 @@ module motion_writer
    use motion_layout, only: growing_t, make_cells, make_steps, most_growing, point_layout_t, set_steps
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
-   use posix, only: release_space, remove_file, reserve_space, sync_path, system_message
+   use posix, only: release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, status_running
    use scene_poses, only: at_contact, contact_force, contact_penetration, contact_state, contact_value, pose_reader_t, velocity_at
+   use tape, only: tape_t
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -52,6 +54,9 @@ module motion_writer
    contains
       procedure, public :: start => start_file
       procedure, public :: sample => sample_file
+      procedure, public :: flush => write_block
+      procedure, public :: save => save_file
+      procedure, public :: go_on => go_on_with_file
       procedure, public :: finish => finish_file
    end type motion_writer_t
 
@@ -67,6 +72,7 @@ contains
       integer :: block, closed, status
 
       self%path = plan%directory//"/"//motion_name
+      if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that goes on stays until its steps are here
       self%drawing = plan%looks%drawing
       call self%reader%bind(catalogue)
       status = enter_file(self%path)
@@ -174,9 +180,50 @@ contains
       has_waited = real(now - self%flushed_at, wp) > longest_wait*real(rate, wp)
    end function has_waited
 
+   !> Write where the file stands: all steps must be in it.
+   subroutine save_file(self, tape)
+      class(motion_writer_t), intent(in) :: self  !! the file, flushed
+      type(tape_t), intent(inout) :: tape         !! receives it
+
+      call tape%put(self%written)
+   end subroutine save_file
+
+   !> Take over the steps that the file of an earlier run had when it was saved, and its place.
+   subroutine go_on_with_file(self, tape, error)
+      class(motion_writer_t), intent(inout) :: self      !! the file, made
+      type(tape_t), intent(inout) :: tape                !! holds where that file stood
+      type(error_t), allocatable, intent(out) :: error   !! it is not as it was, or cannot be read
+
+      character(:), allocatable :: path
+      integer(hid_t) :: earlier
+      integer :: closed, k, status
+
+      status = 0
+      path = self%path(:len(self%path) - len(".part"))
+      call tape%get(self%written)
+      call open_file(path, earlier, status)
+      do k = 1, most_growing
+         call copy_rows(earlier, self%list(k)%id, self%written*self%list(k)%n_row, status)
+      end do
+      if (earlier >= 0) call h5fclose_f(earlier, closed)
+      if (status < 0) then
+         call set_error(error, exit_file, "cannot go on with "//path//": it does not have the "//to_text(self%written)// &
+                        " steps of the checkpoint; run the deck anew")
+         return
+      end if
+      call set_steps(self%file, self%written, status)
+      call flush_file(self, status)
+      if (status >= 0) status = -rename_path(self%path, path)
+      if (status < 0) then
+         call fail(self, "cannot make", "no space, or no right to write there", error)
+         return
+      end if
+      self%path = path
+   end subroutine go_on_with_file
+
    !> Write the waiting steps.
    subroutine write_block(self, error)
-      type(motion_writer_t), intent(inout) :: self       !! the file
+      class(motion_writer_t), intent(inout) :: self       !! the file
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
 
       integer(i8) :: bytes
@@ -215,7 +262,7 @@ contains
 
    !> Hand all to the operating system.
    subroutine flush_file(self, status)
-      type(motion_writer_t), intent(inout) :: self  !! the file
+      class(motion_writer_t), intent(inout) :: self  !! the file
       integer, intent(inout) :: status              !! negative: failed
 
       call h5fflush_f(self%file, h5f_scope_local_f, status)
@@ -224,7 +271,7 @@ contains
 
    !> Close the file after a failure, unless it is left alone, and say what is safe.
    subroutine fail(self, action, why, error)
-      type(motion_writer_t), intent(inout) :: self       !! the file
+      class(motion_writer_t), intent(inout) :: self       !! the file
       character(*), intent(in) :: action                 !! what failed
       character(*), intent(in) :: why                    !! why, as far as known
       type(error_t), allocatable, intent(out) :: error   !! the error
@@ -262,7 +309,7 @@ contains
 
    !> Close the file and all in it.
    subroutine close_all(self, status)
-      type(motion_writer_t), intent(inout) :: self  !! the file
+      class(motion_writer_t), intent(inout) :: self  !! the file
       integer, intent(inout) :: status              !! negative: failed
 
       integer :: closed, k

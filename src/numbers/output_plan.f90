@@ -4,11 +4,12 @@ module output_plan
    use drawing, only: drawing_t
    use exponent, only: horizon_t
    use frames, only: frame_plan_t
+   use kinds, only: i8, wp
    use statistics, only: statistics_plan_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: output_plan_t
+   public :: lifetime_t, output_plan_t
    public :: show_json, show_nothing, show_summary
 
    integer, parameter :: show_nothing = 0  !! nothing on the standard output
@@ -27,6 +28,8 @@ module output_plan
       character(:), allocatable :: compiler            !! name and version
       character(:), allocatable :: libraries           !! names and versions
       character(:), allocatable :: command             !! the command line
+      character(:), allocatable :: flags               !! what it was compiled with
+      character(:), allocatable :: choices             !! options that decide what is written, in words
       type(text_t), allocatable :: parameter_names(:)  !! (m) parameters of the deck
       type(text_t), allocatable :: parameter_texts(:)  !! (m) their values in force, as written
    end type origin_t
@@ -44,6 +47,16 @@ module output_plan
       logical :: progress = .true.          !! show how far the run is on the standard error
       logical :: warnings = .true.          !! print warnings on the standard error
    end type written_t
+
+   !> How long a run may last, and whether it can go on another time.
+   type :: lifetime_t
+      logical :: is_saved = .false.         !! it is saved now and then, and when it is asked to end
+      logical :: goes_on = .false.          !! it goes on from what an earlier run has saved
+      logical :: is_concluded_later = .false.  !! figures and summary are made when they are asked for, not when the motion ends
+      integer(i8) :: begun = 0              !! when the program began, on the clock of `clock_ms` [ms]
+      real(wp) :: walltime = 0.0_wp         !! time from then on after which it ends; 0: none is set [s]
+      real(wp) :: stop_at = huge(1.0_wp)    !! time of the motion after which it is saved and ends [s]
+   end type lifetime_t
 
    !> What the mechanism looks like, and when, if someone wants to see it.
    type :: looks_t
@@ -66,6 +79,7 @@ module output_plan
       type(looks_t) :: looks                           !! what drawings of the mechanism need
       type(horizon_t) :: horizon                       !! how long digits mean anything; without times: it was not asked for
       type(written_t) :: with                          !! what is written
+      type(lifetime_t) :: life                         !! how long it may last
       character(:), allocatable :: contact_rows        !! rows at the instants of contacts in words; blank: there are no contacts
       integer :: show = show_summary                   !! what to print at the end, one of the above
    contains
@@ -88,6 +102,8 @@ contains
       call fill(self%origin%compiler, "unknown")
       call fill(self%origin%libraries, "unknown")
       call fill(self%origin%command, "")
+      call fill(self%origin%flags, "")
+      call fill(self%origin%choices, "")
       call fill(self%suffix, "")
       call fill(self%contact_rows, "")
       call fill_list(self%origin%include_names)

@@ -68,7 +68,7 @@ contains
       end do
       if (with_kinds) call heading%add(" ""row_kind [1]""")
       call heading%line("")
-      call self%file%append(heading%get(), error)
+      if (.not. plan%life%goes_on) call self%file%append(heading%get(), error)
    end subroutine start_table
 
    !> The `#` lines that every file of a run begins with.

@@ -13,6 +13,7 @@ module text_writer
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
    use posix, only: make_directory
+   use tape, only: tape_t
    use text, only: text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: fail_file, replace_file, text_file_t
@@ -49,6 +50,9 @@ module text_writer
    contains
       procedure, public :: start => start_files
       procedure, public :: sample => sample_files
+      procedure, public :: flush => write_block
+      procedure, public :: save => save_files
+      procedure, public :: go_on => go_on_with_files
       procedure, public :: finish => finish_files
    end type text_writer_t
 
@@ -192,7 +196,7 @@ contains
       end do
       call heading%line("")
       self%heading = heading%get()
-      call self%events%append(self%heading, error)
+      if (.not. plan%life%goes_on) call self%events%append(self%heading, error)
    end subroutine start_events
 
    !> Keep a row of every table; write them if the block is full.
@@ -218,9 +222,46 @@ contains
       end if
    end subroutine sample_files
 
+   !> Write where the files stand: all rows and events must be in them.
+   subroutine save_files(self, tape)
+      class(text_writer_t), intent(in) :: self  !! the files, flushed
+      type(tape_t), intent(inout) :: tape       !! receives it
+
+      integer :: k
+
+      call tape%put([self%written, self%written_events])
+      call tape%put(self%last_time)
+      do k = 1, size(self%tables)
+         call tape%put(self%tables(k)%file%length)
+      end do
+      if (self%with_events) call tape%put(self%events%length)
+   end subroutine save_files
+
+   !> Go on with the files of an earlier run where they stood when it was saved.
+   subroutine go_on_with_files(self, tape, error)
+      class(text_writer_t), intent(inout) :: self        !! the files, started
+      type(tape_t), intent(inout) :: tape                !! holds where they stood
+      type(error_t), allocatable, intent(out) :: error   !! one is not as it was
+
+      integer(i8) :: length
+      integer :: k
+
+      call tape%get(self%written)
+      call tape%get(self%written_events)
+      call tape%get(self%last_time)
+      do k = 1, size(self%tables)
+         call tape%get(length)
+         call self%tables(k)%file%go_on(length, error)
+         if (allocated(error)) return
+      end do
+      if (.not. self%with_events) return
+      call tape%get(length)
+      call self%events%go_on(length, error)
+   end subroutine go_on_with_files
+
    !> Write the waiting rows and events.
    subroutine write_block(self, t, events, error)
-      type(text_writer_t), intent(inout) :: self         !! the files
+      class(text_writer_t), intent(inout) :: self         !! the files
       real(wp), intent(in) :: t                          !! time of the last row [s]
       type(event_list_t), intent(in) :: events           !! all events so far
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written

@@ -17,15 +17,16 @@ module run_recorder
    use film_words, only: missing_films
    use frames, only: frame_keeper_t
    use hdf5_writer, only: hdf5_writer_t
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use memory_purpose, only: memory_is_for
    use motion_writer, only: motion_name, motion_writer_t
    use output_plan, only: output_plan_t, show_json, show_summary
    use plot_table, only: plot_table_t
    use posix, only: write_error
    use progress, only: progress_t
-   use recorder, only: event_t, recorder_t, row_instant, status_failed, summary_t
+   use recorder, only: event_t, recorder_t, row_instant, status_complete, status_failed, status_stopped, summary_t
    use report_page, only: report_name, report_text
+   use saved_run, only: saved_run_t
    use scene_poses, only: pose_reader_t
    use standard_output, only: print_text
    use statistics, only: number_t, statistics_t
@@ -38,6 +39,15 @@ module run_recorder
    implicit none (type, external)
    private
    public :: run_recorder_t
+
+   !> When a run was looked after, and how long it takes from one instant at which it can be saved to the next.
+   type :: pace_t
+      integer :: n_step = 0                !! steps since the clock was looked at
+      integer(i8) :: saved_at = 0          !! when it was saved, or began [ms]
+      integer(i8) :: could_save_at = 0     !! when it could be saved last [ms]
+      integer(i8) :: longest = 0           !! time between two such instants [ms]
+      integer(i8) :: cost = 0              !! time that it takes to save it [ms]
+   end type pace_t
 
    !> The recorder. Set `plan` before `start`.
    type, extends(recorder_t) :: run_recorder_t
@@ -58,6 +68,9 @@ module run_recorder
       type(film_field_t), allocatable, private :: fields(:)   !! (any) films that were asked for
       real(wp), private :: last_time = 0.0_wp                 !! time of the last sample [s]
       logical, private :: has_started = .false.               !! files were made
+      type(summary_t), private :: summary                     !! of the run, once it is finished
+      type(outcome_t), private :: outcome                     !! what it left behind
+      type(pace_t), private :: pace                           !! when it is to be saved
       logical, private :: is_broken = .false.                 !! a file could not be written
    contains
       procedure :: start => start_run
@@ -69,7 +82,43 @@ module run_recorder
       procedure :: event => event_run
       procedure :: progress => progress_run
       procedure :: finish => finish_run
+      procedure :: wish => wish_of_run
+      procedure :: save => save_run
+      procedure :: go_on => go_on_with_run
+      procedure :: forget => forget_checkpoint
+      procedure :: conclude => conclude_run
    end type run_recorder_t
+
+   interface
+      !> Whether the run is to be saved or to end: signals, the time of the wall, and what the plan says.
+      module integer function wish_of_run(self, can_save) result(wish)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder
+         logical, intent(in) :: can_save                    !! the run can be saved after this step
+      end function wish_of_run
+
+      !> Write all that waits, and the checkpoint.
+      module subroutine save_run(self, saved, error)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder
+         type(saved_run_t), intent(inout) :: saved          !! what the run remembers; the recorder's is added
+         type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+      end subroutine save_run
+
+      !> Take back what was remembered, and take over the files.
+      module subroutine go_on_with_run(self, saved, error)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder, started
+         type(saved_run_t), intent(inout) :: saved          !! what was remembered
+         type(error_t), allocatable, intent(out) :: error   !! the files are not as they were
+      end subroutine go_on_with_run
+
+      !> The run is complete: its checkpoint is of no use.
+      module subroutine forget_checkpoint(self)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder
+      end subroutine forget_checkpoint
+   end interface
 
 contains
 
@@ -302,61 +351,86 @@ contains
       call self%display%update(fraction)
    end subroutine progress_run
 
-   !> Finish the files, make the figures, write and show the summary.
+   !> Finish the files; make the figures and the summary too, unless that is asked for later.
    subroutine finish_run(self, summary, error)
       class(run_recorder_t), intent(inout) :: self       !! the recorder
       type(summary_t), intent(in) :: summary             !! cost and errors of the run
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       type(error_t), allocatable :: second
-      type(outcome_t) :: outcome
-      type(summary_t) :: full
-      type(number_t), allocatable :: numbers(:)
-      type(plot_table_t), allocatable :: tables(:)
-      type(text_t), allocatable :: missing(:)
-      integer :: k
 
       call self%display%finish()
       if (.not. self%has_started) return
       call memory_is_for("the statistics and the sorted list of "//to_text(self%events%n)//" events")
-      full = complete_summary(summary)
-      numbers = self%statistics%numbers(self%items, self%events, full%time_end)
-      outcome%extremes = self%extremes
-      call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
-      allocate (outcome%pictures(0), outcome%warnings(0))
-      call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
-      if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
-      if (self%plan%with%hdf5) then
-         call self%hdf5%finish(full, self%events, self%statistics, self%items, numbers, self%extremes, outcome%joints, &
-                               self%fields, outcome%warnings, error)
-      end if
-      allocate (outcome%files(0))
-      if (self%plan%with%texts) then
-         call self%texts%finish(self%last_time, self%events, second)
+      self%summary = complete_summary(summary)
+      associate (outcome => self%outcome, full => self%summary)
+         outcome%numbers = self%statistics%numbers(self%items, self%events, full%time_end)
+         outcome%extremes = self%extremes
+         call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
+         allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0))
+         call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
+         if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
+         if (self%plan%with%hdf5) then
+            call self%hdf5%finish(full, self%events, self%statistics, self%items, outcome%numbers, self%extremes, outcome%joints, &
+                                  self%fields, outcome%warnings, error)
+         end if
+         if (self%plan%with%texts) then
+            call self%texts%finish(self%last_time, self%events, second)
+            call join_errors(error, second)
+            outcome%files = self%texts%names
+         end if
+         call self%motion%finish(full%status, second)
          call join_errors(error, second)
-         outcome%files = self%texts%names
-      end if
-      call self%motion%finish(full%status, second)
-      call join_errors(error, second)
-      if (self%plan%with%motion) call append_text(outcome%files, motion_name)
-      outcome%numbers = numbers
+         if (self%plan%with%motion) call append_text(outcome%files, motion_name)
+      end associate
       self%is_broken = self%is_broken .or. allocated(error)
-      if (self%plan%with%figures .and. .not. self%is_broken) then
-         call memory_is_for("the figures")
-         allocate (tables(size(self%figures)))
-         do k = 1, size(tables)
-            call statistics_table(self%figures(k), self%statistics, self%items, self%events, full%time_end, &
-                                  file_heading(self%plan), tables(k))
-         end do
-         call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, self%fields, &
-                           self%plan%looks%drawing, self%keeper, outcome%pictures, missing, second)
-         call append_all(outcome%warnings, missing)
-         call join_errors(error, second)
-      end if
-      call write_summary(self, full, outcome, second)
+      if (self%plan%life%is_concluded_later) return
+      call self%conclude(second)
       call join_errors(error, second)
-      self%has_started = .false.
    end subroutine finish_run
+
+   !> Make the figures of a run that was finished, write and show the summary.
+   subroutine conclude_run(self, error, warning)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+      character(*), intent(in), optional :: warning      !! what is to be known besides
+
+      type(error_t), allocatable :: second
+
+      if (.not. self%has_started) return
+      if (present(warning)) then
+         if (len(warning) > 0) call append_text(self%outcome%warnings, warning)
+      end if
+      if (self%plan%with%figures .and. self%summary%status == status_stopped) then
+         call append_text(self%outcome%warnings, "figures are drawn when the run has come to its end")
+      else if (self%plan%with%figures .and. .not. self%is_broken) then
+         call draw_figures(self, error)
+      end if
+      call write_summary(self, self%summary, self%outcome, second)
+      call join_errors(error, second)
+      if (self%summary%status == status_complete .and. .not. allocated(error)) call self%forget()
+      self%has_started = .false.
+   end subroutine conclude_run
+
+   !> Make the figures.
+   subroutine draw_figures(self, error)
+      class(run_recorder_t), intent(inout) :: self       !! the recorder
+      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+
+      type(plot_table_t), allocatable :: tables(:)
+      type(text_t), allocatable :: missing(:)
+      integer :: k
+
+      call memory_is_for("the figures")
+      allocate (tables(size(self%figures)))
+      do k = 1, size(tables)
+         call statistics_table(self%figures(k), self%statistics, self%items, self%events, self%summary%time_end, &
+                               file_heading(self%plan), tables(k))
+      end do
+      call make_figures(self%plan%directory, self%plan%title, self%figures, self%items, tables, self%fields, &
+                        self%plan%looks%drawing, self%keeper, self%outcome%pictures, missing, error)
+      call append_all(self%outcome%warnings, missing)
+   end subroutine draw_figures
 
    !> Append a list to a list.
    subroutine append_all(list, more)

@@ -62,6 +62,9 @@ contains
       call add_number(info, "violation_limit", dim_length, "greatest constraint violation allowed; 0: none", &
                       default="0 m", lower=0.0_wp)
       call add_limit_cpu(info)
+      call add_duration(info, "checkpoint", "the run is saved so often, a time or `N turns of DRIVER`; adams, bdf and ida begin " &
+                        //"anew there, groups of bodies wait for one another; 0: every ten minutes of the clock, of these " &
+                        //"methods and groups never", default="0 s")
       call add_control_columns(info)
    end function dynamic_info
 
@@ -207,6 +210,8 @@ contains
                     " contacts)", default="auto", choices="auto on off")
       call add_number(info, "instants_limit", dim_none, "greatest number of output instants, and of periods of the statistics", &
                       default="1e7", lower=2.0_wp, upper=2.0e9_wp)
+      call add_number(info, "size_limit", dim_none, "greatest size of all that a run may write, in GB, as estimated before it", &
+                      default="100", lower=1.0e-6_wp)
       call add_words(info, "channels", "what is written: item.channel, item.*, *.channel or *", default="*")
       call add_word(info, "motion", "the moving mechanism in a file for other programs: vtkhdf (motion.vtkhdf, which ParaView " &
                     //"plays), one step for each output instant", default="off", choices="off vtkhdf")

@@ -10,6 +10,7 @@ module extremes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
    use name_table, only: name_table_t
+   use tape, only: tape_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -41,6 +42,8 @@ module extremes
       procedure :: note => note_extremes
       procedure :: mean => mean_of
       procedure :: rms => rms_of
+      procedure :: save => save_extremes
+      procedure :: load => load_extremes
    end type extremes_t
 
    !> What the contacts of a joint went through.
@@ -219,5 +222,36 @@ contains
       end subroutine raise
 
    end subroutine add_contact
+
+   !> Write what was gathered.
+   subroutine save_extremes(self, tape)
+      class(extremes_t), intent(in) :: self  !! what was gathered
+      type(tape_t), intent(inout) :: tape    !! receives it
+
+      integer :: k
+
+      call tape%put(self%n_sample)
+      call tape%put([self%t_first, self%t_last])
+      do k = 1, size(self%of)
+         call tape%put(transfer(self%of(k), [0.0_wp]))
+      end do
+   end subroutine save_extremes
+
+   !> Take it back.
+   subroutine load_extremes(self, tape)
+      class(extremes_t), intent(inout) :: self  !! started
+      type(tape_t), intent(inout) :: tape       !! holds it
+
+      real(wp) :: numbers(size(transfer(extreme_t(), [0.0_wp])))
+      integer :: k
+
+      call tape%get(self%n_sample)
+      call tape%get(self%t_first)
+      call tape%get(self%t_last)
+      do k = 1, size(self%of)
+         call tape%get(numbers)
+         self%of(k) = transfer(numbers, self%of(k))
+      end do
+   end subroutine load_extremes
 
 end module extremes

@@ -14,6 +14,7 @@ module statistics
    use event_list, only: event_list_t
    use kinds, only: not_a_number, wp
    use spectrum, only: amplitude_spectrum
+   use tape, only: tape_t
    use text, only: text_t
    implicit none (type, external)
    private
@@ -72,6 +73,8 @@ module statistics
       procedure :: strobe => strobe_statistics
       procedure :: numbers => numbers_of_run
       procedure :: spectrum_of
+      procedure :: save => save_statistics
+      procedure :: load => load_statistics
    end type statistics_t
 
 contains
@@ -207,22 +210,29 @@ contains
       real(wp), intent(in) :: t                   !! time [s]
       type(catalogue_t), intent(in) :: catalogue  !! values at t
 
-      real(wp), allocatable :: longer(:)
       integer :: k
 
       if (.not. self%plan%is_wanted) return
-      self%n_strobe = self%n_strobe + 1
-      call make_room(self%strobes, self%n_strobe)
-      if (self%n_strobe > size(self%strobe_times)) then
-         allocate (longer(size(self%strobes, 2)), source=0.0_wp)
-         longer(1:self%n_strobe - 1) = self%strobe_times
-         call move_alloc(longer, self%strobe_times)
-      end if
+      call make_room_for_strobe(self)
       self%strobe_times(self%n_strobe) = t
       do k = 1, size(self%channels)
          self%strobes(k, self%n_strobe) = value_of(catalogue, self%channels(k))
       end do
    end subroutine strobe_statistics
+
+   !> One instant once per period more.
+   subroutine make_room_for_strobe(self)
+      class(statistics_t), intent(inout) :: self  !! what is gathered
+
+      real(wp), allocatable :: longer(:)
+
+      self%n_strobe = self%n_strobe + 1
+      call make_room(self%strobes, self%n_strobe)
+      if (self%n_strobe <= size(self%strobe_times)) return
+      allocate (longer(size(self%strobes, 2)), source=0.0_wp)
+      longer(1:self%n_strobe - 1) = self%strobe_times
+      call move_alloc(longer, self%strobe_times)
+   end subroutine make_room_for_strobe
 
    !> A value of the catalogue.
    pure real(wp) function value_of(catalogue, scalar)
@@ -333,5 +343,52 @@ contains
          end do
       end do
    end subroutine names_of_numbers
+
+   !> Write what was gathered.
+   subroutine save_statistics(self, tape)
+      class(statistics_t), intent(in) :: self  !! what was gathered
+      type(tape_t), intent(inout) :: tape      !! receives it
+
+      integer :: k
+
+      if (.not. self%plan%is_wanted) return
+      call tape%put([self%n_strobe, self%n_sample])
+      call tape%put([self%t_first, self%t_last, self%x_last, self%integral, self%integral_2, self%lowest, self%highest])
+      do k = 1, self%n_strobe
+         call tape%put([self%strobe_times(k), self%strobes(:, k)])
+      end do
+      do k = 1, merge(self%n_sample, 0, size(self%spectra) > 0)
+         call tape%put(self%series(:, k))
+      end do
+   end subroutine save_statistics
+
+   !> Take it back.
+   subroutine load_statistics(self, tape)
+      class(statistics_t), intent(inout) :: self  !! started
+      type(tape_t), intent(inout) :: tape         !! holds it
+
+      integer :: k, n
+
+      if (.not. self%plan%is_wanted) return
+      call tape%get(n)
+      call tape%get(self%n_sample)
+      call tape%get(self%t_first)
+      call tape%get(self%t_last)
+      call tape%get(self%x_last)
+      call tape%get(self%integral)
+      call tape%get(self%integral_2)
+      call tape%get(self%lowest)
+      call tape%get(self%highest)
+      self%n_strobe = 0
+      do k = 1, n
+         call make_room_for_strobe(self)
+         call tape%get(self%strobe_times(k))
+         call tape%get(self%strobes(:, k))
+      end do
+      do k = 1, merge(self%n_sample, 0, size(self%spectra) > 0)
+         call make_room(self%series, k)
+         call tape%get(self%series(:, k))
+      end do
+   end subroutine load_statistics
 
 end module statistics

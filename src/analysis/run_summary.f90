@@ -1,0 +1,108 @@
+!> What a run cost, how right it is and whether it kept its limits, when it is over.
+module run_summary
+   use errors, only: error_t
+   use guards, only: guards_t
+   use integrator, only: integrator_t
+   use kind_info, only: kind_info_t
+   use kinds, only: not_a_number, wp
+   use mechanism, only: mechanism_t
+   use recorder, only: status_complete, status_failed, summary_t
+   use run_audit, only: audit, limits_t, warn_of_errors
+   use run_tally, only: run_tally_t
+   use sampling, only: sampler_t
+   use stop_condition, only: stop_t
+   use whole_motion, only: whole_motion_t
+   implicit none (type, external)
+   private
+   public :: sum_up
+
+   integer, parameter :: many_steps = 100000       !! from which on a run is told what makes its steps short
+
+contains
+
+   !> Cost and errors of a run, and whether it kept its limits.
+   subroutine sum_up(whole, sampler, tally, stop, method, limits, summary, error)
+      type(whole_motion_t), intent(in) :: whole              !! the motion
+      type(sampler_t), intent(in) :: sampler                 !! what was reported
+      type(run_tally_t), intent(in) :: tally                 !! sums and maxima
+      type(stop_t), intent(in) :: stop                       !! conditions that end it by intent
+      class(integrator_t), intent(in) :: method              !! the integrator, for its name and controls
+      type(limits_t), intent(in) :: limits                   !! what the results must fulfil
+      type(summary_t), intent(out) :: summary                !! cost and errors
+      type(error_t), allocatable, intent(inout) :: error     !! why it ended early; or a limit was not kept
+
+      type(guards_t) :: guards
+      integer :: p, worst
+
+      allocate (summary%warnings(0))
+      summary%method%integrator = method_name(method)
+      summary%method%solver = whole%system%linkage%solution%solver%name()
+      summary%method%stabilisation = whole%system%way%words()
+      summary%method%tolerance = merge(0.0_wp, method%controls%tolerance, method%controls%fixed_step > 0.0_wp)
+      summary%quality%has_ledger = whole%system%ledger%is_kept
+      summary%time_end = stop%t
+      if (stop%met == 0) summary%time_end = minval([(whole%parts(p)%method%t, p=1, size(whole%parts))])
+      do p = 1, size(whole%parts)
+         associate (part => whole%parts(p))
+            summary%count%steps = summary%count%steps + part%method%count%n_steps
+            summary%count%rejected_steps = summary%count%rejected_steps + part%method%count%n_rejected
+            summary%count%rhs_evaluations = summary%count%rhs_evaluations + part%system%n_evaluations
+            summary%count%output_evaluations = summary%count%output_evaluations + part%method%count%n_output_evaluations
+            summary%count%factorisations = summary%count%factorisations + part%system%linkage%solution%solver%n_factorisations
+         end associate
+      end do
+      summary%groups = size(whole%parts)
+      if (summary%groups > 1) summary%count%rhs_evaluations = summary%count%rhs_evaluations + whole%system%n_evaluations
+      summary%count%output_evaluations = summary%count%output_evaluations + sampler%n_reports
+      summary%count%events = tally%events
+      summary%count%contacts = tally%contacts
+      summary%count%samples = int(sampler%n_sample)
+      summary%count%rows = sampler%n_row
+      summary%quality%energy_max = tally%energy_max
+      summary%quality%energy_residual_max = tally%residual_max
+      if (.not. summary%quality%has_ledger) summary%quality%energy_residual_max = not_a_number()
+      summary%quality%violation_max = tally%violation_max
+      summary%quality%violation_rate_max = tally%violation_rate_max
+      if (.not. allocated(error)) call audit(summary, limits, error)
+      worst = maxloc(whole%parts%worst, dim=1)
+      call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%worst, whole%parts(worst)%worst_row, &
+                          tally%least_lost, summary)
+      do p = 1, size(whole%parts)
+         call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
+      end do
+      guards = limits%guards
+      call whole%seen(guards)
+      call warn_by_guards(guards, whole%system, method, summary)
+      summary%status = status_complete
+      summary%message = ""
+      if (stop%met > 0) summary%message = stop%message()
+      if (allocated(error)) then
+         summary%status = status_failed
+         summary%message = error%message
+      end if
+   end subroutine sum_up
+
+   !> What the guards have seen.
+   subroutine warn_by_guards(guards, system, method, summary)
+      type(guards_t), intent(in) :: guards           !! the guards
+      type(mechanism_t), intent(in) :: system        !! the whole
+      class(integrator_t), intent(in) :: method      !! the integrator
+      type(summary_t), intent(inout) :: summary      !! its warnings grow
+
+      call guards%warn(system, summary%warnings)
+      if (.not. method%is_explicit() .or. summary%count%steps < many_steps) return
+      call guards%films%warn_of_stiffness(system, summary%method%integrator, summary%warnings)
+   end subroutine warn_by_guards
+
+   !> Name of an integrator.
+   function method_name(method) result(name)
+      class(integrator_t), intent(in) :: method  !! the integrator
+      character(:), allocatable :: name          !! its name
+
+      type(kind_info_t) :: info
+
+      info = method%info()
+      name = info%name
+   end function method_name
+
+end module run_summary

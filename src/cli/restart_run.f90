@@ -1,0 +1,113 @@
+!> Runs that are stopped and go on: what their options go together with, where they go on, and the proof that it makes no difference.
+module restart_run
+   use checkpoint_file, only: checkpoint_name
+   use errors, only: error_t, exit_different, exit_usage, set_error
+   use hdf5_equal, only: compare_files
+   use integrator, only: integrator_t
+   use kinds, only: i8, wp
+   use load, only: loaded_t
+   use options, only: options_t
+   use output_directory, only: output_directory_t
+   use posix, only: path_exists, write_error
+   use scene, only: analysis_dynamic, analysis_names
+   use standard_output, only: print_text
+   use text, only: to_text
+   implicit none (type, external)
+   private
+   public :: check_restart, check_schedule, compare_restarted, open_directory
+
+contains
+
+   !> What the options go together with.
+   subroutine check_restart(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(error_t), allocatable, intent(out) :: error     !! what they do not go together with
+
+      character(:), allocatable :: option
+
+      option = ""
+      if (options%restart%is_resumed) option = "--resume"
+      if (options%restart%walltime > 0.0_wp) option = "--walltime"
+      if (options%restart%is_verified) option = "--verify-restart"
+      if (option == "") return
+      if (loaded%scene%analysis /= analysis_dynamic) then
+         call set_error(error, exit_usage, "option "//option//" is for motions of [analysis.dynamic]; this deck's analysis is "// &
+                        trim(analysis_names(loaded%scene%analysis)))
+      else if (options%accuracy > 0.0_wp) then
+         call set_error(error, exit_usage, "options "//option//" and --accuracy exclude each other: the latter makes several "// &
+                        "runs, which are not saved"//new_line("a")//"  = run with the tolerance that --accuracy finds: "// &
+                        "--tolerance X "//option)
+      else if (options%restart%is_verified .and. options%restart%is_resumed) then
+         call set_error(error, exit_usage, "options --verify-restart and --resume exclude each other: the former begins anew")
+      else if (options%restart%is_verified .and. loaded%is_stream) then
+         call set_error(error, exit_usage, "option --verify-restart reads the deck several times, and "//loaded%path// &
+                        " can be read once")
+      end if
+   end subroutine check_restart
+
+   !> Runs that can be saved at some instants only need such instants where an option would have them saved.
+   subroutine check_schedule(options, loaded, method, n_part, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      class(integrator_t), intent(in) :: method            !! the integrator
+      integer, intent(in) :: n_part                        !! groups of bodies that are integrated apart
+      type(error_t), allocatable, intent(out) :: error     !! the deck sets no such instants
+
+      if (.not. options%restart%is_verified .and. options%restart%walltime <= 0.0_wp) return
+      if (loaded%plan%checkpoint > 0.0_wp .or. .not. (method%begins_anew() .or. n_part > 1)) return
+      call set_error(error, exit_usage, "this run can be saved at instants only that the deck sets: "// &
+                     trim(merge("its groups of bodies have steps of their own   ", &
+                                "its method keeps a history that is not saved   ", n_part > 1))//new_line("a")// &
+                     "  = in [analysis.dynamic]: checkpoint = 0.1 s, or checkpoint = 1 turns of a driver")
+   end subroutine check_schedule
+
+   !> The directory of a run: a new one, or with `--resume` that of the run that goes on.
+   subroutine open_directory(options, path, directory, goes_on, is_complete, error)
+      type(options_t), intent(in) :: options                 !! the command line
+      character(*), intent(in) :: path                       !! where it is
+      type(output_directory_t), intent(inout) :: directory   !! the directory
+      logical, intent(out) :: goes_on                        !! there is a checkpoint in it
+      logical, intent(out) :: is_complete                    !! there is a run in it that has come to its end: nothing is opened
+      type(error_t), allocatable, intent(out) :: error       !! it cannot be made, or is not free
+
+      goes_on = .false.
+      is_complete = .false.
+      if (options%restart%is_resumed) then
+         goes_on = path_exists(path//"/"//checkpoint_name)
+         is_complete = .not. goes_on .and. path_exists(path//"/summary.json")
+         if (is_complete) then
+            call write_error("note: the run in "//path//" has ended, there is nothing to go on with"//new_line("a"))
+            return
+         end if
+         if (.not. goes_on) call write_error("note: no checkpoint in "//path//", the run begins at t = 0"//new_line("a"))
+      end if
+      if (goes_on) then
+         call directory%open_again(path, error)
+      else
+         call directory%open(path, error)
+      end if
+   end subroutine open_directory
+
+   !> Compare a run with one that was stopped and went on several times.
+   subroutine compare_restarted(one, other, n_restart, is_quiet, error)
+      character(*), intent(in) :: one                        !! directory of the run
+      character(*), intent(in) :: other                      !! directory of that with restarts
+      integer, intent(in) :: n_restart                       !! how many
+      logical, intent(in) :: is_quiet                        !! nothing is said if they are equal
+      type(error_t), allocatable, intent(out) :: error       !! they are not equal
+
+      character(:), allocatable :: difference
+      integer(i8) :: n
+
+      call compare_files(one//"/run.h5", other//"/run.h5", "/provenance", n, difference)
+      if (difference /= "") then
+         call set_error(error, exit_different, "a run with "//to_text(n_restart)//" restarts is another one: "//difference// &
+                        " differs"//new_line("a")//"  = both are kept: "//one//" and "//other)
+      else if (.not. is_quiet) then
+         call print_text("restart    "//to_text(n)//" numbers and texts of run.h5 are equal bit for bit after "// &
+                         to_text(n_restart)//" restarts"//new_line("a"), error)
+      end if
+   end subroutine compare_restarted
+
+end module restart_run

@@ -1,0 +1,23 @@
+!> All that a run must remember to go on: of each part of the mechanism, of the whole, of the output.
+module saved_run
+   use checkpoint, only: checkpoint_t
+   use kinds, only: wp
+   use tape, only: tape_t
+   implicit none (type, external)
+   private
+   public :: saved_run_t
+   public :: wish_checkpoint, wish_nothing, wish_stop
+
+   integer, parameter :: wish_nothing = 0     !! go on
+   integer, parameter :: wish_checkpoint = 1  !! save what is remembered as soon as it can be, and go on
+   integer, parameter :: wish_stop = 2        !! save it as soon as it can be, and end
+
+   !> What is remembered.
+   type :: saved_run_t
+      real(wp) :: t = 0.0_wp                        !! time of the motion [s]
+      type(checkpoint_t), allocatable :: parts(:)   !! (parts) of each part; of several, one more: of the whole
+      type(tape_t) :: motion                        !! of the whole motion, its samples and sums
+      type(tape_t) :: output                        !! of what keeps the results
+   end type saved_run_t
+
+end module saved_run
