@@ -26,6 +26,7 @@ module formula_words
       type(catalogue_t) :: catalogue                !! what can be recorded
       type(item_finder_t) :: items                  !! finds its items
       type(name_table_t) :: names                   !! of the requests so far
+      type(name_table_t) :: broken                  !! of those with a mistake
       type(dim_t), allocatable :: dimensions(:)     !! (requests) their dimensions
    contains
       procedure :: find => find_word
@@ -48,16 +49,24 @@ contains
          words%catalogue = catalogue
          call words%items%start(catalogue)
          call words%names%start(size(items))
+         call words%broken%start(size(items))
          allocate (words%dimensions(size(items)), formulas(size(items)))
          n = 0
          do k = 1, size(items)
             call read_formula(deck, words, items(k), formulas(n + 1), words%dimensions(n + 1), mistakes)
-            if (.not. allocated(formulas(n + 1)%sources)) cycle
-            n = n + 1
-            call words%names%enter(items(k)%name, n, previous)
+            if (allocated(formulas(n + 1)%sources)) then
+               n = n + 1
+               call words%names%enter(items(k)%name, n, previous)
+            else
+               call words%broken%enter(items(k)%name, k, previous)
+            end if
          end do
       end associate
-      scene%requests%formulas = formulas(:n)
+      if (allocated(scene%requests%formulas)) deallocate (scene%requests%formulas)
+      allocate (scene%requests%formulas(n))
+      do k = 1, n
+         scene%requests%formulas(k) = formulas(k)
+      end do
    end subroutine read_formulas
 
    !> Understand one request; without sources if it has a mistake.
@@ -150,6 +159,8 @@ contains
          first = self%names%find(word(len(prefix) + 1:))
          if (first > 0) then
             dimension = self%dimensions(first)
+         else if (self%broken%find(word(len(prefix) + 1:)) > 0) then
+            deallocate (message)
          else
             message = "there is no request '"//word(len(prefix) + 1:)//"' before this one"
             help = "a request may use those that stand above it"

@@ -34,6 +34,7 @@ contains
       type(parser_t) :: parser
       type(term_t) :: whole
       type(dim_t) :: dimensions(n_variable)
+      integer :: k
 
       names = "t"
       if (present(variable)) names = trim(variable)
@@ -61,7 +62,11 @@ contains
       compiled%code(:) = parser%code(1:parser%n_code)
       compiled%operand(:) = parser%operand(1:parser%n_code)
       if (allocated(parser%curves)) call move_alloc(parser%curves, compiled%curves)
-      if (parser%n_seen > 0) compiled%sights = parser%sights(:parser%n_seen)
+      if (parser%n_seen == 0) return
+      allocate (compiled%sights(parser%n_seen))
+      do k = 1, parser%n_seen
+         compiled%sights(k) = parser%sights(k)
+      end do
    end subroutine compile_expression
 
    !> Evaluate where an overflow must not stop the program: the result is then not finite.

@@ -359,7 +359,11 @@ contains
             return
          end if
          call parser%finder%find(word, parser%seen_dimensions(k), message, help)
-         if (len(message) > 0) call fail(parser, term%first, parser%last, message, help)
+         if (.not. allocated(message)) then
+            call fail(parser, term%first, parser%last, "")
+         else if (len(message) > 0) then
+            call fail(parser, term%first, parser%last, message, help)
+         end if
          parser%sights(k)%word = word
          parser%sights(k)%first = term%first
          parser%n_seen = k

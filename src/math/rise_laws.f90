@@ -124,21 +124,16 @@ contains
       real(wp) :: f(2, 3)            !! (2, 3) bounds [1]
 
       real(wp), parameter :: last = nearest(1.0_wp, -1.0_wp)   ! the last place before the end [1]
-      real(wp) :: places(5), s(3)
+      real(wp) :: places(7), s(3)
       integer :: i, k
 
-      places = [u(1), u(2), 0.5_wp, greatest_of(law), 1.0_wp - greatest_of(law)]
+      places = [u(1), u(2), 0.0_wp, greatest_of(law), 0.5_wp, 1.0_wp - greatest_of(law), last]
       f(:, 1) = [1.0_wp, 0.0_wp]
       f(:, 2) = f(:, 1)
       f(:, 3) = f(:, 1)
-      do k = 1, 7
-         if (k <= 5) then
-            if (places(k) < u(1) .or. places(k) > u(2)) cycle
-            s = rise_values(law, places(k))
-         else  ! the sides of both ends
-            if (u(1) > merge(0.0_wp, 1.0_wp, k == 6) .or. u(2) < merge(0.0_wp, 1.0_wp, k == 6)) cycle
-            s = rise_values(law, merge(0.0_wp, last, k == 6))
-         end if
+      do k = 1, size(places)
+         if (places(k) < u(1) .or. places(k) > u(2)) cycle
+         s = rise_values(law, places(k))
          do i = 1, 3
             if (f(1, i) > f(2, i)) then
                f(:, i) = s(i)

@@ -58,7 +58,7 @@ module catalogue
    !> An expression over channels, bound to the catalogue that it stands in.
    type :: bound_formula_t
       type(expression_t) :: expression          !! of the time and the channels
-      integer :: group = 0                      !! group that its value goes to
+      integer :: group = 0                      !! group that its value goes to; 0: a channel that it uses is not there
       integer, allocatable :: source(:, :)      !! (3, channels) group, component and item of each
    end type bound_formula_t
 
@@ -241,6 +241,7 @@ contains
 
       do k = size(self%formulas), 1, -1
          associate (formula => self%formulas(k))
+            if (formula%group == 0) cycle
             if (.not. any(self%groups(formula%group)%is_wanted)) cycle
             do m = 1, size(formula%source, 2)
                self%groups(formula%source(1, m))%is_wanted(formula%source(3, m)) = .true.
@@ -264,6 +265,7 @@ contains
       x(1) = t
       do k = 1, size(self%formulas)
          associate (formula => self%formulas(k))
+            if (formula%group == 0) cycle
             if (.not. self%groups(formula%group)%is_wanted(1)) cycle
             do m = 1, size(formula%source, 2)
                x(1 + m) = self%groups(formula%source(1, m))%data(formula%source(2, m), formula%source(3, m))

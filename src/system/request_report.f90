@@ -37,18 +37,19 @@ contains
          call catalogue%add_item(room_reactions, requests%reactions(k)%name)
       end do
       if (size(requests%formulas) > 0) call catalogue%add_item(room_requests, "request")
-      allocate (catalogue%formulas(0))
+      allocate (catalogue%formulas(size(requests%formulas)))
       do k = 1, size(requests%formulas)
-         call add_formula(requests%formulas(k), catalogue)
+         call add_formula(requests%formulas(k), catalogue, catalogue%formulas(k))
       end do
    end subroutine add_requests
 
    !> A group for an expression, if all of its channels are there.
-   subroutine add_formula(formula, catalogue)
+   subroutine add_formula(formula, catalogue, bound)
       type(formula_t), intent(in) :: formula           !! the expression
       type(catalogue_t), intent(inout) :: catalogue    !! grows
+      type(bound_formula_t), intent(out) :: bound      !! the expression in it; without a group if it cannot be told
 
-      type(bound_formula_t) :: bound
+      type(channel_t) :: channel
       integer :: k
 
       allocate (bound%source(3, size(formula%sources)))
@@ -56,11 +57,13 @@ contains
          call find_source(formula%sources(k), catalogue, bound%source(:, k))
          if (bound%source(1, k) == 0) return
       end do
-      call catalogue%add_group(room_requests, channel_t(name=formula%name, unit=formula%unit, frame="none", components=1, &
-                                                        help=formula%text))
+      channel%name = formula%name
+      channel%unit = formula%unit
+      channel%frame = "none"
+      channel%help = formula%text
+      call catalogue%add_group(room_requests, channel)
       bound%expression = formula%expression
       bound%group = size(catalogue%groups)
-      catalogue%formulas = [catalogue%formulas, bound]
    end subroutine add_formula
 
    !> Group, component and item of a channel; zeros if the catalogue does not have it.
