@@ -20,7 +20,9 @@ module build_system
    use motion, only: motion_t, new_loads
    use rubbing, only: new_rubbing
    use mechanism, only: mechanism_t
+   use reaction_at, only: bind_reactions
    use scene, only: analysis_dynamic, scene_t
+   use scene_groups, only: sees_motion
    use scene_size, only: is_large
    use start_piece, only: piece_at_start
    implicit none (type, external)
@@ -41,6 +43,7 @@ contains
       integer :: k, n
 
       n = scene%bodies%n
+      system%requests = scene%requests
       with_start_rows = .false.
       if (present(is_for_start)) with_start_rows = is_for_start
       do k = 1, n_joint_kinds
@@ -88,6 +91,8 @@ contains
       if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
          system%is_large = .false.
       end if
+      call bind_reactions(system)
+      if (sees_motion(scene)) system%is_large = .false.  ! nor does it know what loads see
    end subroutine new_system
 
    !> The blocks of event functions that the contacts have.
