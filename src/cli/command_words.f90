@@ -31,7 +31,7 @@ module command_words
    type(command_t), parameter :: known_verbs(*) = [ &
       command_t("run", "DECK", "run the analysis; writes outputs/NAME/", &
                 "--out --set --ideal --analysis --tolerance --method --accuracy --budget --horizon --quiet --json --member "// &
-                 "--write --legacy --resume --walltime --verify-restart"), &
+                 "--write --csv --legacy --resume --walltime --verify-restart"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
                 "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
       command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
@@ -60,6 +60,7 @@ module command_words
       option_t("--json", "", "print summary.json and nothing else"), &
       option_t("--member", "K", "run number K of the deck's ensemble"), &
       option_t("--write", "W", "leave out what takes long to write"), &
+      option_t("--csv", "", "time histories and events as comma-separated values too"), &
       option_t("--horizon", "", "how fast neighbouring motions part (Lyapunov exponent), and how long digits mean anything"), &
       option_t("--resume", "", "go on from the checkpoint in the directory of the run; without one, begin"), &
       option_t("--walltime", "TIME", "save the run and end it before so much time of the clock is over, as 2h"), &

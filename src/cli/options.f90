@@ -65,6 +65,7 @@ module options
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
       logical :: with_horizon = .false.              !! `--horizon`
+      logical :: is_csv = .false.                    !! `--csv`
       type(restart_options_t) :: restart             !! runs that are stopped and go on
       type(help_options_t) :: help                   !! what help is asked for
       type(legacy_options_t) :: legacy               !! what concerns other programs
@@ -152,6 +153,7 @@ contains
       case ("--quiet"); options%is_quiet = .true.
       case ("--json"); options%is_json = .true.
       case ("--horizon"); options%with_horizon = .true.
+      case ("--csv"); options%is_csv = .true.
       case ("--adams"); options%legacy%with_adams = .true.
       case ("--statistics"); options%legacy%by_statistics = .true.
       case ("--resume"); options%restart%is_resumed = .true.

@@ -62,6 +62,7 @@ contains
       plan%with%texts = options%write == "all"
       plan%with%figures = options%write == "all"
       plan%with%report = loaded%scene%settings%output%flag("report") .and. options%write == "all"
+      plan%with%csv = options%write == "all" .and. (options%is_csv .or. loaded%scene%settings%output%flag("csv"))
       plan%with%motion = loaded%scene%settings%output%word("motion") /= "off" .and. options%write == "all"
       if (plan%with%figures .and. loaded%scene%analysis /= analysis_static) then
          call plan_drawn_figures(plan%figures, loaded%scene, loaded%system, loaded%plan, loaded%catalogue, plan%looks%frames)

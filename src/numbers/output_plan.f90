@@ -40,6 +40,7 @@ module output_plan
       logical :: histories = .true.         !! write time histories to run.h5
       logical :: contact_rows = .false.     !! write rows at the instants of contacts, besides the output instants
       logical :: texts = .true.             !! write time histories and events as text
+      logical :: csv = .false.              !! write them as comma-separated values too
       logical :: summary = .true.           !! write summary.txt and summary.json
       logical :: motion = .false.           !! write the motion for other programs
       logical :: figures = .true.           !! make the figures at the end

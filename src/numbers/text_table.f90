@@ -1,4 +1,4 @@
-!> One file of columns: metadata in `#` lines, a line of quoted "channel [unit]" names, numbers.
+!> One file of columns: `#` and the names of the columns, `channel[unit]`, more `#` lines, numbers.
 module text_table
    use catalogue, only: catalogue_t
    use channel_names, only: base_name, scalar_name, scalar_t
@@ -7,6 +7,7 @@ module text_table
    use kinds, only: wp
    use output_plan, only: output_plan_t
    use recorder, only: row_kinds
+   use text, only: to_text
    use text_buffer, only: buffer_t
    use text_file, only: text_file_t
    implicit none (type, external)
@@ -46,6 +47,12 @@ contains
       self%columns = columns
       self%with_kinds = with_kinds
       allocate (self%rows(size(columns) + merge(2, 1, with_kinds), block))
+      call heading%add("# time[s]")
+      do k = 1, size(columns)
+         call heading%add(" "//column_label(catalogue, columns(k)))
+      end do
+      if (with_kinds) call heading%add(" row_kind[1]")
+      call heading%line("")
       call heading%add(file_heading(plan))
       previous = ""
       do k = 1, size(columns)
@@ -53,21 +60,15 @@ contains
             name = base_name(catalogue, columns(k)%group, columns(k)%item)
             if (name /= previous) then
                if (channel%frame == "none") then
-                  call heading%line("# "//name//": "//channel%help)
+                  call heading%line("# column "//to_text(k + 1)//", "//name//": "//channel%help)
                else
-                  call heading%line("# "//name//": "//channel%help//", "//channel%frame//" frame")
+                  call heading%line("# column "//to_text(k + 1)//", "//name//": "//channel%help//", "//channel%frame//" frame")
                end if
             end if
             previous = name
          end associate
       end do
-      if (with_kinds) call heading%line("# row_kind: "//row_kinds)
-      call heading%add("""time [s]""")
-      do k = 1, size(columns)
-         call heading%add(" """//column_label(catalogue, columns(k))//"""")
-      end do
-      if (with_kinds) call heading%add(" ""row_kind [1]""")
-      call heading%line("")
+      if (with_kinds) call heading%line("# column "//to_text(size(columns) + 2)//", row_kind: "//row_kinds)
       if (.not. plan%life%goes_on) call self%file%append(heading%get(), error)
    end subroutine start_table
 
@@ -101,9 +102,9 @@ contains
    function column_label(catalogue, column) result(label)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
       type(scalar_t), intent(in) :: column        !! one number
-      character(:), allocatable :: label          !! as `slider.velocity.x [m/s]`
+      character(:), allocatable :: label          !! as `slider.velocity.x[m/s]`
 
-      label = scalar_name(catalogue, column)//" ["//catalogue%groups(column%group)%channel%unit//"]"
+      label = scalar_name(catalogue, column)//"["//catalogue%groups(column%group)%channel%unit//"]"
    end function column_label
 
    !> Keep a row.

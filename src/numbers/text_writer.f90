@@ -185,16 +185,16 @@ contains
       integer :: k
 
       self%events%path = plan%directory//"/events.dat"
-      call heading%add(file_heading(plan))
-      call heading%line("# one row per located event, by time; a contact is one row, its time the onset")
-      call heading%add("""time [s]""")
+      call heading%add("# time[s]")
       do k = 1, n_event_words
-         call heading%add(" """//trim(word_names(k))//"""")
+         call heading%add(" "//trim(word_names(k)))
       end do
       do k = 2, n_event_numbers
-         call heading%add(" """//trim(number_names(k))//" ["//trim(number_units(k))//"]""")
+         call heading%add(" "//trim(number_names(k))//"["//trim(number_units(k))//"]")
       end do
       call heading%line("")
+      call heading%add(file_heading(plan))
+      call heading%line("# one row per located event, by time; a contact is one row, its time the onset")
       self%heading = heading%get()
       if (.not. plan%life%goes_on) call self%events%append(self%heading, error)
    end subroutine start_events

@@ -6,6 +6,7 @@
 module run_recorder
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_t
+   use csv_files, only: write_csv_files
    use channels, only: list_scalars, select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
@@ -367,7 +368,7 @@ contains
          outcome%numbers = self%statistics%numbers(self%items, self%events, full%time_end)
          outcome%extremes = self%extremes
          call joints_at_extremes(self%items, self%events, full%time_start, full%time_end, outcome%joints)
-         allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0))
+         allocate (outcome%pictures(0), outcome%warnings(0), outcome%files(0), outcome%csv(0))
          call append_all(outcome%warnings, [self%plan%warnings, full%warnings])
          if (allocated(self%wants_fields)) call append_all(outcome%warnings, missing_films(self%wants_fields, self%fields))
          if (self%plan%with%hdf5) then
@@ -378,6 +379,9 @@ contains
             call self%texts%finish(self%last_time, self%events, second)
             call join_errors(error, second)
             outcome%files = self%texts%names
+         end if
+         if (self%plan%with%csv .and. .not. allocated(error)) then
+            call write_csv_files(self%plan%directory, [outcome%files, text_t("events.dat")], outcome%csv, error)
          end if
          call self%motion%finish(full%status, second)
          call join_errors(error, second)

@@ -29,6 +29,7 @@ module summary_writer
    !> What a run left behind besides its numbers.
    type :: outcome_t
       type(text_t), allocatable :: files(:)     !! (n) files of data, paths within the directory
+      type(text_t), allocatable :: csv(:)       !! (any) those of them that are comma-separated too
       type(text_t), allocatable :: pictures(:)  !! (m) pictures, paths within the directory
       type(number_t), allocatable :: numbers(:) !! (l) the statistics
       type(text_t), allocatable :: warnings(:)  !! (k) what a careful reader should know, and what was not made
@@ -115,6 +116,7 @@ contains
       call lines%line("output     "//plan%directory//"/")
       if (plan%with%hdf5) call lines%line("           run.h5")
       call lines%line("           "//to_text(size(outcome%files))//" time histories (.dat), events.dat")
+      if (plan%with%csv) call lines%line("           "//to_text(size(outcome%csv))//" files of comma-separated values (.csv)")
       do k = 1, size(outcome%pictures)
          call lines%line("           "//outcome%pictures(k)%s)
       end do
@@ -285,6 +287,7 @@ contains
       call json%put_objects("extremes", channel_objects(outcome%extremes, catalogue))
       call json%put_objects("first_impacts", impact_objects(events))
       call json%put_list("files", outcome%files)
+      if (plan%with%csv) call json%put_list("csv", outcome%csv)
       call json%put_list("figures", outcome%pictures)
       call json%put_list("warnings", outcome%warnings)
       text = json%get()//new_line("a")

@@ -6,7 +6,7 @@ module figure_data
    use figure_words, only: figure_portrait, figure_t
    use kinds, only: wp
    use posix, only: path_exists
-   use text, only: append_text, text_t
+   use text, only: piece, split_blank, text_t
    use text_table, only: column_label
    use text_writer, only: file_of_item
    implicit none (type, external)
@@ -107,7 +107,7 @@ contains
       close (unit)
    end subroutine read_data_file
 
-   !> Open a file of columns and read up to the first row of numbers.
+   !> Open a file of columns, whose names are its first line, and read up to the first row of numbers.
    subroutine open_columns(path, unit, labels, status)
       character(*), intent(in) :: path                        !! the file
       integer, intent(out) :: unit                            !! the open file
@@ -119,15 +119,19 @@ contains
       allocate (labels(0))
       open (newunit=unit, file=path, status="old", action="read", iostat=status)
       if (status /= 0) return
-      do
+      call read_line(unit, line, status)
+      if (status == 0) labels = split_blank(piece(line, 2))
+      do while (status == 0)
          call read_line(unit, line, status)
-         if (status /= 0) exit
-         if (len(line) == 0) cycle
-         if (line(1:1) == "#") cycle
-         if (line(1:1) == """") call split_quoted(line, labels)
-         exit
+         if (len(line) > 0) then
+            if (line(1:1) /= "#") exit
+         end if
       end do
-      if (status /= 0) close (unit)
+      if (status == 0) then
+         backspace (unit)
+      else
+         close (unit)
+      end if
    end subroutine open_columns
 
    !> Read a line of any length.
@@ -147,25 +151,6 @@ contains
       end do
       if (is_iostat_eor(status)) status = 0
    end subroutine read_line
-
-   !> The strings between quotes of a line.
-   subroutine split_quoted(line, list)
-      character(*), intent(in) :: line                        !! the line
-      type(text_t), allocatable, intent(inout) :: list(:)     !! (n) strings
-
-      integer :: first, last
-
-      last = 0
-      do
-         first = index(line(last + 1:), """")
-         if (first == 0) exit
-         first = last + first
-         last = index(line(first + 1:), """")
-         if (last == 0) exit
-         last = first + last
-         call append_text(list, line(first + 1:last - 1))
-      end do
-   end subroutine split_quoted
 
    !> The curves of a figure that a run with a given suffix left behind, as many as there are.
    subroutine find_curves(figure, catalogue, directory, suffix, files, curves)

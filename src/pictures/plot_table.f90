@@ -47,7 +47,7 @@ module plot_table
    type :: plot_table_t
       character(:), allocatable :: name                !! of the files, without suffix
       character(:), allocatable :: heading             !! lines with `#` before the columns
-      type(text_t), allocatable :: labels(:)           !! (columns) names with units
+      type(text_t), allocatable :: labels(:)           !! (columns) names with units, as `a[m]`, without blanks
       real(wp), allocatable :: values(:, :)            !! (columns, rows) SI [any]
       character(:), allocatable :: x_name              !! what stands below the abscissa
       character(:), allocatable :: x_unit              !! SI unit
@@ -83,12 +83,12 @@ contains
       character(24) :: number
       integer :: i, k
 
-      call lines%add(table%heading)
+      call lines%add("#")
       do i = 1, size(table%labels)
-         if (i > 1) call lines%add(" ")
-         call lines%add(""""//table%labels(i)%s//"""")
+         call lines%add(" "//table%labels(i)%s)
       end do
       call lines%line("")
+      call lines%add(table%heading)
       do k = 1, size(table%values, 2)
          do i = 1, size(table%values, 1)
             write (number, "(es24.16e3)") table%values(i, k)

@@ -40,7 +40,7 @@ contains
       call lines%line("set terminal pngcairo noenhanced size "//to_text(width)//","//to_text(height)// &
                       " font ""DejaVu Sans,15""")
       call lines%line("set output '"//name//".png'")
-      call lines%line("set key autotitle columnhead")
+      call lines%line("set key noautotitle")
       call lines%line(key_below)
       call lines%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
       call lines%line("set border linewidth 1.2 linecolor rgb '#404040'")

@@ -49,11 +49,11 @@ contains
 
       integer :: i, k
 
-      call append_text(table%labels, "time [s]")
+      call append_text(table%labels, "time[s]")
       allocate (table%values(3, statistics%n_strobe), source=0.0_wp)
       table%values(1, :) = statistics%strobe_times(1:statistics%n_strobe)
       do k = 1, 2
-         call append_text(table%labels, scalar_name(catalogue, scalars(k))//" ["//unit_of(catalogue, scalars(k))//"]")
+         call append_text(table%labels, scalar_name(catalogue, scalars(k))//"["//unit_of(catalogue, scalars(k))//"]")
          do i = 1, size(statistics%channels)
             if (.not. same(statistics%channels(i), scalars(k))) cycle
             table%values(k + 1, :) = statistics%strobes(i, 1:statistics%n_strobe)
@@ -84,8 +84,8 @@ contains
       table%panels(1)%y_name = "amplitude of "//scalar_name(catalogue, scalar)
       table%panels(1)%y_unit = unit_of(catalogue, scalar)
       table%panels(1)%curves(1)%style = draw_lines
-      call append_text(table%labels, "frequency [Hz]")
-      call append_text(table%labels, scalar_name(catalogue, scalar)//" ["//table%panels(1)%y_unit//"]")
+      call append_text(table%labels, "frequency[Hz]")
+      call append_text(table%labels, scalar_name(catalogue, scalar)//"["//table%panels(1)%y_unit//"]")
       do i = 1, size(statistics%spectra)
          if (.not. same(statistics%spectra(i), scalar)) cycle
          call statistics%spectrum_of(i, frequency, amplitude)
@@ -120,9 +120,9 @@ contains
          table%x_unit = "N"
          table%x_name = "peak force of "//figure%numbers(1)%s
       end if
-      call append_text(table%labels, "from ["//table%x_unit//"]")
-      call append_text(table%labels, "to ["//table%x_unit//"]")
-      call append_text(table%labels, "impacts [1]")
+      call append_text(table%labels, "from["//table%x_unit//"]")
+      call append_text(table%labels, "to["//table%x_unit//"]")
+      call append_text(table%labels, "impacts[1]")
       table%panels(1)%y_name = "impacts"
       table%panels(1)%y_unit = "1"
       associate (curve => table%panels(1)%curves(1))

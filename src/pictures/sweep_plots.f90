@@ -58,7 +58,7 @@ contains
             end if
          end associate
       end if
-      call append_text(table%labels, table%x_name//" ["//table%x_unit//"]")
+      call append_text(table%labels, table%x_name//"["//table%x_unit//"]")
    end subroutine set_abscissa
 
    !> The abscissa of a case.
@@ -109,7 +109,7 @@ contains
          if (results%strobe_names(channel)%s == name) exit
       end do
       if (channel > size(results%strobe_names)) return
-      call append_text(table%labels, name//" ["//unit//"]")
+      call append_text(table%labels, name//"["//unit//"]")
       allocate (table%panels(1))
       allocate (table%panels(1)%curves(n_curves(results%sweep)))
       table%panels(1)%y_name = name//" once per period"
@@ -156,7 +156,7 @@ contains
          if (at > size(results%names)) return
          numbers(i) = at
          do k = 1, n_spread
-            call append_text(table%labels, names(i)%s//" "//trim(spread_names(k))//" ["//results%units(at)%s//"]")
+            call append_text(table%labels, names(i)%s//"."//trim(spread_names(k))//"["//results%units(at)%s//"]")
          end do
       end do
       n = n_curves(results%sweep)

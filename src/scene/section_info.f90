@@ -219,6 +219,7 @@ contains
                      //"ends of axes (in mm, from 0 mm to 2 mm), one above the other (panels(A, B)); JOINT.orbit, " &
                      //"portrait(x_channel,y_channel), film(JOINT), mechanism, strip(n=8), coupler(POINT), animation(last=...)", &
                      default="")
+      call add_flag(info, "csv", "time histories and events as comma-separated values too", default="off")
       call add_flag(info, "report", "one page of everything, report.html: the deck as understood, figures, extremes, impacts, " &
                     //"cost and error, warnings; it asks no network", default="off")
    end function output_info

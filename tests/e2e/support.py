@@ -153,9 +153,8 @@ class Run:
     def table(self, name):
         """A .dat file: names of the columns without units, and rows of words."""
         lines = (self.directory / name).read_text().splitlines()
-        rows = [line for line in lines if line.strip() and not line.startswith("#")]
-        names = [re.sub(r"\s*\[[^\]]*\]$", "", quoted) for quoted in re.findall(r'"([^"]*)"', rows[0])]
-        return names, [split_row(row) for row in rows[1:]]
+        names = [re.sub(r"\[[^\]]*\]$", "", word) for word in lines[0][1:].split()]
+        return names, [split_row(line) for line in lines if line.strip() and not line.startswith("#")]
 
 
 def split_row(row):
