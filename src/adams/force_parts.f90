@@ -1,7 +1,7 @@
 !> An expression of a force cut into terms of the time, of the stretch, and of its rate.
 !>
-!> A sum, and a product with a constant of one, is cut further; a term that depends on more than one of them, or on other motion, has
-!> no words in a deck. VARVAL is replaced by the expression of its VARIABLE.
+!> A sum, and a product with a constant of one, is cut further; a term that depends on more than one of them, or on other
+!> motion, has no words in a deck. VARVAL is replaced by the expression of its VARIABLE.
 module force_parts
    use adams_expression, only: depends_on, node_add, node_call, node_divide, node_multiply, node_negate, node_subtract, on_other, &
       on_rate, on_stretch, on_time, parse_tree, tree_t
