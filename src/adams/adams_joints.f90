@@ -414,9 +414,10 @@ contains
       call draft%point(model, marker(2), point_i)
       call draft%point(model, marker(1), point_j)
       call draft%put("driver.position", "name i j axis_i position", name//tab//point_i//tab//point_j//tab// &
-            direction_cell(body_axis(model, marker(2), axis))//tab//"{"//text//"*"// model%units%length_text()//"}")
+            direction_cell(body_axis(model, marker(2), axis))//tab//"{"//text//"*"//model%units%length_text()//"}")
    end subroutine add_way
 
+   !> Length: displacement, velocity and acceleration differ in a line or two each.
    !> What a motion asks for as a function of time, a plain number in the units of the dataset; blank: it is left out.
    subroutine motion_text(model, statement, start, turns, text, is_speed, mistakes)
       type(adams_model_t), intent(inout) :: model           !! the dataset

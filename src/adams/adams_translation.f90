@@ -113,6 +113,7 @@ contains
    end function plain_digits
 
    !> A function in the words of a deck.
+   !> Length: a case for each function.
    recursive subroutine call_text(tree, node, words, text, message)
       type(tree_t), intent(in) :: tree                          !! the expression
       integer, intent(in) :: node                               !! number of the node

@@ -132,6 +132,7 @@ contains
    end subroutine read_options
 
    !> Take an option and its value, as in `--option value` or `--option=value`.
+   !> Length: a case for each option.
    subroutine take_option(options, word, glued, k, error)
       type(options_t), intent(inout) :: options            !! what was asked for
       character(*), intent(in) :: word                     !! the option

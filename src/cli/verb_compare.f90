@@ -134,6 +134,14 @@ contains
       part = line(:at - 1)
    end function line_before
 
+   !> The last part of a path.
+   pure function behind_slash(path) result(part)
+      character(*), intent(in) :: path         !! of a directory
+      character(:), allocatable :: part        !! its own name
+
+      part = path(index(path, "/", back=.true.) + 1:)
+   end function behind_slash
+
    !> What stands behind the first equals sign.
    pure function behind_sign(line) result(part)
       character(*), intent(in) :: line         !! `time = ...`
@@ -214,8 +222,9 @@ contains
             do c = 1, 3
                if (history%list(k)%name == specs(s)%channel//axes(c)) place(c) = k
             end do
-            if (history%list(k)%name == specs(s)%channel .or. starts_with(history%list(k)%name, specs(s)%channel//".")) &
-               history%list(k)%x = specs(s)%scale*history%list(k)%x + specs(s)%offset
+            if (.not. (history%list(k)%name == specs(s)%channel .or. &
+                       starts_with(history%list(k)%name, specs(s)%channel//"."))) cycle
+            history%list(k)%x = specs(s)%scale*history%list(k)%x + specs(s)%offset
          end do
          if (any(place(:2) == 0)) cycle
          allocate (x(size(history%time), 3), source=0.0_wp)
@@ -287,7 +296,7 @@ contains
       slash = index(place, "/", back=.true.)
       if (slash > 1) then
          place = line_before(place, slash)
-         place = place(index(place, "/", back=.true.) + 1:)
+         place = behind_slash(place)
       else
          place = "run"
       end if

@@ -20,6 +20,9 @@ module channel_spec
    private
    public :: parse_spec, read_with_unit, spec_t
 
+   real(wp), parameter :: unit_matrix(3, 3) = &
+      reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])   !! no turn [1]
+
    !> A channel and its columns.
    type :: spec_t
       character(:), allocatable :: channel      !! of the run; a quantity without its component is a vector
@@ -30,8 +33,7 @@ module channel_spec
       real(wp) :: modulo = 0.0_wp               !! differences are taken up to multiples of it; 0: not, SI [any]
       real(wp) :: absolute = -1.0_wp            !! difference allowed, SI; negative: as all [any]
       real(wp) :: relative = -1.0_wp            !! the same, of the greatest magnitude; negative: as all [1]
-      real(wp) :: turn(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
-         !! (3, 3) frame of the columns to the world [1]
+      real(wp) :: turn(3, 3) = unit_matrix      !! (3, 3) frame of the columns to the world [1]
    end type spec_t
 
 contains

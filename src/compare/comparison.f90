@@ -18,7 +18,7 @@ module comparison
    use kinds, only: not_a_number, wp
    use series, only: history_t, impact_t, series_t
    use spelling, only: nearest_word
-   use text, only: append_text, starts_with, text_t, to_text
+   use text, only: append_text, piece, starts_with, text_t, to_text
    use units, only: parse_unit, to_si, unit_t
    implicit none (type, external)
    private
@@ -81,15 +81,16 @@ contains
       end do
       if (size(specs) > 0) return
       base = path(index(path, "/", back=.true.) + 1:)
-      base = base(:index(base//".", ".") - 1)
+      base = piece(base, 1, index(base//".", ".") - 1)
       do k = 1, size(like%list)
          spec = spec_t()
          spec%channel = like%list(k)%name
          spec%unit = ""
          allocate (spec%columns(0))
          call append_text(spec%columns, spec%channel)
-         if (find_column_of(table, spec%channel) == 0 .and. starts_with(spec%channel, base//".")) &
+         if (find_column_of(table, spec%channel) == 0 .and. starts_with(spec%channel, base//".")) then
             spec%columns(1)%s = spec%channel(len(base) + 2:)
+         end if
          if (find_column_of(table, spec%columns(1)%s) > 0) call take_spec(table, spec, like, history, error)
          if (allocated(error)) return
       end do
@@ -257,6 +258,7 @@ contains
    end function nearest_of
 
    !> Compare two histories.
+   !> Length: instants, channels and verdict are found in one pass.
    subroutine compare_histories(a, b, specs, absolute, relative, by_statistics, found, error)
       type(history_t), intent(in) :: a                      !! the first
       type(history_t), intent(in) :: b                      !! the second
@@ -314,8 +316,8 @@ contains
          found%list = [found%list, new]
       end do
       do i = 1, size(a%list)
-         if (number_of(b, a%list(i)%name) == 0 .and. size(specs) == 0) &
-            call append_text(found%missing, a%list(i)%name//" is in "//a%path//" only")
+         if (number_of(b, a%list(i)%name) > 0 .or. size(specs) > 0) cycle
+         call append_text(found%missing, a%list(i)%name//" is in "//a%path//" only")
       end do
       found%n_different = count(found%list%is_different)
       if (size(found%list) == 0) call set_error(error, exit_usage, "both have no channel in common")

@@ -111,8 +111,9 @@ contains
       character(:), allocatable :: words             !! blank where it does not matter
 
       words = ""
-      if (difference%interpolation > 0.1_wp*max(difference%allowed, difference%greatest)) &
+      if (difference%interpolation > 0.1_wp*max(difference%allowed, difference%greatest)) then
          words = "  (interpolation up to "//real_text(difference%interpolation, 2)//")"
+      end if
    end function of_interpolation
 
    !> A text of some width.
@@ -179,6 +180,7 @@ contains
    end function joined
 
    !> For scripts.
+   !> Length: a line for each member.
    function comparison_json(found, first, second, directory, figures, warnings) result(text)
       type(comparison_t), intent(in) :: found     !! what was found
       character(*), intent(in) :: first           !! where A was read

@@ -34,6 +34,7 @@ module differences_of_series
    end type moments_t
 
    !> Differences of one number.
+   !> Components: all that is told of a channel.
    type :: difference_t
       character(:), allocatable :: name           !! of the number
       character(:), allocatable :: unit           !! SI

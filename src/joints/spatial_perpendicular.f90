@@ -2,7 +2,8 @@
 !>
 !> Phi = [ z_i . z_j ]                                                     (1 row)
 !>
-!> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2, from its elements. Limits: the axis of j must be given, since that of i is not it.
+!> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2, from its elements.
+!> Limits: the axis of j must be given, since that of i is not it.
 module spatial_perpendicular
    use item, only: item_t
    use kind_info, only: add_direction, kind_info_t

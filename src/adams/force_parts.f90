@@ -1,0 +1,175 @@
+!> An expression of a force cut into terms of the time, of the stretch, and of its rate.
+!>
+!> A sum, and a product with a constant of one, is cut further; a term that depends on more than one of them, or on other
+!> motion, has no words in a deck. VARVAL is replaced by the expression of its VARIABLE.
+module force_parts
+   use adams_expression, only: depends_on, node_add, node_call, node_divide, node_multiply, node_negate, node_subtract, on_other, &
+      on_rate, on_stretch, on_time, parse_tree, tree_t
+   use adams_model, only: adams_model_t, find_statement, id_of
+   use adams_translation, only: coefficient_text, deck_text, words_t
+   use dataset, only: find_argument, statement_t, upper_case
+   use diagnostics, only: diagnostics_t
+   use kinds, only: wp
+   use text, only: real_text
+   implicit none (type, external)
+   private
+   public :: cut_force, parts_t
+
+   !> The parts of a force, in the units of the dataset; blank: there is none.
+   type :: parts_t
+      character(:), allocatable :: of_time      !! terms of the time
+      character(:), allocatable :: of_stretch   !! terms of the stretch
+      character(:), allocatable :: of_rate      !! factor of the rate
+      character(:), allocatable :: message      !! why it has no words in a deck; blank: it has
+   end type parts_t
+
+contains
+
+   !> Cut a force into its parts.
+   subroutine cut_force(model, text, statement, turns, free, parts)
+      type(adams_model_t), intent(in) :: model         !! the dataset
+      character(*), intent(in) :: text                 !! the expression
+      type(statement_t), intent(in) :: statement       !! the force
+      logical, intent(in) :: turns                     !! whether it is a torque
+      real(wp), intent(in) :: free                     !! length or angle at which x is zero, units of the dataset [any]
+      type(parts_t), intent(out) :: parts              !! its parts
+
+      type(diagnostics_t) :: ignored
+      type(tree_t) :: tree
+      type(words_t) :: words
+      integer :: own(2)
+
+      parts = parts_t("", "", "", "")
+      own = [id_of(statement, "I", ignored), id_of(statement, "J", ignored)]
+      call parse_tree(with_variables(model, text), tree)
+      parts%message = tree%message
+      if (parts%message /= "") return
+      words = words_t("(t/"//model%units%time_text()//")", "x/"//model%units%length_text())
+      if (turns) words%stretch = "x/1rad"
+      if (abs(free) > 0.0_wp) words%stretch = words%stretch//" + "//real_text(free, 17)
+      words%stretch = "("//words%stretch//")"
+      call add_terms(tree, tree%root, "", own, turns, words, parts)
+   end subroutine cut_force
+
+   !> An expression with the variables that it takes by VARVAL put in.
+   recursive function with_variables(model, text, depth) result(whole)
+      type(adams_model_t), intent(in) :: model      !! the dataset
+      character(*), intent(in) :: text              !! the expression
+      integer, intent(in), optional :: depth        !! variables within variables
+      character(:), allocatable :: whole            !! without VARVAL, if all of them are expressions
+
+      integer, parameter :: deepest = 8
+      character(:), allocatable :: digits
+      integer :: at, id, k, last, level
+
+      level = 0
+      if (present(depth)) level = depth
+      whole = text
+      at = index(upper_case(whole), "VARVAL(")
+      do while (at > 0 .and. level < deepest)
+         last = index(whole(at:), ")") + at - 1
+         if (last <= at + 7) return
+         digits = trim(adjustl(whole(at + 7:last - 1)))
+         if (verify(digits, "0123456789") > 0 .or. len(digits) > 9) return
+         read (digits, *) id
+         k = find_statement(model, "VARIABLE", id)
+         if (k == 0) return
+         associate (variable => model%statements(k))
+            k = find_argument(variable, "FUNCTION", 3)
+            if (k == 0) return
+            whole = replaced(whole, at, last, "("//with_variables(model, variable%arguments(k)%values(1)%s, level + 1)//")")
+         end associate
+         at = index(upper_case(whole), "VARVAL(")
+      end do
+   end function with_variables
+
+   !> A text with a piece of it replaced.
+   pure function replaced(text, first, last, piece) result(whole)
+      character(*), intent(in) :: text        !! the text
+      integer, intent(in) :: first            !! where the piece begins
+      integer, intent(in) :: last             !! where it ends
+      character(*), intent(in) :: piece       !! what takes its place
+      character(:), allocatable :: whole      !! the new text
+
+      whole = text(:first - 1)//piece//text(last + 1:)
+   end function replaced
+
+   !> Add the terms of a sum to the parts of a force.
+   !> Length: sums, products with a constant, and what is a term are told apart in one place.
+   recursive subroutine add_terms(tree, node, factor, own, turns, words, parts)
+      type(tree_t), intent(in) :: tree                 !! the expression
+      integer, intent(in) :: node                      !! number of the node
+      character(*), intent(in) :: factor               !! of the node, with the sign that follows it
+      integer, intent(in) :: own(2)                    !! (2) markers I and J of the force
+      logical, intent(in) :: turns                     !! whether it is a torque
+      type(words_t), intent(in) :: words               !! how variables are written
+      type(parts_t), intent(inout) :: parts            !! of the force
+
+      character(:), allocatable :: text
+      integer :: bits, k, other
+      logical :: is_linear
+
+      if (parts%message /= "") return
+      bits = depends_on(tree, node, own, turns)
+      associate (it => tree%nodes(node))
+         if (bits /= 0 .and. bits /= on_time .and. bits /= on_stretch) then
+            select case (it%kind)
+            case (node_add, node_subtract, node_negate)
+               if (it%kind == node_negate) then
+                  call add_terms(tree, it%arguments(1), factor//"(-1)*", own, turns, words, parts)
+               else
+                  call add_terms(tree, it%arguments(1), factor, own, turns, words, parts)
+                  call add_terms(tree, it%arguments(2), trim(merge(factor//"     ", factor//"(-1)*", it%kind == node_add)), own, &
+                        turns, &
+                                 words, parts)
+               end if
+               return
+            case (node_multiply, node_divide)
+               k = 1
+               if (depends_on(tree, it%arguments(1), own, turns) == 0) k = 2
+               other = it%arguments(3 - k)
+               if (depends_on(tree, other, own, turns) == 0 .and. bits /= on_rate .and. .not. (k == 2 .and. &
+                                                                                                it%kind == node_divide)) then
+                  call deck_text(tree, other, words, text, parts%message)
+                  text = "("//text//")"
+                  if (it%kind == node_divide) text = "(1/"//text//")"
+                  call add_terms(tree, it%arguments(k), factor//text//"*", own, turns, words, parts)
+                  return
+               end if
+            end select
+         end if
+         if (it%kind == node_call .and. iand(bits, on_rate) /= 0 .and. (it%name == "IMPACT" .or. it%name == "BISTOP")) then
+            call deck_text(tree, node, words, text, parts%message)   ! without damping it is of the stretch alone
+            if (parts%message == "") parts%of_stretch = sum_of(parts%of_stretch, factor//text)
+            return
+         end if
+      end associate
+      select case (bits)
+      case (0, on_time)
+         call deck_text(tree, node, words, text, parts%message)
+         parts%of_time = sum_of(parts%of_time, factor//text)
+      case (on_stretch)
+         call deck_text(tree, node, words, text, parts%message)
+         parts%of_stretch = sum_of(parts%of_stretch, factor//text)
+      case (on_rate)
+         call coefficient_text(tree, node, own, turns, on_rate, .true., words, text, is_linear)
+         if (.not. is_linear) parts%message = "its damping is not linear in the rate"
+         parts%of_rate = sum_of(parts%of_rate, factor//text)
+      case default
+         parts%message = "a term of the stretch, its rate or the time together"
+         if (iand(bits, on_other) /= 0) parts%message = "it depends on motion other than that of its own markers along their line"
+         if (iand(bits, on_other) /= 0 .and. turns) parts%message = "it depends on motion other than AZ and WZ of its own markers"
+      end select
+   end subroutine add_terms
+
+   !> A sum with one more term.
+   pure function sum_of(sum, term) result(whole)
+      character(*), intent(in) :: sum        !! so far, in parentheses; blank: nothing
+      character(*), intent(in) :: term       !! one more
+      character(:), allocatable :: whole     !! in parentheses
+
+      whole = "("//term//")"
+      if (sum /= "") whole = "("//sum(2:len(sum) - 1)//" + "//term//")"
+   end function sum_of
+
+end module force_parts
