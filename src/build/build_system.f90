@@ -86,13 +86,10 @@ contains
       call add_event_functions(system)
       system%n_event = system%loose%functions%n
       system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
-                        .and. system%friction%rubbing%n == 0
+                        .and. system%friction%rubbing%n == 0 .and. .not. sees_motion(scene)
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
-         system%is_large = .false.
-      end if
+      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
       call bind_reactions(system)
-      if (sees_motion(scene)) system%is_large = .false.  ! nor does it know what loads see
    end subroutine new_system
 
    !> The blocks of event functions that the contacts have.

@@ -3,6 +3,8 @@ submodule(point_contacts) point_queries
    use catalogue, only: state_contact, state_free
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
+   use film_law, only: film_motion_t
+   use film_places, only: film_state_t
    use motion, only: cross
    use kinds, only: not_a_number
    use normal_law, only: n_law_parameter, normal_law_t
@@ -108,7 +110,35 @@ contains
          force = force + f
          moment = moment + cross(contacts(c)%arm_j, f)
       end do
+      if (allocated(self%laws%films)) call add_film(self, item, motion, force, moment)
    end procedure point_load_on_j
+
+   !> Add what the film of an item does to its body j, force and moment about the centre of mass.
+   subroutine add_film(self, item, motion, force, moment)
+      class(point_contacts_t), intent(in) :: self   !! the set, with films
+      integer, intent(in) :: item                   !! the item
+      type(motion_t), intent(in) :: motion          !! positions and velocities
+      real(wp), intent(inout) :: force(3)           !! (3) world frame [N]
+      real(wp), intent(inout) :: moment(3)          !! (3) world frame [N.m]
+
+      type(film_motion_t) :: film
+      type(film_state_t) :: state
+      real(wp) :: couple(3), f(3)
+
+      associate (body => self%items%body(:, item), s_j => self%items%s_j(:, item))
+         film = self%laws%films%motion_of(item, body, self%items%s_i(:, item), s_j, motion)
+         state = self%laws%films%state_of(item, body, film, motion)
+         if (allocated(motion%spatial%own)) then
+            f = state%load
+            couple = state%moment
+         else
+            f = [state%force, 0.0_wp]
+            couple = [0.0_wp, 0.0_wp, state%torque]
+         end if
+         force = force + f
+         moment = moment + couple + cross(matmul(motion%rot(:, :, body(2)), s_j), f)
+      end associate
+   end subroutine add_film
 
    !> Values of a channel of the contacts of an item.
    pure subroutine report_contacts(code, n, memory, contacts, f_n, f_t, values)

@@ -4,7 +4,7 @@ module sight_words
    use kind_info, only: dim_angle, dim_angular_speed, dim_length, dim_none, dim_speed, dim_t
    use sight, only: sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, sees_position, sees_velocity
    use spelling, only: nearest_word
-   use text, only: split_blank
+   use text, only: piece, split_blank
    implicit none (type, external)
    private
    public :: read_sight_word, sight_words_t
@@ -39,7 +39,7 @@ contains
       if (dot > 0) then
          component = index("xyz", quantity(dot + 1:))
          if (component == 0 .or. len(quantity) /= dot + 1) component = -1
-         quantity = quantity(:dot - 1)
+         quantity = piece(quantity, 1, dot - 1)
       end if
       select case (quantity)
       case ("position"); part = sees_position

@@ -264,11 +264,34 @@ contains
       call apply_function(name, operation, arguments, term, message, k)
       if (len(message) > 0) call fail(parser, arguments(k)%first, arguments(k)%last, message)
       if (operation == op_rise) then
+         call check_places(parser, name, arguments)
          call emit_rise(parser, number_of_rise(name), arguments%start)
       else
          call emit(parser, operation)
       end if
    end subroutine parse_word
+
+   !> A law that rises takes its way between two places: constant ones must differ.
+   subroutine check_places(parser, name, arguments)
+      type(parser_t), intent(inout) :: parser   !! the reader, its program ends with the arguments
+      character(*), intent(in) :: name          !! of the law
+      type(term_t), intent(in) :: arguments(:)  !! (5) x, x0, h0, x1, h1
+
+      real(wp) :: jet(3), place(2)
+      integer :: first, k, last
+
+      if (allocated(parser%fault) .or. .not. (arguments(2)%is_constant .and. arguments(4)%is_constant)) return
+      do k = 1, 2
+         first = arguments(2*k)%start
+         last = arguments(2*k + 1)%start - 1
+         call evaluate_code(last - first + 1, parser%code(first:last), parser%operand(first:last), parser%curves, &
+                          & spread(0.0_wp, 1, n_variable), 1, jet)
+         place(k) = jet(1)
+      end do
+      if (abs(place(2) - place(1)) > 0.0_wp) return
+      call fail(parser, arguments(4)%first, arguments(4)%last, "'"//name//"' has no way to rise: x0 and x1 are one place", &
+              & name//"(x, x0, h0, x1, h1) goes from h0 at x0 to h1 at x1")
+   end subroutine check_places
 
    !> A law that rises: h0 + (h1 - h0) s((x - x0)/(x1 - x0)), in the place of its arguments x, x0, h0, x1, h1.
    subroutine emit_rise(parser, law, start)

@@ -39,7 +39,7 @@ module expression_state
          class(channel_finder_t), intent(in) :: self            !! the finder
          character(*), intent(in) :: word                       !! as `ram.velocity.y`
          type(dim_t), intent(out) :: dimension                  !! of the channel
-         character(:), allocatable, intent(out) :: message      !! what is wrong with it; empty: nothing; unallocated: it is told already
+         character(:), allocatable, intent(out) :: message      !! what is wrong; empty: nothing; unallocated: it is told already
          character(:), allocatable, intent(out) :: help         !! what to do, may be empty
       end subroutine find_channel_interface
    end interface

@@ -203,12 +203,45 @@ contains
       type(sight_t), intent(inout) :: sight               !! its place is set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      type(text_list_t) :: known
-      character(:), allocatable :: hint, item, quantity
-      logical :: is_vector
-      integer :: body, k, motion, point
+      character(:), allocatable :: help, item, message, quantity
+      type(location_t) :: at
+      integer :: body, motion, point
 
       call read_sight_word(sight%word, item, quantity, sight%component, sight%quantity)
+      help = ""
+      call find_item(scene, item, body, motion, point, help)
+      if (body + motion + point == 0) then
+         message = "nothing that a load can see has the name '"//item//"'"
+         if (help /= "") help = "did you mean '"//help//"."//quantity//"'?"
+      else
+         if (body > 0) then
+            sight%place = place_t(body=body)
+         else if (motion > 0) then
+            sight%place = scene%requests%motions(motion)%place
+         else
+            sight%place = scene%requests%places(point)
+         end if
+         call check_sight(scene, item//"."//quantity, body > 0, motion > 0, sight, message, help)
+      end if
+      if (message == "") return
+      at = location
+      at%first = location%first + sight%first
+      at%last = at%first + len(sight%word) - 1
+      call diagnostics%add(at, "wrong channel '"//sight%word//"' in an expression", message, help)
+   end subroutine place_sight
+
+   !> The body, the row of [request.motion] or the point of a name.
+   subroutine find_item(scene, item, body, motion, point, near)
+      type(scene_t), intent(in) :: scene                  !! the scene
+      character(*), intent(in) :: item                    !! the name
+      integer, intent(out) :: body                        !! number of the body, 0: none
+      integer, intent(out) :: motion                      !! number of the row, 0: none
+      integer, intent(out) :: point                       !! number among points that have channels, 0: none
+      character(:), allocatable, intent(out) :: near      !! a name that is like it, may be blank
+
+      type(text_list_t) :: known
+      integer :: k
+
       body = 0
       motion = 0
       point = 0
@@ -224,60 +257,48 @@ contains
          if (scene%requests%points(k)%s == item) point = k
          call known%add(scene%requests%points(k)%s)
       end do
-      hint = nearest_word(item, known%get())
-      if (hint /= "") hint = "did you mean '"//hint//"."//quantity//"'?"
-      if (body + motion + point == 0) then
-         call complain("nothing that a load can see has the name '"//item//"'", hint)
-         return
-      end if
-      if (body > 0) then
-         sight%place = place_t(body=body)
-      else if (motion > 0) then
-         sight%place = scene%requests%motions(motion)%place
-      else
-         sight%place = scene%requests%places(point)
-      end if
+      near = nearest_word(item, known%get())
+   end subroutine find_item
+
+   !> Whether an item has a quantity, and whether what is named of it is a single number.
+   subroutine check_sight(scene, name, is_body, is_motion, sight, message, help)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      character(*), intent(in) :: name                        !! item and quantity, as written
+      logical, intent(in) :: is_body                          !! the item is a body
+      logical, intent(in) :: is_motion                        !! it is a row of [request.motion]
+      type(sight_t), intent(inout) :: sight                   !! its component is set
+      character(:), allocatable, intent(out) :: message       !! what is wrong, blank: nothing
+      character(:), allocatable, intent(out) :: help          !! what to do
+
+      logical :: is_vector
+
+      message = ""
+      help = ""
+      is_vector = .true.
       select case (sight%quantity)
       case (sees_angle)
          is_vector = .false.
-         if (body == 0 .or. scene%settings%is_spatial) call complain("only bodies of the plane have an angle", "")
+         if (.not. is_body .or. scene%settings%is_spatial) message = "only bodies of the plane have an angle"
       case (sees_angular_velocity)
          is_vector = scene%settings%is_spatial
-         if (body == 0) call complain("only bodies have an angular velocity", "")
-         if (.not. is_vector) sight%component = merge(3, -1, sight%component == 0)
+         if (.not. is_body) message = "only bodies have an angular velocity"
       case (sees_distance, sees_distance_rate)
          is_vector = .false.
-         if (motion == 0) call complain("only rows of [request.motion] have a distance", "")
-      case default
-         is_vector = .true.
+         if (.not. is_motion) message = "only rows of [request.motion] have a distance"
       end select
+      if (message /= "") return
       if (is_vector) then
-         if (sight%component < 1 .or. sight%component > merge(3, 2, scene%settings%is_spatial)) then
-            call complain("'"//sight%word//"' is no single number", "write "//item//"."//quantity//".x or .y"// &
-                          trim(merge(" or .z", "      ", scene%settings%is_spatial)))
+         if (sight%component >= 1 .and. sight%component <= merge(3, 2, scene%settings%is_spatial)) return
+         message = "'"//sight%word//"' is no single number"
+         help = "write "//name//".x or .y"
+         if (scene%settings%is_spatial) help = help//" or .z"
+      else
+         if (sight%component /= 0) then
+            message = "'"//sight%word//"' has no components"
+            help = "write "//name
          end if
-      else if (sight%quantity /= sees_angular_velocity) then
-         if (sight%component /= 0) call complain("'"//sight%word//"' has no components", "write "//item//"."//quantity)
-         sight%component = 1
-      else if (sight%component < 0) then
-         call complain("'"//sight%word//"' has no components", "write "//item//"."//quantity)
+         sight%component = merge(3, 1, sight%quantity == sees_angular_velocity)  ! about z
       end if
-
-   contains
-
-      !> Report what is wrong with the channel.
-      subroutine complain(message, help)
-         character(*), intent(in) :: message   !! what is wrong
-         character(*), intent(in) :: help      !! what to do
-
-         type(location_t) :: at
-
-         at = location
-         at%first = location%first + sight%first
-         at%last = at%first + len(sight%word) - 1
-         call diagnostics%add(at, "wrong channel '"//sight%word//"' in an expression", message, help)
-      end subroutine complain
-
-   end subroutine place_sight
+   end subroutine check_sight
 
 end module read_requests

@@ -43,11 +43,16 @@ name     point    from     frame    observer
 from_c   tracer   -        crank    frame
 accel    tracer   -        crank    world
 gap      tracer   head     ground   frame
+[request.reaction]
+name  joint     on  point   frame
+heel_end  crankpin  j   tracer  ground
+head_end  top       i   tracer  ground
+felt_end  crankpin  j   tracer  coupler
 [analysis.kinematic]
 end = 1 s
 [output]
 every = 10 ms
-channels = tracer.* far.position from_c.* accel.* gap.*
+channels = heel_end.* head_end.* felt_end.* coupler.* tracer.* far.position from_c.* accel.* gap.*
 """
 
 
@@ -124,6 +129,27 @@ def test_coupler_curve(gudgeon, is_spatial):
     assert_close(column(file, "motions", "distance", "gap"), distance, 1e-12)
     assert_close(column(file, "motions", "distance_rate", "gap"), rate, 1e-10)
     assert_close(column(file, "points", "position", "far")[:, :2], np.tile([0.25, 0.0], (len(t), 1)), 0.0)
+
+
+@pytest.mark.parametrize("is_spatial", [False, True])
+def test_reactions_balance_the_coupler(gudgeon, is_spatial):
+    """Both reactions on the coupler give it its acceleration, their moments about the tracer its change of angular momentum."""
+    _, file, _ = run(gudgeon, four_bar(is_spatial))
+    part = list(file["bodies/names"][:]).index(b"coupler")
+    place, speed_up = (file[f"bodies/{name}"][:, part] for name in ("position", "acceleration"))
+    turning = file["bodies/angular_acceleration"][:, part].reshape(len(place), -1)[:, -1]
+    force = {name: column(file, "reactions", "force", name) for name in ("heel_end", "head_end", "felt_end")}
+    moment = {name: column(file, "reactions", "moment", name).reshape(len(place), -1)[:, -1] for name in force}
+    assert_close(force["heel_end"] + force["head_end"], 2.25 * speed_up, 1e-7)
+    arm = place - column(file, "points", "position", "tracer")
+    spin = 2.0 * turning + 2.25 * (arm[:, 0] * speed_up[:, 1] - arm[:, 1] * speed_up[:, 0])
+    assert_close(moment["heel_end"] + moment["head_end"], spin, 1e-7)
+    crank, head = tracer_of(file["time"][:])[1:]
+    along = (head - crank) / 0.4
+    felt = (force["heel_end"][:, 0] + 1j * force["heel_end"][:, 1]) / along
+    assert_close(force["felt_end"][:, 0], felt.real, 1e-8)
+    assert_close(force["felt_end"][:, 1], felt.imag, 1e-8)
+    assert_close(moment["felt_end"], moment["heel_end"], 1e-8)
 
 
 # A rod of 2 kg and 1 m that turns at 3 rad/s about its end, driven, in gravity.
@@ -291,6 +317,10 @@ pad hole axle 20 0.1 30 steel law dry
 [force.point]
 name point fx[N] fy[N]
 press axle 0 -500
+[request.reaction]
+name joint on point frame
+hold pad j axle shaft
+wall pad i hole -
 [analysis.dynamic]
 end = 0.2 s
 tolerance = 1e-8
@@ -298,7 +328,7 @@ start = given
 overlap = preload
 [output]
 every = 0.1 ms
-channels = pad.normal_force pad.p_v pad.sliding_speed pad.contact_angle pad.contact_power pad.state shaft.* energy.*
+channels = pad.normal_force pad.p_v pad.sliding_speed pad.contact_angle pad.contact_power pad.state pad.force shaft.* hold.* wall.* energy.*
 """
 
 
@@ -319,6 +349,13 @@ def test_p_v_of_a_journal_brake(gudgeon):
     assert_close(contact("sliding_speed"), sliding, 1e-6)
     assert_close(contact("p_v"), contact("normal_force") / (2 * radius * length) * sliding, relative=1e-6)
     assert_close(contact("contact_angle"), np.arctan2(place[:, 1], place[:, 0]), 1e-12)
+    force, angle = read("clearances/force")[:, 0], read("bodies/angle")[:, 0]
+    turned = [force[:, 0] * np.cos(angle) + force[:, 1] * np.sin(angle), force[:, 1] * np.cos(angle) - force[:, 0] * np.sin(angle)]
+    assert_close(read("reactions/force")[:, 0], np.array(turned).T, 1e-9)
+    assert_close(read("reactions/force")[:, 1], -force, 1e-9)
+    assert_close(read("reactions/moment")[:, 0], 0.05 * read("bodies/angular_acceleration")[:, 0], 1e-9)
+    balance = read("reactions/moment").sum(axis=1) - (place[:, 1] * force[:, 0] - place[:, 0] * force[:, 1])
+    assert_close(balance, 0.0, 1e-9)
     lost = read("energy/dissipated_contact") + read("energy/dissipated_friction")
     power = contact("contact_power")
     gathered = np.sum((power[1:] + power[:-1]) / 2 * np.diff(t))

@@ -139,6 +139,7 @@ def test_mistakes_of_cams(gudgeon, row, words):
         ("step5(t, 0 s, 0 mm)", "five arguments"),
         ("step5(t, 0 s, 0 mm, 1 s, 1 mm, 2)", "too many"),
         ("step5(t, 0 m, 0 mm, 1 s, 1 mm)", "^"),
+        ("step5(t, 1 s, 0 mm, 1 s, 1 mm)", "x0 and x1 are one place"),
         ("step5(t, 0 s, 0 mm, 1 s, 1 N)", "^"),
         ("stepp5(t, 0 s, 0 mm, 1 s, 1 mm)", "did you mean 'step5'"),
     ],
