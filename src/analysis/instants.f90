@@ -5,11 +5,12 @@
 !> restarts (`smooth_piece`). Between instants a step is not longer than the functions' pace, nor than a quarter of a turn of
 !> any body that a contact may touch, unless the user has set a greatest or fixed step.
 !>
-!> Limits: laws of springs and contacts are functions of the state; their kinks are left to the control of the step.
+!> Limits: laws of springs and contacts, and what loads see of the motion, are functions of the state; their kinks are left to the
+!> control of the step. Of a load that sees the motion the parts that are functions of the time are watched.
 module instants
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
    use expression, only: expression_t
-   use expression_switches, only: find_switches, switch_t
+   use expression_switches, only: find_switches, switch_t, time_parts
    use integrator, only: integrator_t
    use kind_info, only: cell_expression, dim_angle, same_dimension
    use kinds, only: eps, pi, wp
@@ -82,33 +83,42 @@ contains
       logical, intent(in) :: turns_count              !! whether angles must not turn by much in a step
       type(instants_t), intent(inout) :: instants     !! cells are added
 
+      type(expression_t), allocatable :: parts(:)
       type(watched_t) :: cell
-      integer :: c, i
+      integer :: c, i, k
 
       do c = 1, size(table%info%columns)
          do i = 1, size(table%items)
             if (.not. is_function_of_time(table, c, i)) cycle
             associate (expression => table%items(i)%values(c)%expression)
                cell%name = table%items(i)%name//"."//table%info%columns(c)%name
-               call watch(expression, instants%end, turns_count .and. same_dimension(expression%dimension, dim_angle), cell)
-               if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
-               instants%n = instants%n + 1
-               instants%cells(instants%n) = cell
-               instants%paces = instants%paces .or. .not. cell%pace%is_calm
+               call time_parts(expression, parts)
+               do k = 1, size(parts)
+                  call watch(parts(k), instants%end, turns_count .and. same_dimension(expression%dimension, dim_angle), cell)
+                  if (size(cell%scans) == 0 .and. cell%pace%is_calm) cycle
+                  instants%n = instants%n + 1
+                  instants%cells(instants%n) = cell
+                  instants%paces = instants%paces .or. .not. cell%pace%is_calm
+               end do
             end associate
          end do
       end do
    end subroutine watch_table
 
-   !> Cells of a table that are functions of time.
-   pure integer function functions_of_time(table) result(n)
+   !> Functions of time in the cells of a table.
+   integer function functions_of_time(table) result(n)
       type(table_t), intent(in) :: table   !! rows of a kind
 
+      type(expression_t), allocatable :: parts(:)
       integer :: c, i
 
       n = 0
       do c = 1, size(table%info%columns)
-         n = n + count([(is_function_of_time(table, c, i), i=1, size(table%items))])
+         do i = 1, size(table%items)
+            if (.not. is_function_of_time(table, c, i)) cycle
+            call time_parts(table%items(i)%values(c)%expression, parts)
+            n = n + size(parts)
+         end do
       end do
    end function functions_of_time
 

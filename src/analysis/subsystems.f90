@@ -12,7 +12,7 @@ module subsystems
    use mechanism, only: mechanism_t
    use name_table, only: name_table_t
    use scene, only: scene_t
-   use scene_groups, only: begin_group_scene, find_groups, groups_t, set_group_scene
+   use scene_groups, only: begin_group_scene, find_groups, groups_t, sees_motion, set_group_scene
    use text, only: text_t, to_text
    implicit none (type, external)
    private
@@ -88,6 +88,8 @@ contains
          else if (any([(scene%forces(k)%info%counts_turns .and. size(scene%forces(k)%items) > 0, k=1, n_force_kinds)]) .or. &
                   any([(scene%joints(k)%info%counts_turns .and. size(scene%joints(k)%items) > 0, k=1, n_joint_kinds)])) then
             reason = "turns are counted from step to step"
+         else if (sees_motion(scene)) then
+            reason = "loads see the motion"
          end if
       end associate
    end function reason_to_stay

@@ -20,7 +20,9 @@ module build_system
    use motion, only: motion_t, new_loads
    use rubbing, only: new_rubbing
    use mechanism, only: mechanism_t
+   use reaction_at, only: bind_reactions
    use scene, only: analysis_dynamic, scene_t
+   use scene_groups, only: sees_motion
    use scene_size, only: is_large
    use start_piece, only: piece_at_start
    implicit none (type, external)
@@ -41,6 +43,7 @@ contains
       integer :: k, n
 
       n = scene%bodies%n
+      system%requests = scene%requests
       with_start_rows = .false.
       if (present(is_for_start)) with_start_rows = is_for_start
       do k = 1, n_joint_kinds
@@ -83,11 +86,10 @@ contains
       call add_event_functions(system)
       system%n_event = system%loose%functions%n
       system%is_large = is_large(scene) .and. system%linkage%reduced%guided%n == 0 .and. system%friction%grips%n_bristle == 0 &
-                        .and. system%friction%rubbing%n == 0
+                        .and. system%friction%rubbing%n == 0 .and. .not. sees_motion(scene)
       ! forces of contacts that stick hang on all that they are joined with, which the pattern of a Newton matrix does not know
-      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") then
-         system%is_large = .false.
-      end if
+      if (system%friction%grips%n_slip > 0 .and. scene%settings%dynamic%word("method") == "ida") system%is_large = .false.
+      call bind_reactions(system)
    end subroutine new_system
 
    !> The blocks of event functions that the contacts have.

@@ -16,7 +16,7 @@ module scene_groups
    use ties, only: find_joint, names_joint
    implicit none (type, external)
    private
-   public :: begin_group_scene, find_groups, groups_t, set_group_scene
+   public :: begin_group_scene, find_groups, groups_t, sees_motion, set_group_scene
 
    !> Things sorted by the group that they belong to.
    type :: sorted_t
@@ -79,6 +79,23 @@ contains
       end do
       allocate (groups%point(scene%points%n), source=0)
    end subroutine find_groups
+
+   !> Whether some load sees the motion of bodies.
+   pure logical function sees_motion(scene) result(sees)
+      type(scene_t), intent(in) :: scene      !! the scene
+
+      integer :: c, i, k
+
+      sees = .false.
+      do k = 1, n_force_kinds
+         do i = 1, size(scene%forces(k)%items)
+            do c = 1, size(scene%forces(k)%items(i)%values)
+               if (.not. allocated(scene%forces(k)%items(i)%values(c)%expression)) cycle
+               sees = sees .or. allocated(scene%forces(k)%items(i)%values(c)%expression%sights)
+            end do
+         end do
+      end do
+   end function sees_motion
 
    !> Numbers of the bodies of a group.
    pure function groups_bodies_of(self, group) result(bodies)

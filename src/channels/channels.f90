@@ -1,12 +1,14 @@
 !> Which channels a run keeps: from the deck's words to a mask over the catalogue.
 !>
 !> Words: `slider.position`, `slider.position.x`, `gudgeon.*`, `*.velocity`, `*`, `gudgeon.penetration`
-!> of a contact, `guide.A.penetration` where a joint has several, `energy.residual`, `energy.*`.
+!> of a contact, `guide.A.penetration` where a joint has several, `energy.residual`, `energy.*`, `request.NAME`. A `*` for the item
+!> stands for everything but points, which have channels only where they are named.
 module channels
-   use catalogue, only: catalogue_t, n_rooms, room_contacts
+   use catalogue, only: catalogue_t, n_rooms, room_contacts, room_points
    use channel_hints, only: is_same, suggestion
    use channel_names, only: component_letter, item_name, scalar_t
    use name_table, only: name_table_t
+   use point_contacts, only: named_channels
    use text, only: append_text, text_t
    implicit none (type, external)
    private
@@ -148,6 +150,7 @@ contains
       associate (n => size(catalogue%rooms(room)%names))
          first = 1
          last = n
+         if (room == room_points .and. part == "*") last = 0
          if (part == "*") return
          last = 0
          if (n > 0) first = self%names(room)%find(part)
@@ -180,9 +183,9 @@ contains
       fits = .false.
       select case (size(parts))
       case (1)
-         fits = parts(1)%s == "*"
+         fits = parts(1)%s == "*" .and. .not. is_named_only(quantity)
       case (2)
-         fits = is_same(parts(2)%s, quantity)
+         fits = is_same(parts(2)%s, quantity) .and. .not. (parts(2)%s == "*" .and. is_named_only(quantity))
       case (3)
          fits = is_same(parts(2)%s, quantity) .and. len(letter) > 0 .and. is_same(parts(3)%s, letter)
          if (.not. fits) fits = len(label) > 0 .and. is_same(parts(2)%s, label) .and. is_same(parts(3)%s, quantity)
@@ -193,6 +196,13 @@ contains
          fits = .false.
       end select
    end function fits
+
+   !> Whether a quantity is told only where it is named.
+   pure logical function is_named_only(quantity)
+      character(*), intent(in) :: quantity   !! name of the channel
+
+      is_named_only = index(named_channels, " "//quantity//" ") > 0
+   end function is_named_only
 
    !> The parts of a word between its dots.
    pure function split_dots(word) result(parts)

@@ -15,7 +15,7 @@ module clearance_set
    use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
    use kind_info, only: in_space, kind_info_t
-   use kinds, only: pi, wp
+   use kinds, only: not_a_number, pi, wp
    use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t, parameter_gentle
    use readings, only: readings_t
@@ -82,6 +82,7 @@ module clearance_set
       procedure :: lay => clearance_lay
       procedure :: follow_sliding => clearance_follow_sliding
       procedure :: contact_time => clearance_contact_time
+      procedure :: load_on_j => clearance_load_on_j
    end type clearance_set_t
 
    !> A place for a set of any geometry.
@@ -195,6 +196,18 @@ module clearance_set
    end interface
 
 contains
+
+   !> Force of all contacts of an item on its body j, and their moment about its centre of mass. None is known here. No allocation.
+   subroutine clearance_load_on_j(self, item, motion, force, moment)
+      class(clearance_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: item                 !! the item
+      type(motion_t), intent(in) :: motion        !! positions and velocities
+      real(wp), intent(out) :: force(3)           !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)          !! (3) world frame [N.m]
+
+      force = not_a_number()
+      moment = force + 0.0_wp*(item + self%n + size(motion%angle))
+   end subroutine clearance_load_on_j
 
    !> Set up the common part.
    subroutine clearance_new(self, items, bearing, journal, points, law, friction)

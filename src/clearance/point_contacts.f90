@@ -18,7 +18,7 @@ module point_contacts
    use contact_grip, only: slip_force, tangent_t
    use contact_laws, only: rub_by_law
    use friction_law, only: memory_none
-   use kind_info, only: add_channel, kind_info_t
+   use kind_info, only: add_channel, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use readings, only: readings_t
@@ -27,7 +27,7 @@ module point_contacts
    private
    public :: add_contact_channels, point_contacts_t, point_elastic_energy, point_gaps, point_report, point_watch
    public :: take_friction  ! for its submodule
-   public :: of_contact_point, of_eccentricity, of_force, of_moment, of_state
+   public :: named_channels, of_contact_point, of_eccentricity, of_force, of_moment, of_state
 
    ! channels
    integer, parameter :: of_force = 1             !! force on j
@@ -39,6 +39,13 @@ module point_contacts
    integer, parameter :: of_contact_point = 7     !! of a contact
    integer, parameter :: of_eccentricity = 8      !! a geometry's own
    integer, parameter :: of_moment = 9            !! a geometry's own
+   integer, parameter :: of_contact_angle = 101   !! of a contact in the plane; these four only where they are named
+   integer, parameter :: of_sliding_speed = 102   !! of a contact
+   integer, parameter :: of_contact_power = 103   !! of a contact
+   integer, parameter :: of_p_v = 104             !! of a contact
+
+   character(*), parameter :: named_channels = " contact_angle sliding_speed contact_power p_v "
+      !! channels of contacts that `*` does not stand for: they are told where they are named
 
    !> Contacts at points, of any geometry. `prepare` of a geometry calls `make_room`; `evaluate` is made of `point_way.inc`.
    type, abstract, extends(clearance_set_t) :: point_contacts_t
@@ -56,6 +63,7 @@ module point_contacts
       procedure :: watch => point_watch
       procedure(point_force_interface), nopass, deferred :: force_on_j
       procedure :: report => point_report
+      procedure :: load_on_j => point_load_on_j
       procedure :: elastic_energy => point_elastic_energy
    end type point_contacts_t
 
@@ -124,6 +132,16 @@ module point_contacts
          type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
       end subroutine point_report
 
+      !> Force of the contacts of an item on its body j, and their moment about its centre of mass.
+      module subroutine point_load_on_j(self, item, motion, force, moment)
+         implicit none (type, external)
+         class(point_contacts_t), intent(in) :: self  !! the set
+         integer, intent(in) :: item                  !! the item
+         type(motion_t), intent(in) :: motion         !! positions and velocities
+         real(wp), intent(out) :: force(3)            !! (3) world frame [N]
+         real(wp), intent(out) :: moment(3)           !! (3) world frame [N.m]
+      end subroutine point_load_on_j
+
       !> Elastic energy that the touching contacts store.
       module function point_elastic_energy(self, motion) result(energy)
          implicit none (type, external)
@@ -158,6 +176,16 @@ contains
       call add_channel(info, "friction_force", "N", "none", 1, "friction force on the "//who//" along "//along, of_friction_force)
       call add_channel(info, "state", "1", "none", 1, "0 free, 1 contact, 2 film, 3 mixed", of_state)
       call add_channel(info, "contact_point", "m", "world", 2, "where the force on the "//who//" acts, or would", of_contact_point)
+      if (info%space == in_plane) then
+         call add_channel(info, "contact_angle", "rad", "body", 1, "direction in which the "//who//" presses, in the frame of " &
+                          //"the body of i, from -pi to pi", of_contact_angle)
+      end if
+      call add_channel(info, "sliding_speed", "m/s", "none", 1, "speed of the "//who//" along the other surface at the " &
+                       //"contact, 0 when apart", of_sliding_speed)
+      call add_channel(info, "contact_power", "W", "none", 1, "power that damping and friction of the contact take", &
+                       of_contact_power)
+      call add_channel(info, "p_v", "Pa.m/s", "none", 1, "normal force over diameter and length of a pin, times the sliding " &
+                       //"speed", of_p_v)
    end subroutine add_contact_channels
 
    !> Room for what an evaluation finds.

@@ -3,7 +3,12 @@ submodule(point_contacts) point_queries
    use catalogue, only: state_contact, state_free
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
+   use film_law, only: film_motion_t
+   use film_places, only: film_state_t
+   use motion, only: cross
+   use kinds, only: not_a_number
    use normal_law, only: n_law_parameter, normal_law_t
+   use surfaces, only: shape_internal, surfaces_t
    implicit none (type, external)
 
 contains
@@ -55,15 +60,17 @@ contains
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
       type(point_contact_t) :: contacts(most_of_item)
-      real(wp) :: f_n(most_of_item), f_t(most_of_item)
+      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
       integer :: first, item, m, n
       logical :: has_contacts
 
       n = self%n_contact_item
-      has_contacts = readings%has(of_force, of_contact_point) .or. readings%has(of_moment, of_moment)
+      has_contacts = readings%has(of_force, of_contact_point) .or. readings%has(of_moment, of_moment) &
+                     .or. readings%has(of_contact_angle, of_p_v)
       do item = 1, self%n
          first = (item - 1)*n
-         if (has_contacts) call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n))
+         if (has_contacts) call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n), f_elastic(:n), &
+                                            readings%has(of_sliding_speed, of_p_v))
          do m = 1, readings%n
             associate (values => groups(readings%group(m))%data)
                if (readings%code(m) == of_contact_point) then
@@ -72,6 +79,10 @@ contains
                else if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
                   call report_contacts(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, &
                                        values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
+               else if (readings%code(m) >= of_contact_angle .and. readings%code(m) <= of_p_v) then
+                  call report_rubbing(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, f_elastic, &
+                                      self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), &
+                                      values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
                else if (readings%code(m) == of_force) then
                   call report_force(self, n, contacts, f_n, f_t, values(:, self%before%items + item))
                else
@@ -82,6 +93,52 @@ contains
          end do
       end do
    end procedure point_report
+
+   !> Force of the contacts of an item on its body j, and their moment about its centre of mass.
+   module procedure point_load_on_j
+      type(point_contact_t) :: contacts(most_of_item)
+      real(wp) :: f(3), f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
+      integer :: c, n
+
+      n = self%n_contact_item
+      call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n), f_elastic(:n), .false.)
+      force = 0.0_wp
+      moment = 0.0_wp
+      do c = 1, n
+         if (.not. (f_n(c) > 0.0_wp .or. abs(f_t(c)) > 0.0_wp)) cycle
+         f = self%force_on_j(contacts(c), f_n(c), f_t(c))
+         force = force + f
+         moment = moment + cross(contacts(c)%arm_j, f)
+      end do
+      if (allocated(self%laws%films)) call add_film(self, item, motion, force, moment)
+   end procedure point_load_on_j
+
+   !> Add what the film of an item does to its body j, force and moment about the centre of mass.
+   subroutine add_film(self, item, motion, force, moment)
+      class(point_contacts_t), intent(in) :: self   !! the set, with films
+      integer, intent(in) :: item                   !! the item
+      type(motion_t), intent(in) :: motion          !! positions and velocities
+      real(wp), intent(inout) :: force(3)           !! (3) world frame [N]
+      real(wp), intent(inout) :: moment(3)          !! (3) world frame [N.m]
+
+      type(film_motion_t) :: film
+      type(film_state_t) :: state
+      real(wp) :: couple(3), f(3)
+
+      associate (body => self%items%body(:, item), s_j => self%items%s_j(:, item))
+         film = self%laws%films%motion_of(item, body, self%items%s_i(:, item), s_j, motion)
+         state = self%laws%films%state_of(item, body, film, motion)
+         if (allocated(motion%spatial%own)) then
+            f = state%load
+            couple = state%moment
+         else
+            f = [state%force, 0.0_wp]
+            couple = [0.0_wp, 0.0_wp, state%torque]
+         end if
+         force = force + f
+         moment = moment + couple + cross(matmul(motion%rot(:, :, body(2)), s_j), f)
+      end associate
+   end subroutine add_film
 
    !> Values of a channel of the contacts of an item.
    pure subroutine report_contacts(code, n, memory, contacts, f_n, f_t, values)
@@ -110,6 +167,42 @@ contains
          end select
       end do
    end subroutine report_contacts
+
+   !> How the contacts of an item rub: values of a channel.
+   pure subroutine report_rubbing(code, n, memory, contacts, f_n, f_t, f_elastic, pair, rot, values)
+      integer, intent(in) :: code                           !! the channel
+      integer, intent(in) :: n                              !! contacts
+      type(contact_memory_t), intent(in) :: memory(n)       !! (n) their states
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
+      real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
+      real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
+      real(wp), intent(in) :: f_elastic(n)                  !! (n) elastic parts of the normal forces [N]
+      type(surfaces_t), intent(in) :: pair                  !! the surfaces
+      real(wp), intent(in) :: rot(3, 3)                     !! (3, 3) frame of the body of i to the world's [1]
+      real(wp), intent(inout) :: values(:)                  !! (n) values [any]
+
+      real(wp) :: along(3), sliding
+      integer :: c
+
+      do c = 1, n
+         sliding = merge(abs(contacts(c)%v_t), 0.0_wp, memory(c)%is_touching)
+         select case (code)
+         case (of_contact_angle)
+            along = matmul(contacts(c)%normal, rot)
+            values(c) = atan2(along(2), along(1))
+         case (of_sliding_speed)
+            values(c) = sliding
+         case (of_contact_power)
+            values(c) = (f_n(c) - f_elastic(c))*contacts(c)%rate - f_t(c)*contacts(c)%v_t_work
+            if (.not. memory(c)%is_touching) values(c) = 0.0_wp
+         case (of_p_v)
+            values(c) = not_a_number()
+            if (pair%shape == shape_internal .and. pair%length > 0.0_wp) then
+               values(c) = f_n(c)/(2.0_wp*pair%radius_j*pair%length)*sliding
+            end if
+         end select
+      end do
+   end subroutine report_rubbing
 
    !> Where the forces on j act.
    pure subroutine report_points(r_j, n, contacts, values)
@@ -145,28 +238,31 @@ contains
    end subroutine report_force
 
    !> Kinematics and forces of the contacts of an item at a motion: forces are zero of those that are free.
-   subroutine find_forces(self, item, motion, contacts, f_n, f_t)
+   subroutine find_forces(self, item, motion, contacts, f_n, f_t, f_elastic, with_sliding)
       class(point_contacts_t), intent(in) :: self           !! the set
       integer, intent(in) :: item                           !! the item
       type(motion_t), intent(in) :: motion                  !! positions and velocities
       type(point_contact_t), intent(inout) :: contacts(:)   !! (n_contact_item) kinematics
       real(wp), intent(out) :: f_n(:)                       !! (n_contact_item) normal forces [N]
       real(wp), intent(out) :: f_t(:)                       !! (n_contact_item) friction forces on j along t [N]
+      real(wp), intent(out) :: f_elastic(:)                 !! (n_contact_item) elastic parts of the normal forces [N]
+      logical, intent(in) :: with_sliding                   !! sliding velocities are wanted
 
-      real(wp), dimension(most_of_item) :: f_elastic, f_rub, speed
+      real(wp), dimension(most_of_item) :: f_rub, speed
       integer :: c, first, n
 
       n = self%n_contact_item
       first = (item - 1)*n
       f_n = 0.0_wp
       f_t = 0.0_wp
+      f_elastic = 0.0_wp
       do c = 1, n
-         call self%measure(first + c, allocated(self%laws%friction), motion, contacts(c))
+         call self%measure(first + c, with_sliding .or. allocated(self%laws%friction), motion, contacts(c))
       end do
       if (self%n_touching == 0 .and. .not. self%laws%normal%acts_apart) return
-      call self%press(item, contacts, f_n, f_elastic(:n))
+      call self%press(item, contacts, f_n, f_elastic)
       f_rub(:n) = f_n
-      if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic(:n), f_rub(:n))
+      if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub(:n))
       if (.not. allocated(self%laws%friction)) return
       if (self%grip%memory == memory_none) then
          call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)

@@ -6,7 +6,7 @@ module explain_instants
    use kinds, only: wp
    use load, only: loaded_t
    use root_scan, only: place_t
-   use scene, only: analysis_dynamic
+   use scene, only: analysis_dynamic, table_t
    use text, only: real_text, to_text
    implicit none (type, external)
    private
@@ -41,6 +41,9 @@ contains
          call explain_pace(cell)
       end do
       call ieee_set_status(status)
+      do k = 1, size(loaded%scene%forces)
+         call explain_sights(loaded%scene%forces(k))
+      end do
       if (all([(size(loaded%plan%instants%cells(k)%scans) == 0, k=1, loaded%plan%instants%n)])) then
          call say("all functions of time are smooth", 2)
       else
@@ -59,6 +62,30 @@ contains
                   "once in an output interval", 2)
       end if
    end subroutine explain_instants_of
+
+   !> What the loads of a table see of the motion.
+   subroutine explain_sights(table)
+      type(table_t), intent(in) :: table   !! rows of a kind
+
+      character(:), allocatable :: words
+      integer :: c, i, m
+
+      do i = 1, size(table%items)
+         do c = 1, size(table%info%columns)
+            if (.not. table%info%columns(c)%sees_motion) cycle
+            associate (value => table%items(i)%values(c))
+               if (.not. allocated(value%expression)) cycle
+               if (.not. allocated(value%expression%sights)) cycle
+               words = ""
+               do m = 1, size(value%expression%sights)
+                  words = words//" "//value%expression%sights(m)%word
+               end do
+               call say(table%items(i)%name//"."//table%info%columns(c)%name//" sees"//words//"; where it bends with these, the " &
+                        //"control of the step meets it", 2)
+            end associate
+         end do
+      end do
+   end subroutine explain_sights
 
    !> The instants of a cell.
    subroutine explain_places(cell)

@@ -13,6 +13,7 @@ module load
    use figure_words, only: check_figures, draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, &
       figure_statistics, figure_t, new_figure
    use film_figures, only: check_film_figures
+   use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
    use item, only: item_t, location_of, location_t, place_of
    use kind_info, only: kind_info_t
@@ -23,7 +24,7 @@ module load
    use options, only: options_t
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions
-   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t, table_formulas
    use spelling, only: nearest_word
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
@@ -74,7 +75,7 @@ contains
       if (allocated(error)) return
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and what they report")
       has_all_words = runs_as_written(options, loaded%scene)
-      if (.not. has_all_words) call list_words(loaded%scene, catalogue)
+      if (.not. has_all_words) call list_words(loaded%deck, loaded%scene, catalogue, mistakes)
       call choose_analysis(options, loaded%scene, error)
       if (allocated(error)) return
       call apply_options(options, loaded%scene, error)
@@ -82,6 +83,11 @@ contains
       call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
                       loaded%system)
       call build_catalogue(loaded%system, loaded%catalogue)
+      if (size(loaded%scene%tables%requests(table_formulas)%items) > 0) then
+         if (has_all_words) call read_formulas(loaded%deck, loaded%catalogue, loaded%scene, mistakes)
+         loaded%system%requests%formulas = loaded%scene%requests%formulas
+         call build_catalogue(loaded%system, loaded%catalogue)
+      end if
       call check_steps(loaded%scene, mistakes)
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
@@ -108,13 +114,19 @@ contains
    end function runs_as_written
 
    !> What a deck can have words for: channels and figures of loose joints and of its first analysis, whatever a run has of them.
-   subroutine list_words(scene, catalogue)
-      type(scene_t), intent(in) :: scene           !! the scene of the deck
-      type(catalogue_t), intent(out) :: catalogue  !! all that it can report
+   subroutine list_words(deck, scene, catalogue, mistakes)
+      type(deck_t), intent(in) :: deck                !! the deck
+      type(scene_t), intent(inout) :: scene           !! its scene; expressions over channels are understood
+      type(catalogue_t), intent(out) :: catalogue     !! all that it can report
+      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
 
       type(mechanism_t) :: loose
 
       call new_system(scene, levels_loose, loose)
+      call build_catalogue(loose, catalogue)
+      if (size(scene%tables%requests(table_formulas)%items) == 0) return
+      call read_formulas(deck, catalogue, scene, mistakes)
+      loose%requests%formulas = scene%requests%formulas
       call build_catalogue(loose, catalogue)
    end subroutine list_words
 

@@ -7,10 +7,11 @@ module verb_help
    use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
    use explain_floors, only: floors_manual
+   use expression_functions, only: n_signature, signature_help, signatures
    use integrator, only: integrator_t
    use integrator_registry, only: n_integrator_kinds, new_integrator
-   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
-      cell_reference, cell_vector, cell_words, column_t, in_space, kind_info_t, no_bound
+   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_formula, cell_list, &
+      cell_number, cell_reference, cell_vector, cell_words, column_t, in_space, kind_info_t, no_bound
    use kind_list, only: all_kinds
    use libraries, only: library_versions
    use man_page, only: write_man_page
@@ -127,6 +128,10 @@ contains
          call write_usage()
          return
       end if
+      if (wanted == "functions") then
+         call write_functions()
+         return
+      end if
       allocate (names(0))
       do k = 1, size(kinds)
          call append_text(names, kinds(k)%name)
@@ -183,6 +188,16 @@ contains
       call say("Environment: GUDGEON_GNUPLOT_SECONDS is the time that a figure may take; default 300 s.")
    end subroutine write_usage
 
+   !> The functions of expressions.
+   subroutine write_functions()
+      integer :: k
+
+      call say("functions of expressions; beside them those of tables [function.*] by their names, and the constant pi")
+      do k = 1, n_signature
+         call say(trim(signatures(k)), 2, trim(signature_help(k)), 36)
+      end do
+   end subroutine write_functions
+
    !> The manual, as a page of Markdown.
    subroutine write_manual(kinds)
       type(kind_info_t), intent(in) :: kinds(:)  !! (kinds) all kinds
@@ -202,6 +217,12 @@ contains
          call say("")
          call write_kind(kinds(k), .true.)
       end do
+      call say("")
+      call say("## functions")
+      call say("")
+      call say("```")
+      call write_functions()
+      call say("```")
       call floors_manual()
    end subroutine write_manual
 
@@ -262,7 +283,11 @@ contains
       case (cell_file)
          words = words//" (a file)"
       case (cell_expression)
-         words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//trim(column%variable)//"]"
+         words = words//" ["//unit_text(column%dimension)//", a number or an expression in "//trim(column%variable)
+         if (column%sees_motion) words = words//" and channels of motion"
+         words = words//"]"
+      case (cell_formula)
+         words = words//" (an expression in channels and t)"
       case (cell_duration)
          words = words//" [s]"
       case (cell_flag)

@@ -48,6 +48,7 @@ contains
       to%cell = from%cell
       to%dimension = from%dimension
       to%is_any = from%is_any
+      to%sees_motion = from%sees_motion
       to%variable = from%variable
       to%argument = from%argument
       to%size = from%size

@@ -9,9 +9,9 @@ module kind_info
    private
    public :: channel_t, column_t, dim_t, kind_info_t
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
-   public :: cell_condition, cell_file, cell_list, cell_words
+   public :: cell_condition, cell_file, cell_formula, cell_list, cell_words
    public :: add_condition
-   public :: add_any_number, add_direction, add_file, add_list
+   public :: add_any_number, add_direction, add_file, add_formula, add_list
    public :: add_channel, add_column, add_duration, add_expression, add_flag, add_number, add_reference
    public :: add_vector, add_word, add_words, same_dimension
    public :: dim_acceleration, dim_angle, dim_angular_acceleration, dim_angular_damping, dim_angular_speed
@@ -72,6 +72,7 @@ module kind_info
    integer, parameter :: cell_list = 9        !! numbers with one unit, in quotes (tables only)
    integer, parameter :: cell_file = 10       !! a text file of two columns of numbers
    integer, parameter :: cell_condition = 11  !! conditions on channels (settings only)
+   integer, parameter :: cell_formula = 12    !! an expression over channels, understood when these are known (tables only)
 
    integer, parameter :: in_any_space = 0  !! a kind of planar and of spatial scenes
    integer, parameter :: in_plane = 1      !! a kind of planar scenes only
@@ -103,6 +104,7 @@ module kind_info
       logical :: is_any = .false.             !! of a number: any dimension will do, and is kept with the value
       character(longest_list) :: variable = "t"   !! of an expression: what it depends on, blank-separated; t is the time
       type(dim_t) :: argument(3) = dim_time   !! of an expression: (3) dimensions of its variables
+      logical :: sees_motion = .false.        !! of an expression: it may use positions and velocities, as `ram.velocity.y`
       integer :: size = 1                     !! numbers of a vector (2: in the plane; 3: either 2 or 3), of a list; 1: any number
       character(:), allocatable :: refers_to  !! of a reference: blank-separated prefixes of kinds
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
@@ -284,8 +286,17 @@ contains
       call add_column(info, column)
    end subroutine add_reference
 
+   !> Append a column that holds an expression over channels.
+   subroutine add_formula(info, name, help)
+      type(kind_info_t), intent(inout) :: info       !! the kind
+      character(*), intent(in) :: name               !! as written in the deck
+      character(*), intent(in) :: help               !! one line
+
+      call add_column(info, column_t(name=name, cell=cell_formula, help=help))
+   end subroutine add_formula
+
    !> Append a column that holds a number or an expression in the time `t`, or in another variable.
-   subroutine add_expression(info, name, dimension, help, default, variable, argument)
+   subroutine add_expression(info, name, dimension, help, default, variable, argument, sees_motion)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck
       type(dim_t), intent(in) :: dimension           !! of its value
@@ -293,6 +304,7 @@ contains
       character(*), intent(in), optional :: default  !! as in a deck; absent: required
       character(*), intent(in), optional :: variable    !! what it depends on, blank-separated; absent: the time t
       type(dim_t), intent(in), optional :: argument(:)  !! (at most 3) dimensions of the variables
+      logical, intent(in), optional :: sees_motion      !! it may use positions and velocities too
 
       type(column_t) :: column
 
@@ -300,6 +312,7 @@ contains
       if (present(default)) column%default = default
       if (present(variable)) column%variable = variable
       if (present(argument)) column%argument(1:size(argument)) = argument
+      if (present(sees_motion)) column%sees_motion = sees_motion
       call add_column(info, column)
    end subroutine add_expression
 

@@ -10,8 +10,8 @@ module cells
    use dimension_text, only: unit_text
    use expression, only: constant_expression, expression_t
    use item, only: value_t
-   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_list, cell_number, &
-                      & cell_reference, cell_vector, cell_word, cell_words, column_t, dim_none, same_dimension
+   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_file, cell_flag, cell_formula, cell_list, &
+                      & cell_number, cell_reference, cell_vector, cell_word, cell_words, column_t, dim_none, same_dimension
    use kinds, only: wp
    use number_cell, only: read_number
    use number_lists, only: read_list
@@ -65,6 +65,9 @@ contains
       case (cell_list)
          call read_list(deck, place, list(1), value, mistakes, header)
          call check_list(column, place, value, mistakes)
+      case (cell_formula)
+         value%text = text_of(deck, list(1))
+         call check_count(list, 1, place, mistakes)
       case (cell_file)
          ! the table reads the file when all its rows are known
          call read_word(deck, place, list(1), value%text, mistakes)

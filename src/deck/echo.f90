@@ -7,7 +7,7 @@ module echo
    use deck_types, only: deck_t
    use dimension_text, only: unit_text
    use item, only: item_t, value_t
-   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_flag, cell_list, cell_number, &
+   use kind_info, only: cell_condition, cell_duration, cell_expression, cell_flag, cell_formula, cell_list, cell_number, &
                       & cell_vector, cell_words, column_t, dim_none, dim_t, kind_info_t, same_dimension
    use text, only: exact_text, replace, text_t
    use text_buffer, only: buffer_t
@@ -198,6 +198,8 @@ contains
       case (cell_expression)
          s = exact_text(value%number)
          if (.not. value%expression%is_constant) s = "{"//value%expression%source//"}"
+      case (cell_formula)
+         s = "{"//value%text//"}"
       case (cell_vector)
          s = exact_text(value%vector%x(1))
          do i = 2, value%vector%n

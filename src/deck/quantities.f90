@@ -13,6 +13,7 @@ module quantities
    use item, only: location_t
    use kind_info, only: column_t, dim_none, dim_t, same_dimension
    use kinds, only: wp
+   use sight_words, only: sight_words_t
    use numbers, only: number_length
    use text, only: lower, piece
    use tokens, only: token_brace, token_t
@@ -148,8 +149,13 @@ contains
       real(wp) :: d1, d2
 
       if (present(column)) then
-         call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault, column%variable, &
-                               & column%argument)
+         if (column%sees_motion) then
+            call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault, column%variable, &
+                                  & column%argument, sight_words_t())
+         else
+            call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault, column%variable, &
+                                  & column%argument)
+         end if
       else
          call compile_expression(text_of(deck, token), deck%symbols, has_variable, compiled, fault)
       end if

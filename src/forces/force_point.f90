@@ -1,6 +1,6 @@
-!> A force that acts at a body-fixed point, given by expressions in time, world frame.
+!> A force that acts at a body-fixed point, given by expressions in time and motion, world frame.
 !>
-!> f = ( fx(t), fy(t) ) at r + A s';   power = f . v_P
+!> f = ( fx, fy ) at r + A s';   power = f . v_P
 !>
 !> Signs: along the world axes. Source: Flores et al. (2008), section 2.3 (applied forces). Limits: none.
 module force_point
@@ -11,6 +11,7 @@ module force_point
    use kind_info, only: add_channel, add_expression, add_reference, dim_force, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position, point_velocity
+   use seen_motion, only: value_of
    implicit none (type, external)
    private
    public :: force_point_t
@@ -41,11 +42,11 @@ contains
 
       info%name = "force.point"
       info%space = in_plane
-      info%help = "a force at a body-fixed point, components along the world axes as functions of time"
+      info%help = "a force at a body-fixed point, components along the world axes as functions of time and motion"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "point", "points", "where the force acts")
-      call add_expression(info, "fx", dim_force, "component along world x", default="0 N")
-      call add_expression(info, "fy", dim_force, "component along world y", default="0 N")
+      call add_expression(info, "fx", dim_force, "component along world x", default="0 N", sees_motion=.true.)
+      call add_expression(info, "fy", dim_force, "component along world y", default="0 N", sees_motion=.true.)
       call add_channel(info, "force", "N", "world", 2, "force on the body", of_force)
       call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function point_info
@@ -71,17 +72,14 @@ contains
    end subroutine point_prepare
 
    !> Force of one item.
-   pure function force_of(self, k, t) result(f)
+   pure function force_of(self, k, t, motion) result(f)
       class(force_point_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                  !! item
       real(wp), intent(in) :: t                 !! time [s]
+      type(motion_t), intent(in) :: motion      !! positions and velocities
       real(wp) :: f(3)                          !! (3) force, world frame [N]
 
-      real(wp) :: first_derivative, second_derivative
-
-      call self%fx(k)%evaluate(t, f(1), first_derivative, second_derivative)
-      call self%fy(k)%evaluate(t, f(2), first_derivative, second_derivative)
-      f(3) = 0.0_wp
+      f = [value_of(self%fx(k), t, motion), value_of(self%fy(k), t, motion), 0.0_wp]
    end function force_of
 
    !> Add the loads of all items.
@@ -96,7 +94,7 @@ contains
       integer :: k
 
       do k = 1, self%n
-         f = force_of(self, k, t)
+         f = force_of(self, k, t, motion)
          p = point_position(motion, self%body(k), self%s(:, k))
          call apply_force(loads, motion, self%body(k), p, f)
          power = power + dot_product(f, point_velocity(motion, self%body(k), p))
@@ -115,7 +113,7 @@ contains
       integer :: k
 
       do k = 1, self%n
-         f = force_of(self, k, t)
+         f = force_of(self, k, t, motion)
          select case (code)
          case (of_force)
             values(:, k) = f(1:size(values, 1))

@@ -1,9 +1,9 @@
 !> Translational spring, damper and actuator between a point of i and a point of j.
 !>
 !> With d = r_j + s_j - r_i - s_i, l = |d|, u = d/l:
-!> f = k x + c l' + f_0 + f_l(x) + f_a(t),   x = l - l_0
+!> f = k x + c l' + f_0 + f_l(x) + f_d(l') + f_a,   x = l - l_0
 !> stored energy = k (x + f_0/k)^2/2 + integral of f_l from 0 to x
-!> lost power = c l'^2,   power of the actuator = -f_a l'
+!> lost power = c l'^2 + f_d l',   power of the actuator = -f_a l'
 !> k stiffness, c damping, l_0 free length, f_0 preload (the tension at the free length), f_l law
 !> of a spring that is not linear, f_a actuator. Without stiffness the preload stores nothing: it is then a constant
 !> part of the actuator.
@@ -18,7 +18,7 @@ module force_spring
    use force_set, only: force_set_t
    use item, only: item_t
    use kind_info, only: add_channel, add_expression, add_number, add_reference, dim_damping, dim_force, dim_length, &
-      dim_stiffness, kind_info_t
+      dim_speed, dim_stiffness, kind_info_t
    use kinds, only: wp
    use motion, only: apply_force, loads_t, motion_t, point_position
    use span, only: span_of
@@ -66,7 +66,10 @@ contains
       call add_number(info, "free_length", dim_length, "distance of the points at which the stiffness gives no force", &
                       default="0 m", lower=0.0_wp)
       call add_number(info, "preload", dim_force, "tension at the free length, negative if it pushes", default="0 N")
-      call add_expression(info, "actuator", dim_force, "tension as a function of time", default="0 N")
+      call add_expression(info, "actuator", dim_force, "tension as a function of time and motion", default="0 N", &
+                          sees_motion=.true.)
+      call add_expression(info, "damper", dim_force, "tension as a function of the rate v of the length, beside the damping", &
+                          default="0 N", variable="v", argument=[dim_speed])
       call add_expression(info, "law", dim_force, "tension as a function of the stretch x from the free length, beside the " &
                           //"stiffness", default="0 N", variable="x", argument=[dim_length])
       call add_channel(info, "force", "N", "world", 2, "force on the body of i", of_force)
@@ -113,7 +116,7 @@ contains
       real(wp), intent(out) :: actuator          !! the actuator's part of it [N]
 
       call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
-      call self%law(k)%force(t, length, rate, tension, actuator)
+      call self%law(k)%force(t, motion, length, rate, tension, actuator)
    end subroutine tension_of
 
    !> Add the loads of all items; the power is that of the actuators.
@@ -163,7 +166,7 @@ contains
       power = 0.0_wp
       do k = 1, self%n
          call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
-         power = power + self%law(k)%damping*rate*rate
+         power = power + self%law(k)%lost_power(rate)
       end do
    end function spring_lost_power
 

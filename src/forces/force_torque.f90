@@ -12,6 +12,7 @@ module force_torque
    use kind_info, only: add_channel, add_expression, add_reference, dim_moment, in_plane, kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
+   use seen_motion, only: value_of
    implicit none (type, external)
    private
    public :: force_torque_t
@@ -40,10 +41,10 @@ contains
 
       info%name = "force.torque"
       info%space = in_plane
-      info%help = "a torque on a body as a function of time, counter-clockwise positive"
+      info%help = "a torque on a body as a function of time and motion, counter-clockwise positive"
       info%source = "Flores et al. (2008), section 2.3"
       call add_reference(info, "body", "bodies", "the body")
-      call add_expression(info, "moment", dim_moment, "moment about z")
+      call add_expression(info, "moment", dim_moment, "moment about z", sees_motion=.true.)
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the body", of_moment)
       call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)
    end function torque_info
@@ -66,14 +67,13 @@ contains
    end subroutine torque_prepare
 
    !> Moment of one item.
-   pure real(wp) function moment_of(self, k, t) result(m)
+   pure real(wp) function moment_of(self, k, t, motion) result(m)
       class(force_torque_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                   !! item
       real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
 
-      real(wp) :: first_derivative, second_derivative
-
-      call self%moment(k)%evaluate(t, m, first_derivative, second_derivative)
+      m = value_of(self%moment(k), t, motion)
    end function moment_of
 
    !> Add the loads of all items.
@@ -88,7 +88,7 @@ contains
       integer :: k
 
       do k = 1, self%n
-         m = moment_of(self, k, t)
+         m = moment_of(self, k, t, motion)
          loads%moment(3, self%body(k)) = loads%moment(3, self%body(k)) + m
          power = power + m*motion%omega(3, self%body(k))
       end do
@@ -107,9 +107,9 @@ contains
       do k = 1, self%n
          select case (code)
          case (of_moment)
-            values(1, k) = moment_of(self, k, t)
+            values(1, k) = moment_of(self, k, t, motion)
          case (of_power)
-            values(1, k) = moment_of(self, k, t)*motion%omega(3, self%body(k))
+            values(1, k) = moment_of(self, k, t, motion)*motion%omega(3, self%body(k))
          end select
       end do
    end subroutine torque_report

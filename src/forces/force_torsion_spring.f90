@@ -94,7 +94,7 @@ contains
 
       angle = motion%angle(self%body(2, k)) - motion%angle(self%body(1, k))
       rate = motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k))
-      call self%law(k)%force(t, angle, rate, moment, actuator)
+      call self%law(k)%force(t, motion, angle, rate, moment, actuator)
    end subroutine moment_of
 
    !> Add the loads of all items; the power is that of the actuators.
@@ -142,7 +142,7 @@ contains
 
       power = 0.0_wp
       do k = 1, self%n
-         power = power + self%law(k)%damping*(motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k)))**2
+         power = power + self%law(k)%lost_power(motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k)))
       end do
    end function torsion_lost_power
 

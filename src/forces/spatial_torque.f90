@@ -39,12 +39,12 @@ contains
 
       info%name = "force.torque"
       info%space = in_space
-      info%help = "a torque on a body, components as functions of time"
+      info%help = "a torque on a body, components as functions of time and motion"
       info%source = "Flores et al. (2008), section 6.2"
       call add_reference(info, "body", "bodies", "the body")
-      call add_expression(info, "mx", dim_moment, "component along x", default="0 N.m")
-      call add_expression(info, "my", dim_moment, "component along y", default="0 N.m")
-      call add_expression(info, "mz", dim_moment, "component along z", default="0 N.m")
+      call add_expression(info, "mx", dim_moment, "component along x", default="0 N.m", sees_motion=.true.)
+      call add_expression(info, "my", dim_moment, "component along y", default="0 N.m", sees_motion=.true.)
+      call add_expression(info, "mz", dim_moment, "component along z", default="0 N.m", sees_motion=.true.)
       call add_word(info, "frame", "whose axes x, y, z are", default="world", choices="world body")
       call add_channel(info, "moment", "N.m", "world", 2, "moment on the body", of_moment)
       call add_channel(info, "power", "W", "none", 1, "power given to the mechanism", of_power)

@@ -149,7 +149,7 @@ contains
 
       do k = 1, self%n
          angle = angle_of(self, k, motion)
-         call self%law(k)%force(t, angle%value, angle%rate, moment, actuator)
+         call self%law(k)%force(t, motion, angle%value, angle%rate, moment, actuator)
          associate (i => self%body(1, k), j => self%body(2, k))
             loads%moment(:, i) = loads%moment(:, i) - moment*angle%turn_i
             loads%moment(:, j) = loads%moment(:, j) - moment*angle%turn_j
@@ -184,7 +184,7 @@ contains
       power = 0.0_wp
       do k = 1, self%n
          angle = angle_of(self, k, motion)
-         power = power + self%law(k)%damping*angle%rate**2
+         power = power + self%law(k)%lost_power(angle%rate)
       end do
    end function torsion_lost_power
 
@@ -202,7 +202,7 @@ contains
 
       do k = 1, self%n
          angle = angle_of(self, k, motion)
-         call self%law(k)%force(t, angle%value, angle%rate, moment, actuator)
+         call self%law(k)%force(t, motion, angle%value, angle%rate, moment, actuator)
          select case (code)
          case (of_moment)
             values(1, k) = moment

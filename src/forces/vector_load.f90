@@ -1,9 +1,10 @@
-!> A vector whose components are functions of time, along the axes of the world or of a body, as its deck gives them.
+!> A vector whose components are functions of time and motion, along the axes of the world or of a body, as its deck gives them.
 module vector_load
    use expression, only: expression_t
    use item, only: item_t, place_of
    use kinds, only: wp
    use motion, only: motion_t
+   use seen_motion, only: value_of
    implicit none (type, external)
    private
    public :: vector_load_t
@@ -37,15 +38,14 @@ contains
    pure function load_at(self, t, motion, body) result(f)
       class(vector_load_t), intent(in) :: self   !! the vector
       real(wp), intent(in) :: t                  !! time [s]
-      type(motion_t), intent(in) :: motion       !! positions
+      type(motion_t), intent(in) :: motion       !! positions and velocities
       integer, intent(in) :: body                !! the body
       real(wp) :: f(3)                           !! (3) world frame [N or N.m]
 
-      real(wp) :: first_derivative, second_derivative
       integer :: c
 
       do c = 1, 3
-         call self%component(c)%evaluate(t, f(c), first_derivative, second_derivative)
+         f(c) = value_of(self%component(c), t, motion)
       end do
       if (self%is_in_body) f = matmul(motion%rot(:, :, body), matmul(f, motion%spatial%own(:, :, body)))
    end function load_at

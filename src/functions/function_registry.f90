@@ -1,5 +1,6 @@
 !> The kinds of named functions: two lines each (`use`, `case`).
 module function_registry
+   use function_cam, only: function_cam_t
    use function_harmonic, only: function_harmonic_t
    use function_kind, only: function_kind_t
    use function_polynomial, only: function_polynomial_t
@@ -8,7 +9,7 @@ module function_registry
    private
    public :: n_function_kinds, new_function_kind
 
-   integer, parameter :: n_function_kinds = 3  !! number of kinds
+   integer, parameter :: n_function_kinds = 4  !! number of kinds
 
 contains
 
@@ -21,6 +22,7 @@ contains
       case (1); allocate (function_polynomial_t :: kind)
       case (2); allocate (function_harmonic_t :: kind)
       case (3); allocate (function_samples_t :: kind)
+      case (4); allocate (function_cam_t :: kind)
       end select
    end subroutine new_function_kind
 

@@ -53,18 +53,20 @@ contains
       end select
    end procedure report_shared
 
-   !> Reaction of an item on body i.
+   !> Reaction of an item on body i, or j.
    module procedure joint_reaction
       real(wp) :: load(most_rates)
-      integer :: body, i, k, n, row
+      integer :: before, body, i, k, n, row
 
       n = coordinates%n_v
       load = 0.0_wp
-      body = self%body(1, item)
+      before = 0
+      if (present(side)) before = (side - 1)*n
+      body = self%body(merge(2, 1, before > 0), item)
       do k = 1, self%n_row_item
          row = self%first_row + (item - 1)*self%n_row_item + k
          do i = 1, n
-            load(i) = load(i) - rows%jac(i, row)*lambda(row)
+            load(i) = load(i) - rows%jac(before + i, row)*lambda(row)
          end do
       end do
       call coordinates%split_load(load(:n), motion, body, force, moment)

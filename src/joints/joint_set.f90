@@ -127,8 +127,8 @@ module joint_set
          real(wp), intent(inout) :: value(:)              !! (components) the value [any]
       end subroutine report_shared
 
-      !> Reaction of an item on body i: force, and moment about its reaction point.
-      module subroutine joint_reaction(self, item, motion, coordinates, rows, lambda, force, moment)
+      !> Reaction of an item on body i, or j: force, and moment about its reaction point.
+      module subroutine joint_reaction(self, item, motion, coordinates, rows, lambda, force, moment, side)
          implicit none (type, external)
          class(joint_set_t), intent(in) :: self           !! the set
          integer, intent(in) :: item                      !! item of the set
@@ -136,8 +136,9 @@ module joint_set
          class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
          type(rows_t), intent(in) :: rows                 !! rows at the motion
          real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
-         real(wp), intent(out) :: force(3)                !! (3) force on body i, world frame [N]
-         real(wp), intent(out) :: moment(3)               !! (3) moment on body i about the reaction point [N.m]
+         real(wp), intent(out) :: force(3)                !! (3) force on the body, world frame [N]
+         real(wp), intent(out) :: moment(3)               !! (3) moment on the body about the reaction point [N.m]
+         integer, intent(in), optional :: side            !! 1: body i, 2: body j; absent: body i
       end subroutine joint_reaction
    end interface
 

@@ -1,16 +1,19 @@
 !> A curve: a function of one number with exact first and second derivatives, evaluated without allocation.
 !>
-!> f(x) = p(x) + A sin(w x + phase),   p piecewise polynomial: on [x_k, x_k+1] p = sum_i c_ik (x - x_k)^i
+!> f(x) = p(x) + A sin(w x + phase) + sum_m h_m s_m((x - b_m)/l_m)
+!>
+!> with p piecewise polynomial: on [x_k, x_k+1] p = sum_i c_ik (x - x_k)^i, and laws s_m that rise from 0 to 1 (`rise_laws`).
 !>
 !> Beyond its first and last place p goes on as it is, does not exist (NaN), holds its value, goes on along its
 !> tangent, or repeats itself. A curve that does not exist there forgives round-off of a place.
 module curve
    use jets, only: jet_chain
    use kinds, only: not_a_number, wp
+   use rise_laws, only: rise_values
    implicit none (type, external)
    private
    public :: beyond_error, beyond_hold, beyond_linear, beyond_periodic, beyond_same
-   public :: curve_t, curve_values, jet_of_curve
+   public :: curve_t, curve_values, jet_of_curve, rise_t
 
    integer, parameter :: beyond_same = 0      !! beyond its places the first and the last piece go on
    integer, parameter :: beyond_error = 1     !! it does not exist there
@@ -21,6 +24,14 @@ module curve
    real(wp), parameter :: largest = 1.0e50_wp !! place at which it can be evaluated, as of numbers in decks [any]
    real(wp), parameter :: slack = 1.0e-9_wp   !! of the range, still taken as inside [1]
 
+   !> A rise, or with a negative height a fall.
+   type :: rise_t
+      integer :: law = 1            !! number of its law
+      real(wp) :: begin = 0.0_wp    !! where it begins [any]
+      real(wp) :: length = 1.0_wp   !! how long it takes [any]
+      real(wp) :: height = 0.0_wp   !! how high it rises [any]
+   end type rise_t
+
    !> A curve; before it is made it is nowhere.
    type :: curve_t
       real(wp), allocatable :: x(:)           !! (n + 1) places, increasing; a single piece needs no end [any]
@@ -29,6 +40,7 @@ module curve
       real(wp) :: amplitude = 0.0_wp          !! A [any]
       real(wp) :: angular_frequency = 0.0_wp  !! w [rad/any]
       real(wp) :: phase = 0.0_wp              !! at x = 0 [rad]
+      type(rise_t), allocatable :: rises(:)   !! (any) rises between the places; unallocated: none
    end type curve_t
 
 contains
@@ -52,24 +64,24 @@ contains
       real(wp), intent(in) :: x           !! the place [any]
       real(wp), intent(out) :: f(3)       !! (3) f, f', f'' [any]
 
-      real(wp) :: angle, end, first, last, wave
+      real(wp) :: angle, first, last, place, wave
       integer :: n
 
       n = size(curve%x)
       first = curve%x(1)
       last = curve%x(n)
       if (curve%beyond == beyond_same .or. (x >= first .and. x <= last)) then
-         call piece_values(n, curve%x, curve%c, x, f)
+         call values_at(curve, x, f)
       else if (curve%beyond == beyond_periodic) then
-         call piece_values(n, curve%x, curve%c, first + modulo(x - first, last - first), f)
+         call values_at(curve, first + modulo(x - first, last - first), f)
       else if (curve%beyond == beyond_error .and. abs(x - 0.5_wp*(first + last)) > (0.5_wp + slack)*(last - first)) then
          f = not_a_number()
       else
-         end = merge(first, last, x < first)
-         call piece_values(n, curve%x, curve%c, end, f)
+         place = merge(first, last, x < first)
+         call values_at(curve, place, f)
          f(3) = 0.0_wp
          if (curve%beyond == beyond_hold) f(2) = 0.0_wp
-         f(1) = f(1) + f(2)*(x - end)
+         f(1) = f(1) + f(2)*(x - place)
       end if
       if (.not. abs(curve%amplitude) > 0.0_wp) return
       angle = curve%angular_frequency*x + curve%phase
@@ -78,6 +90,23 @@ contains
       f(2) = f(2) + curve%amplitude*curve%angular_frequency*cos(angle)
       f(3) = f(3) - wave*curve%angular_frequency**2
    end subroutine curve_values
+
+   !> Polynomial and rises at a place between the first and the last.
+   pure subroutine values_at(curve, x, f)
+      type(curve_t), intent(in) :: curve  !! the curve
+      real(wp), intent(in) :: x           !! the place [any]
+      real(wp), intent(out) :: f(3)       !! (3) f, f', f'' [any]
+
+      integer :: m
+
+      call piece_values(size(curve%x), curve%x, curve%c, x, f)
+      if (.not. allocated(curve%rises)) return
+      do m = 1, size(curve%rises)
+         associate (rise => curve%rises(m))
+            f = f + rise%height*rise_values(rise%law, (x - rise%begin)/rise%length)/rise%length**[0, 1, 2]
+         end associate
+      end do
+   end subroutine values_at
 
    !> The polynomial of the piece that holds a place: the last one that begins before it, or the first.
    pure subroutine piece_values(n, place, c, x, f)

@@ -3,6 +3,7 @@ module curve_bounds
    use curve, only: beyond_error, beyond_hold, beyond_periodic, beyond_same, curve_t, curve_values
    use intervals, only: hull, line, product_of, sine_of, sum_of, times
    use kinds, only: two_pi, wp
+   use rise_laws, only: bound_rise
    implicit none (type, external)
    private
    public :: bound_curve
@@ -144,8 +145,8 @@ contains
       real(wp), intent(in) :: x(2)        !! (2) the interval [any]
       real(wp) :: f(2, 3)                 !! (2, 3) bounds of p, p', p'' [any]
 
-      real(wp) :: h(2)
-      integer :: i
+      real(wp) :: h(2), s(2, 3)
+      integer :: i, m
 
       h = x - curve%x(piece)
       f = 0.0_wp
@@ -153,6 +154,15 @@ contains
          f(:, 1) = sum_of(product_of(f(:, 1), h), [curve%c(i, piece), curve%c(i, piece)])
          if (i > 0) f(:, 2) = sum_of(product_of(f(:, 2), h), i*[curve%c(i, piece), curve%c(i, piece)])
          if (i > 1) f(:, 3) = sum_of(product_of(f(:, 3), h), i*(i - 1)*[curve%c(i, piece), curve%c(i, piece)])
+      end do
+      if (.not. allocated(curve%rises)) return
+      do m = 1, size(curve%rises)
+         associate (rise => curve%rises(m))
+            s = bound_rise(rise%law, (x - rise%begin)/rise%length)
+            do i = 1, 3
+               f(:, i) = sum_of(f(:, i), times(rise%height/rise%length**(i - 1), s(:, i)))
+            end do
+         end associate
       end do
    end function bounds_of_piece
 

@@ -1,4 +1,4 @@
-!> An expression in the time: compiled once, evaluated without allocation.
+!> An expression in the time, and in what it sees of a motion: compiled once, evaluated without allocation.
 !>
 !> The program is in postfix order and works on a stack of jets (value, first and second derivative), so
 !> the derivatives are exact. `compile_expression` of `expression_compile` makes expressions from text.
@@ -11,16 +11,20 @@ module expression
                  & jet_power, jet_product, jet_quotient, jet_real_power, jet_sinh, jet_sqrt, jet_tan, jet_tanh
    use kind_info, only: dim_none, dim_t
    use kinds, only: not_a_number, wp
+   use rise_laws, only: is_smooth_rise, jet_of_rise
+   use sight, only: sight_t
    implicit none (type, external)
    private
    public :: constant_expression, evaluate, evaluate_code, expression_t
    public :: op_abs, op_acos, op_add, op_asin, op_atan, op_atan2, op_cos, op_cosh, op_curve, op_divide, op_exp
    public :: op_integer_power
-   public :: op_log, op_log10, op_max, op_min, op_multiply, op_negate, op_number, op_power, op_real_power, op_sin
+   public :: op_log, op_log10, op_max, op_min, op_multiply, op_negate, op_number, op_power, op_real_power, op_rise, op_sin
    public :: op_sinh, op_sqrt, op_step, op_subtract, op_tan, op_tanh, op_time
-   public :: n_variable, stack_size
+   public :: most_seen, n_variable, stack_size
 
    integer, parameter :: n_variable = 3   !! variables of an expression at most
+
+   integer, parameter :: most_seen = 12   !! channels that an expression uses, at most: variables behind its first one
 
    integer, parameter :: stack_size = 40  !! deepest stack of an expression
 
@@ -55,6 +59,7 @@ module expression
    integer, parameter :: op_abs = 27           !! absolute value
    integer, parameter :: op_step = 28          !! 0 below zero, 1 from zero on; derivatives 0
    integer, parameter :: op_curve = 29         !! the curve whose number is the operand
+   integer, parameter :: op_rise = 30          !! the law of `rise_laws` whose number is the operand
 
    !> A compiled expression; before it is compiled it is the constant 0.
    type :: expression_t
@@ -65,10 +70,12 @@ module expression
       logical :: is_soft = .false.           !! its radians may be taken or left, see expression_compile
       logical :: is_constant = .true.        !! no variable occurs
       real(wp) :: others(2:n_variable) = 0.0_wp  !! (2:3) values of the variables but the first in `evaluate` [any]
+      type(sight_t), allocatable :: sights(:) !! (any) channels that it uses, its variables behind the first; unallocated: none
       character(:), allocatable :: source    !! text it was compiled from, with the values of parameters put in
    contains
       procedure :: evaluate
       procedure :: evaluate_at
+      procedure :: evaluate_seeing
       procedure :: is_smooth
    end type expression_t
 
@@ -87,8 +94,14 @@ contains
       do k = 1, size(rough)
          is_smooth = is_smooth .and. all(self%code /= rough(k))
       end do
+      do k = 1, size(self%code)
+         if (self%code(k) == op_rise) is_smooth = is_smooth .and. is_smooth_rise(nint(self%operand(k)))
+      end do
       if (.not. allocated(self%curves)) return
-      is_smooth = is_smooth .and. all(self%curves%beyond /= beyond_hold .and. self%curves%beyond /= beyond_linear)
+      do k = 1, size(self%curves)
+         if (allocated(self%curves(k)%rises)) cycle  ! these are smooth wherever they end
+         is_smooth = is_smooth .and. self%curves(k)%beyond /= beyond_hold .and. self%curves(k)%beyond /= beyond_linear
+      end do
    end function is_smooth
 
    !> An expression that is one number.
@@ -113,6 +126,11 @@ contains
 
       real(wp) :: jet(3)
 
+      if (allocated(self%sights)) then
+         call self%evaluate_seeing([t, spread(0.0_wp, 1, size(self%sights))], 1, value, d1)
+         d2 = 0.0_wp
+         return
+      end if
       jet = 0.0_wp
       if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, self%curves, [t, self%others], 1, jet)
       value = jet(1)
@@ -136,13 +154,29 @@ contains
       slope = jet(2)
    end subroutine evaluate_at
 
+   !> The same of an expression that uses channels.
+   pure subroutine evaluate_seeing(self, x, along, value, slope)
+      class(expression_t), intent(in) :: self   !! the expression
+      real(wp), intent(in) :: x(:)              !! (1 + sights) the time and the channels [any]
+      integer, intent(in) :: along              !! number of the variable of the derivative
+      real(wp), intent(out) :: value            !! its value [any]
+      real(wp), intent(out) :: slope            !! derivative [any]
+
+      real(wp) :: jet(3)
+
+      jet = 0.0_wp
+      if (allocated(self%code)) call evaluate_code(size(self%code), self%code, self%operand, self%curves, x, along, jet)
+      value = jet(1)
+      slope = jet(2)
+   end subroutine evaluate_seeing
+
    !> Run a program.
    pure subroutine evaluate_code(n, code, operand, curves, x, along, jet)
       integer, intent(in) :: n                             !! number of operations
       integer, intent(in) :: code(n)                       !! (n) operations
       real(wp), intent(in) :: operand(n)                   !! (n) their numbers [any]
       type(curve_t), allocatable, intent(in) :: curves(:)  !! (any) named functions
-      real(wp), intent(in) :: x(n_variable)                !! (n_variable) the variables [any]
+      real(wp), intent(in) :: x(:)                         !! (variables or more) the variables [any]
       integer, intent(in) :: along                         !! number of the variable of the derivatives
       real(wp), intent(out) :: jet(3)                      !! (3) value and derivatives [any]
 
@@ -165,6 +199,8 @@ contains
             stack(:, top) = jet_integer_power(stack(:, top), nint(operand(k)))
          case (op_real_power)
             stack(:, top) = jet_real_power(stack(:, top), operand(k))
+         case (op_rise)
+            stack(:, top) = jet_of_rise(nint(operand(k)), stack(:, top))
          case (op_curve)
             stack(:, top) = jet_of_curve(curves(nint(operand(k))), stack(:, top))
          case default

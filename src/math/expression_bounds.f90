@@ -11,9 +11,10 @@ module expression_bounds
    use curve_bounds, only: bound_curve
    use expression, only: expression_t, op_abs, op_acos, op_add, op_asin, op_atan, op_atan2, op_cos, op_cosh, op_curve, op_divide, &
       op_exp, op_integer_power, op_log, op_log10, op_max, op_min, op_multiply, op_negate, op_number, op_power, op_real_power, &
-      op_sin, op_sinh, op_sqrt, op_step, op_subtract, op_tan, op_tanh, op_time, stack_size
+      op_rise, op_sin, op_sinh, op_sqrt, op_step, op_subtract, op_tan, op_tanh, op_time, stack_size
    use intervals, only: holds_zero, hull, inverse, line, magnitude, power_of, product_of, sine_of, sum_of, times, widened
    use kinds, only: two_pi, wp
+   use rise_laws, only: bound_rise
    implicit none (type, external)
    private
    public :: bound_expression
@@ -53,6 +54,8 @@ contains
          case (op_add:op_atan2)
             top = top - 1
             stack(:, :, top) = of_two(expression%code(k), stack(:, :, top), stack(:, :, top + 1))
+         case (op_rise)
+            stack(:, :, top) = of_rise(nint(expression%operand(k)), stack(:, :, top))
          case (op_curve)
             stack(:, :, top) = of_curve(expression, k, stack(:, :, top))
          case default
@@ -173,6 +176,18 @@ contains
 
       x = sum_of(a, [-b(2), -b(1)])
    end function difference
+
+   !> A law that rises, of a jet.
+   pure function of_rise(law, u) result(v)
+      integer, intent(in) :: law       !! number of the law
+      real(wp), intent(in) :: u(2, 3)  !! (2, 3) argument [1]
+      real(wp) :: v(2, 3)              !! (2, 3) s(u(t)) [1]
+
+      real(wp) :: f(2, 3)
+
+      f = bound_rise(law, u(:, 1))
+      v = chain(u, f(:, 1), f(:, 2), f(:, 3))
+   end function of_rise
 
    !> A named function of a jet.
    function of_curve(expression, k, u) result(v)

@@ -6,19 +6,20 @@ module expression_compile
    use expression_dimension, only: dimension_agrees, term_t
    use expression_functions, only: function_names, function_operation
    use expression_parser, only: parse_whole
-   use expression_state, only: fail, fault_t, name_length, new_parser, parser_t
+   use expression_state, only: channel_finder_t, fail, fault_t, name_length, new_parser, parser_t
    use expression_symbols, only: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
    use kind_info, only: dim_t, dim_time
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: compile_expression, dimension_agrees, evaluate_safely, fault_t, function_names, is_reserved, name_length
+   public :: channel_finder_t, compile_expression, dimension_agrees, evaluate_safely, fault_t, function_names, is_reserved
+   public :: name_length
    public :: symbol_broken, symbol_function, symbol_number, symbol_t, symbol_word, symbols_t
 
 contains
 
    !> Compile an expression.
-   subroutine compile_expression(source, symbols, has_variable, compiled, fault, variable, argument)
+   subroutine compile_expression(source, symbols, has_variable, compiled, fault, variable, argument, finder)
       character(*), intent(in) :: source                !! text, without braces
       type(symbols_t), intent(in) :: symbols            !! parameters and functions that it may use
       logical, intent(in) :: has_variable               !! whether it may depend on a variable
@@ -26,12 +27,14 @@ contains
       type(fault_t), allocatable, intent(out) :: fault  !! unallocated: success
       character(*), intent(in), optional :: variable    !! names of the variables, blank-separated; absent: `t`
       type(dim_t), intent(in), optional :: argument(:)  !! (any) dimensions of the variables; absent: a time
+      class(channel_finder_t), intent(in), optional, target :: finder  !! knows the channels that it may use; absent: none
 
       character(:), allocatable :: names
       type(ieee_status_type) :: status
       type(parser_t) :: parser
       type(term_t) :: whole
       type(dim_t) :: dimensions(n_variable)
+      integer :: k
 
       names = "t"
       if (present(variable)) names = trim(variable)
@@ -39,6 +42,7 @@ contains
       dimensions = dim_time
       if (present(argument)) dimensions(1:size(argument)) = argument
       call new_parser(parser, source, symbols, names, dimensions)
+      if (present(finder)) parser%finder => finder
       call ieee_get_status(status)
       call ieee_set_halting_mode(ieee_usual, .false.)
       call parse_whole(parser, whole)
@@ -58,6 +62,11 @@ contains
       compiled%code(:) = parser%code(1:parser%n_code)
       compiled%operand(:) = parser%operand(1:parser%n_code)
       if (allocated(parser%curves)) call move_alloc(parser%curves, compiled%curves)
+      if (parser%n_seen == 0) return
+      allocate (compiled%sights(parser%n_seen))
+      do k = 1, parser%n_seen
+         compiled%sights(k) = parser%sights(k)
+      end do
    end subroutine compile_expression
 
    !> Evaluate where an overflow must not stop the program: the result is then not finite.

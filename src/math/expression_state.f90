@@ -2,16 +2,17 @@
 module expression_state
    use dimension_text, only: base_text
    use curve, only: curve_t
-   use expression, only: n_variable, op_curve
+   use expression, only: most_seen, n_variable, op_curve
    use expression_symbols, only: symbol_function, symbols_t
    use kind_info, only: dim_none, dim_t
    use kinds, only: wp
+   use sight, only: sight_t
    use spelling, only: nearest_word
    use text, only: exact_text, join, split_blank, text_t
    implicit none (type, external)
    private
    public :: advance, call_function, descend, emit, fail, name_length, new_parser, peek, resolve, suggestion
-   public :: digits, fault_t, find_function, find_variable, function_list, letters, parser_t
+   public :: channel_finder_t, digits, fault_t, find_function, find_variable, function_list, letters, parser_t
 
    !> A mistake in an expression.
    type :: fault_t
@@ -24,7 +25,27 @@ module expression_state
    integer, parameter :: longest_code = 400  !! operations of an expression
    integer, parameter :: deepest = 60        !! parentheses and signs within each other
 
+   !> Knows the channels that an expression may use.
+   type, abstract :: channel_finder_t
+   contains
+      procedure(find_channel_interface), deferred :: find
+   end type channel_finder_t
+
+   abstract interface
+      !> The dimension of a channel.
+      subroutine find_channel_interface(self, word, dimension, message, help)
+         import :: channel_finder_t, dim_t
+         implicit none (type, external)
+         class(channel_finder_t), intent(in) :: self            !! the finder
+         character(*), intent(in) :: word                       !! as `ram.velocity.y`
+         type(dim_t), intent(out) :: dimension                  !! of the channel
+         character(:), allocatable, intent(out) :: message      !! what is wrong; empty: nothing; unallocated: it is told already
+         character(:), allocatable, intent(out) :: help         !! what to do, may be empty
+      end subroutine find_channel_interface
+   end interface
+
    !> The state of the reader. `at` is never on a blank.
+   !> Components: those of channels beside those of the program.
    type :: parser_t
       character(:), allocatable :: source           !! the text
       character(:), allocatable :: resolved         !! the text up to `n_resolved`, parameters replaced by values
@@ -40,6 +61,10 @@ module expression_state
       type(symbols_t), pointer :: symbols => null() !! parameters and functions
       integer :: called(longest_code) = 0           !! (longest_code) the functions that it calls, among the symbols
       type(curve_t), allocatable :: curves(:)       !! (any) their curves; unallocated: it calls none
+      class(channel_finder_t), pointer :: finder => null()  !! knows channels; not associated: there are none here
+      integer :: n_seen = 0                         !! channels that it uses
+      type(sight_t) :: sights(most_seen)            !! (most_seen) these
+      type(dim_t) :: seen_dimensions(most_seen) = dim_none  !! (most_seen) their dimensions
       type(fault_t), allocatable :: fault           !! the first mistake
    end type parser_t
 

@@ -1,4 +1,4 @@
-!> Where an expression is not smooth: functions of its first variable that change sign, or touch zero, there.
+!> Where an expression is not smooth: functions of its first variable, the time, that change sign, or touch zero, there.
 !>
 !> | operation | function | |
 !> |---|---|---|
@@ -6,20 +6,24 @@
 !> | min(a, b), max(a, b) | a - b, with the sign for which below zero means b | changes sign |
 !> | atan2(y, x) | y, where x is negative | changes sign |
 !> | a curve that holds or goes on straight | its argument less its first, its last place | changes sign |
+!> | a law that rises | its argument less the places where its formula changes | changes sign |
+!> | a curve of such laws | its argument less these; sin of it over the period if it repeats itself | changes sign |
 !> | sqrt(u), u^p with p < 2 | u | touches zero |
 !> | asin(u), acos(u) | 1 - u^2 | touches zero |
 !>
 !> The operations choose their branch by `function < 0`, and so does whoever looks for the places, so that a place is between
 !> two neighbouring numbers. Each function is itself an expression, the part of the program that makes the argument.
+!> An expression may see a motion too: its parts that do not are functions of the time (`time_parts`), and only these have switches.
 !> Limits: a cubic spline is twice continuously differentiable; its knots are no such places.
 module expression_switches
-   use curve, only: beyond_hold, beyond_linear
+   use curve, only: beyond_hold, beyond_linear, beyond_periodic, curve_t
    use expression, only: expression_t, op_abs, op_acos, op_add, op_asin, op_atan2, op_curve, op_integer_power, op_max, op_min, &
-      op_number, op_real_power, op_sqrt, op_step, op_subtract, op_time
-   use kinds, only: wp
+      op_multiply, op_number, op_real_power, op_rise, op_sin, op_sqrt, op_step, op_subtract, op_time
+   use kinds, only: pi, wp
+   use rise_laws, only: breaks_of
    implicit none (type, external)
    private
-   public :: find_switches, switch_t
+   public :: find_switches, switch_t, time_parts
 
    !> A function whose sign, or zero, says where an expression is not smooth.
    type :: switch_t
@@ -35,7 +39,7 @@ contains
       type(expression_t), intent(in) :: expression             !! the expression
       type(switch_t), allocatable, intent(out) :: switches(:)  !! (n) what to look at
 
-      integer :: first, k, middle
+      integer :: first, k, middle, n
 
       allocate (switches(0))
       if (expression%is_constant) return
@@ -60,16 +64,15 @@ contains
             else if (expression%code(k) == op_min) then
                call add(part(expression, middle, k - 1, op_subtract, first), .false.)
             else
+               n = size(switches)
                call add(part(expression, first, middle - 1), .false.)
-               if (size(switches) > 0) call set_condition(switches(size(switches)), part(expression, middle, k - 1))
+               if (size(switches) > n) call set_condition(switches(size(switches)), part(expression, middle, k - 1))
             end if
          case (op_curve)
-            associate (curve => expression%curves(nint(expression%operand(k))))
-               if (curve%beyond /= beyond_hold .and. curve%beyond /= beyond_linear) cycle
-               first = begin_of(expression, k - 1)
-               call add(extended(part(expression, first, k - 1), op_subtract, curve%x(1)), .false.)
-               call add(extended(part(expression, first, k - 1), op_subtract, curve%x(size(curve%x))), .false.)
-            end associate
+            call add_curve(expression%curves(nint(expression%operand(k))), &
+                           part(expression, begin_of(expression, k - 1), k - 1))
+         case (op_rise)
+            call add_places(breaks_of(nint(expression%operand(k))), part(expression, begin_of(expression, k - 1), k - 1))
          end select
       end do
 
@@ -80,17 +83,88 @@ contains
          type(expression_t), intent(in) :: g   !! its function
          logical, intent(in) :: touches        !! whether it is one that touches zero
 
-         if (.not. any(g%code == op_time .and. nint(g%operand) == 1)) return
+         if (.not. is_of_time(g)) return
          switches = [switches, switch_t(g, touches)]
       end subroutine add
 
+      !> Append switches at places of an argument.
+      subroutine add_places(places, argument)
+         real(wp), intent(in) :: places(:)            !! (any) the places [any]
+         type(expression_t), intent(in) :: argument   !! what is there
+
+         integer :: m
+
+         do m = 1, size(places)
+            call add(extended(argument, op_subtract, places(m)), .false.)
+         end do
+      end subroutine add_places
+
+      !> Append the switches of a curve.
+      subroutine add_curve(curve, argument)
+         type(curve_t), intent(in) :: curve           !! the curve
+         type(expression_t), intent(in) :: argument   !! where it is taken
+
+         real(wp) :: period
+         integer :: i, m
+
+         associate (n => size(curve%x))
+            if (curve%beyond == beyond_hold .or. curve%beyond == beyond_linear) call add_places(curve%x([1, n]), argument)
+            period = curve%x(n) - curve%x(1)
+         end associate
+         if (.not. allocated(curve%rises)) return
+         do m = 1, size(curve%rises)
+            associate (rise => curve%rises(m))
+               associate (places => rise%begin + rise%length*breaks_of(rise%law))
+                  do i = 1, size(places)
+                     if (curve%beyond == beyond_periodic) then
+                        call add(waving(argument, places(i), period), .false.)
+                     else
+                        call add_places(places(i:i), argument)
+                     end if
+                  end do
+               end associate
+            end associate
+         end do
+      end subroutine add_curve
+
    end subroutine find_switches
 
-   !> A switch counts only where a function is negative.
+   !> Whether a program depends on the first variable alone.
+   pure logical function is_of_time(g)
+      type(expression_t), intent(in) :: g   !! the program
+
+      is_of_time = any(g%code == op_time .and. nint(g%operand) == 1) .and. .not. any(g%code == op_time .and. nint(g%operand) > 1)
+   end function is_of_time
+
+   !> The greatest parts of an expression that are functions of the time alone; of one that sees no motion, itself.
+   subroutine time_parts(expression, parts)
+      type(expression_t), intent(in) :: expression             !! the expression
+      type(expression_t), allocatable, intent(out) :: parts(:) !! (any) its parts
+
+      integer :: first, k
+
+      if (.not. allocated(expression%sights)) then
+         parts = [expression]
+         return
+      end if
+      allocate (parts(0))
+      k = size(expression%code)
+      do while (k > 0)  ! from the end: a part that is one takes all that it is made of with it
+         first = begin_of(expression, k)
+         if (first < k .and. is_of_time(part(expression, first, k))) then
+            parts = [parts, part(expression, first, k)]
+            k = first
+         end if
+         k = k - 1
+      end do
+   end subroutine time_parts
+
+   !> A switch counts only where a function is negative; one that sees a motion is not known, and the switch always counts.
    subroutine set_condition(switch, condition)
       type(switch_t), intent(inout) :: switch      !! the switch
       type(expression_t), intent(in) :: condition  !! the function
 
+      if (any(condition%code == op_time .and. nint(condition%operand) > 1)) return
       switch%condition = condition
    end subroutine set_condition
 
@@ -137,6 +211,18 @@ contains
       g%others = expression%others
       g%is_constant = .false.
    end function part
+
+   !> A wave that is zero where the argument is at a place, or whole periods from it.
+   pure function waving(argument, place, period) result(g)
+      type(expression_t), intent(in) :: argument    !! the argument
+      real(wp), intent(in) :: place                 !! the place [any]
+      real(wp), intent(in) :: period                !! the period [any]
+      type(expression_t) :: g                       !! the wave
+
+      g = extended(extended(argument, op_subtract, place), op_multiply, pi/period)
+      g%code = [g%code, op_sin]
+      g%operand = [g%operand, 0.0_wp]
+   end function waving
 
    !> A program with an operation more: a power, or one with a number as second operand.
    pure function extended(expression, op, number) result(g)

@@ -4,14 +4,17 @@
 !> quantity of all the items of a room, one dataset of the output file. The equations fill `data`;
 !> the writers in output/ read the rest once and know no kind by name.
 module catalogue
+   use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
+   use expression, only: expression_t, most_seen
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
    use readings, only: reading_plan_t, readings_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: catalogue_t, group_t, room_t
+   public :: bound_formula_t, catalogue_t, group_t, room_t
    public :: n_rooms, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, room_joints
+   public :: room_motions, room_points, room_reactions, room_requests
    public :: state_contact, state_film, state_free, state_mixed
    public :: state_name
 
@@ -22,7 +25,11 @@ module catalogue
    integer, parameter :: room_contacts = 5    !! possible contacts of the joints with clearance
    integer, parameter :: room_forces = 6      !! force elements
    integer, parameter :: room_energy = 7      !! the energy ledger: one item without a name
-   integer, parameter :: n_rooms = 7          !! number of rooms
+   integer, parameter :: room_points = 8      !! points of the deck
+   integer, parameter :: room_motions = 9     !! points as seen from elsewhere
+   integer, parameter :: room_reactions = 10  !! reactions at points
+   integer, parameter :: room_requests = 11   !! expressions over channels: one item, a group of its own for each
+   integer, parameter :: n_rooms = 11         !! number of rooms
 
    integer, parameter :: state_free = 0     !! contact state: bodies apart
    integer, parameter :: state_contact = 1  !! contact state: dry contact
@@ -48,12 +55,20 @@ module catalogue
       type(text_t), allocatable :: channels(:) !! (items) " name name " of the channels it has; empty: all of the room's
    end type room_t
 
+   !> An expression over channels, bound to the catalogue that it stands in.
+   type :: bound_formula_t
+      type(expression_t) :: expression          !! of the time and the channels
+      integer :: group = 0                      !! group that its value goes to; 0: a channel that it uses is not there
+      integer, allocatable :: source(:, :)      !! (3, channels) group, component and item of each
+   end type bound_formula_t
+
    !> Everything a scene can report.
    type :: catalogue_t
       integer :: n_coordinates = 2                !! of a point: 2 in the plane, 3 in space
       type(room_t) :: rooms(n_rooms)              !! (n_rooms) items
       type(group_t), allocatable :: groups(:)     !! (groups) quantities
       type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
+      type(bound_formula_t), allocatable :: formulas(:)  !! (any) expressions over channels, each after those that it uses
    contains
       procedure :: add_group => catalogue_add_group
       procedure :: add_item => catalogue_add_item
@@ -62,6 +77,8 @@ module catalogue
       procedure :: find_group => catalogue_find_group
       procedure :: item_has => catalogue_item_has
       procedure :: bind => catalogue_bind
+      procedure :: spread_wants => catalogue_spread_wants
+      procedure :: work_out => catalogue_work_out
    end type catalogue_t
 
 contains
@@ -216,6 +233,50 @@ contains
       end do
    end subroutine catalogue_bind
 
+   !> What wanted expressions read is wanted too.
+   pure subroutine catalogue_spread_wants(self)
+      class(catalogue_t), intent(inout) :: self  !! the catalogue
+
+      integer :: k, m
+
+      do k = size(self%formulas), 1, -1
+         associate (formula => self%formulas(k))
+            if (formula%group == 0) cycle
+            if (.not. any(self%groups(formula%group)%is_wanted)) cycle
+            do m = 1, size(formula%source, 2)
+               self%groups(formula%source(1, m))%is_wanted(formula%source(3, m)) = .true.
+            end do
+         end associate
+      end do
+   end subroutine catalogue_spread_wants
+
+   !> Values of the wanted expressions, when all else is filled. What does not exist is NaN. No allocation.
+   subroutine catalogue_work_out(self, t)
+      class(catalogue_t), intent(inout) :: self  !! the catalogue
+      real(wp), intent(in) :: t                  !! time [s]
+
+      type(ieee_status_type) :: status
+      real(wp) :: slope, value, x(1 + most_seen)
+      integer :: k, m
+
+      if (size(self%formulas) == 0) return
+      call ieee_get_status(status)
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      x(1) = t
+      do k = 1, size(self%formulas)
+         associate (formula => self%formulas(k))
+            if (formula%group == 0) cycle
+            if (.not. self%groups(formula%group)%is_wanted(1)) cycle
+            do m = 1, size(formula%source, 2)
+               x(1 + m) = self%groups(formula%source(1, m))%data(formula%source(2, m), formula%source(3, m))
+            end do
+            call formula%expression%evaluate_seeing(x(:1 + size(formula%source, 2)), 1, value, slope)
+            self%groups(formula%group)%data(1, 1) = value
+         end associate
+      end do
+      call ieee_set_status(status)
+   end subroutine catalogue_work_out
+
    !> How many channels a kind has.
    pure integer function count_channels(info)
       type(kind_info_t), intent(in) :: info  !! the kind
@@ -247,10 +308,15 @@ contains
       self%rooms(room_contacts)%name = "clearances/contacts"
       self%rooms(room_forces)%name = "forces"
       self%rooms(room_energy)%name = "energy"
+      self%rooms(room_points)%name = "points"
+      self%rooms(room_motions)%name = "motions"
+      self%rooms(room_reactions)%name = "reactions"
+      self%rooms(room_requests)%name = "requests"
       do k = 1, n_rooms
          call resize(self%rooms(k), self%rooms(k)%n)
       end do
       if (.not. allocated(self%groups)) allocate (self%groups(0))
+      if (.not. allocated(self%formulas)) allocate (self%formulas(0))
       do k = 1, size(self%groups)
          associate (group => self%groups(k))
             if (allocated(group%data)) deallocate (group%data, group%has, group%is_wanted)

@@ -27,6 +27,9 @@ module readings
       type(readings_t), allocatable :: ideal(:)    !! (sets) of joints with clearance taken as ideal
       type(readings_t), allocatable :: loose(:)    !! (sets) of joints with clearance
       type(readings_t), allocatable :: forces(:)   !! (sets) of force elements
+      type(readings_t) :: points                   !! of points, point by point
+      type(readings_t) :: motions                  !! of points as seen from elsewhere, one by one
+      type(readings_t) :: reactions                !! of reactions at points, one by one
       logical :: needs_reactions = .true.          !! something is read of joints or drivers: all multipliers must be there
    end type reading_plan_t
 

@@ -3,7 +3,7 @@
 !> A room appears if some item of it has a chosen channel, with all such items; a quantity appears
 !> if it is chosen for some item, and its dataset then holds all items of the room that appear.
 module hdf5_layout
-   use catalogue, only: catalogue_t, n_rooms, room_clearances, room_contacts, room_energy
+   use catalogue, only: catalogue_t, n_rooms, room_clearances, room_contacts, room_energy, room_requests
    use channels, only: selection_t
    use hdf5, only: h5dclose_f, h5dwrite_f, h5gclose_f, h5t_ieee_f64le, h5t_native_double, h5t_std_i8le
    use hdf5, only: hid_t, hsize_t
@@ -204,7 +204,7 @@ contains
          if (status < 0) return
          call h5gclose_f(group, closed)
          select case (room)
-         case (room_energy)
+         case (room_energy, room_requests)
             continue
          case (room_contacts)
             call text_dataset(file, "clearances/contact_joint", picked(this%names, items), .false., &
@@ -258,7 +258,7 @@ contains
          dataset%components = this%channel%components
          dataset%is_state = room == room_contacts .and. this%channel%name == "state"
          allocate (dataset%rows(dataset%components*size(items), block))
-         if (room == room_energy) then
+         if (room == room_energy .or. room == room_requests) then
             allocate (dataset%shape(0))
          else if (dataset%components == 1) then
             dataset%shape = [size(items, kind=hsize_t)]

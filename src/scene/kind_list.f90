@@ -19,6 +19,7 @@ module kind_list
    use lubricant, only: lubricant_info
    use normal_law, only: normal_law_t
    use precision_info, only: precision_section
+   use requests, only: motion_request_info, reaction_info, request_info
    use shapes, only: shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use study_info, only: ensemble_info, statistics_info, sweep_info
@@ -111,7 +112,7 @@ contains
 
       integer :: k, n
 
-      allocate (kinds(17 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
+      allocate (kinds(21 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
                       + n_friction_kinds + n_film_kinds))
       kinds(1) = scene_info()
       kinds(2) = bodies_info()
@@ -156,11 +157,15 @@ contains
       kinds(n + 2) = kinematic_info()
       kinds(n + 3) = static_info()
       kinds(n + 4) = guards_info()
-      kinds(n + 5) = output_info()
-      kinds(n + 6) = statistics_info()
-      kinds(n + 7) = sweep_info()
-      kinds(n + 8) = ensemble_info()
-      kinds(n + 9) = precision_section()
+      kinds(n + 5) = request_info()
+      kinds(n + 6) = motion_request_info()
+      kinds(n + 7) = reaction_info(is_spatial=.false.)
+      kinds(n + 8) = reaction_info(is_spatial=.true.)
+      kinds(n + 9) = output_info()
+      kinds(n + 10) = statistics_info()
+      kinds(n + 11) = sweep_info()
+      kinds(n + 12) = ensemble_info()
+      kinds(n + 13) = precision_section()
    end subroutine all_kinds
 
 end module kind_list

@@ -18,6 +18,7 @@ module read_scene
    use lubricant, only: lubricant_info, oil_of_row
    use read_films, only: check_lubricants, films_from_deck
    use read_functions, only: functions_from_deck
+   use read_requests, only: make_requests, place_sights, requests_from_deck
    use references, only: add_names, directory_t, resolve
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
       scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_shapes, table_t
@@ -62,6 +63,7 @@ contains
       call add_joints(scene, directory)
       call read_laws(deck, scene, directory, diagnostics)
       call films_from_deck(deck, scene, directory, diagnostics)
+      call requests_from_deck(deck, directory, scene, diagnostics)
       if (size(scene%tables%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
          call diagnostics%add(location_of_end(deck), "no bodies", "a scene needs at least one", "add a table [bodies]")
       end if
@@ -84,6 +86,8 @@ contains
       associate (items => scene%tables%base(table_lubricants)%items)
          scene%lubrication%oils = [(oil_of_row(items(k)), k=1, size(items))]
       end associate
+      call make_requests(scene, diagnostics)
+      call place_sights(scene, diagnostics)
       call check_meaning(deck, scene, diagnostics)
    end subroutine scene_from_deck
 

@@ -14,10 +14,12 @@ module scene
    use kinds, only: wp
    use lubricant, only: oil_t
    use normal_law, only: normal_law_t
+   use requests, only: requests_t
    implicit none (type, external)
    private
    public :: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, n_analysis
    public :: friction_slot_t, law_slot_t, n_base, scene_t, section_t, settings_t, table_t
+   public :: table_formulas, table_motions, table_reactions
    public :: table_bodies, table_lubricants, table_materials, table_points, table_shapes
 
    integer, parameter :: table_bodies = 1     !! base table: bodies
@@ -26,6 +28,11 @@ module scene
    integer, parameter :: table_lubricants = 4 !! base table: lubricants
    integer, parameter :: table_shapes = 5     !! base table: shapes
    integer, parameter :: n_base = 5           !! base tables
+
+   integer, parameter :: table_formulas = 1   !! requests: expressions over channels
+   integer, parameter :: table_motions = 2    !! requests: points as seen from elsewhere
+   integer, parameter :: table_reactions = 3  !! requests: reactions at points
+   integer, parameter :: n_requests = 3       !! tables of requests
 
    integer, parameter :: analysis_dynamic = 1    !! motion in time under forces
    integer, parameter :: analysis_kinematic = 2  !! motion prescribed by drivers
@@ -74,6 +81,7 @@ module scene
       type(table_t) :: laws(n_law_kinds)               !! (kinds) normal laws
       type(table_t) :: frictions(n_friction_kinds)     !! (kinds) friction laws
       type(table_t) :: films(n_film_kinds)             !! (kinds) films
+      type(table_t) :: requests(n_requests)            !! (kinds) requests
    end type tables_t
 
    !> What lubricates joints.
@@ -83,6 +91,7 @@ module scene
    end type lubrication_t
 
    !> What a deck means.
+   !> Components: what is asked for stands beside what moves.
    type :: scene_t
       character(:), allocatable :: title                     !! one line
       real(wp) :: gravity(3) = 0.0_wp                        !! (3) acceleration of free fall, world frame [m/s^2]
@@ -96,6 +105,7 @@ module scene
       type(table_t) :: forces(n_force_kinds)                 !! (kinds) force elements
       type(table_t) :: clearances(n_clearance_kinds)         !! (kinds) joints with clearance
       type(tables_t) :: tables                               !! the other tables
+      type(requests_t) :: requests                           !! what is asked of the motion
       integer :: analysis = analysis_dynamic                 !! which analysis runs
       type(settings_t) :: settings                           !! of it, of the output and of studies
       real(wp) :: size_of_whole = 0.0_wp                     !! size of the bodies of what this is a group of; 0: all is here [m]

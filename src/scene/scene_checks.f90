@@ -16,7 +16,7 @@ module scene_checks
    use name_table, only: name_table_t
    use normal_law, only: n_law_parameter
    use references, only: add_names
-   use scene, only: scene_t, table_bodies, table_points
+   use scene, only: scene_t, table_bodies, table_motions, table_points, table_reactions
    use scene_size, only: start_position
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
@@ -25,7 +25,7 @@ module scene_checks
    private
    public :: check_meaning, check_names, report_doubled
 
-   character(*), parameter :: reserved = " ground none energy events summary ideal "
+   character(*), parameter :: reserved = " ground none energy request events summary ideal "
       !! words that no item may have as its name
 
 contains
@@ -67,6 +67,8 @@ contains
       do k = 1, n_clearance_kinds
          call look(scene%clearances(k)%items)
       end do
+      call look(scene%tables%requests(table_motions)%items)
+      call look(scene%tables%requests(table_reactions)%items)
       associate (points => scene%tables%base(table_points)%items)
          do k = 1, size(points)
             if (points(k)%name == "none") call report_reserved(points(k))

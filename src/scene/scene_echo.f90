@@ -25,6 +25,7 @@ contains
       call add(scene%tables%laws)
       call add(scene%tables%frictions)
       call add(scene%tables%films)
+      call add(scene%tables%requests)
       call add_section(scene%settings%has_analysis(analysis_dynamic), scene%settings%dynamic)
       call add_section(scene%settings%has_analysis(analysis_kinematic), scene%settings%kinematic)
       call add_section(scene%settings%has_analysis(analysis_static), scene%settings%static)

@@ -22,6 +22,7 @@ module mechanism
    use kinds, only: i8, wp
    use linkage, only: linkage_t
    use loading, only: loading_t
+   use requests, only: requests_t
    use rubbing, only: rubbing_t
    implicit none (type, external)
    private
@@ -58,6 +59,7 @@ module mechanism
       type(friction_t) :: friction                !! friction that is solved for
       class(hold_t), allocatable :: way           !! way of holding the constraints
       type(ledger_t) :: ledger                    !! what is told of energies
+      type(requests_t) :: requests                !! what is asked of the motion beside channels of its items
       integer(i8) :: n_evaluations = 0            !! evaluations made
       real(wp), allocatable, private :: held(:)   !! (positions + rates) state corrected for an evaluation [any]
    contains

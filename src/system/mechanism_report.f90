@@ -10,8 +10,9 @@ module mechanism_report
    use linkage, only: linkage_t
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
-   use point_contacts, only: of_eccentricity, of_force
+   use point_contacts, only: named_channels, of_eccentricity, of_force
    use readings, only: readings_t
+   use request_report, only: add_requests, bind_requests, report_requests
    use revolute_level, only: film_channels, pressure_channels
    implicit none (type, external)
    private
@@ -31,7 +32,7 @@ module mechanism_report
    integer, parameter :: of_residual = 11             !! what does not add up
 
    character(*), parameter :: contact_channels = &
-      " penetration penetration_rate normal_force friction_force state contact_point "
+      " penetration penetration_rate normal_force friction_force state contact_point"//named_channels
       !! channels of a loose joint that belong to its contact
 
 contains
@@ -119,6 +120,7 @@ contains
          call catalogue%add_item(room_energy, "energy")
          call catalogue%add_kind(room_energy, energy_info(system%ledger%is_kept, system%loose%has_films))
       end if
+      call add_requests(system%requests, catalogue)
       call catalogue%allocate_data()
       call bind_channels(system, catalogue)
    end subroutine build_catalogue
@@ -131,6 +133,8 @@ contains
       type(kind_info_t) :: info
       integer :: k
 
+      call catalogue%spread_wants()
+      call bind_requests(catalogue)
       associate (plan => catalogue%readings, joints => system%linkage%joints)
          call catalogue%bind(room_bodies, system%linkage%coordinates%bodies_info(), plan%bodies)
          call catalogue%bind(room_energy, energy_info(.true., .true.), plan%energy)
@@ -146,7 +150,7 @@ contains
          do k = 1, size(plan%ideal)
             call catalogue%bind(room_clearances, info, plan%ideal(k))
          end do
-         plan%needs_reactions = any(plan%joints%n > 0) .or. any(plan%ideal%n > 0)
+         plan%needs_reactions = any(plan%joints%n > 0) .or. any(plan%ideal%n > 0) .or. plan%reactions%n > 0
          do k = 1, size(plan%loose)
             call catalogue%bind(room_clearances, loose_info(system%loose%sets(k)%set), plan%loose(k))
          end do
@@ -291,11 +295,13 @@ contains
          end do
          call report_ideal(system, plan%ideal, groups)
          call report_forces(system, t, plan%forces, groups)
+         call report_requests(system, plan, groups)
          if (plan%energy%n > 0) energy = energy_of(system, y)
          do m = 1, plan%energy%n
             groups(plan%energy%group(m))%data(1, 1) = energy_value(energy, plan%energy%code(m), residual)
          end do
       end associate
+      call catalogue%work_out(t)
    end subroutine fill_catalogue
 
    !> Values of a set of joints or drivers.

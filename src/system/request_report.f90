@@ -1,0 +1,145 @@
+!> What requests report: points, places, reactions at points, and expressions over channels.
+module request_report
+   use catalogue, only: bound_formula_t, catalogue_t, group_t, n_rooms, room_contacts, room_motions, room_points, room_reactions, &
+      room_requests
+   use kind_info, only: channel_t
+   use kinds, only: wp
+   use mechanism, only: mechanism_t
+   use reaction_at, only: find_reaction
+   use readings, only: reading_plan_t, readings_t
+   use requests, only: formula_t, motion_request_info, of_reaction_force, point_channels, reaction_info, requests_t, source_t
+   use seen_motion, only: place_values
+   use sight, only: place_t
+   implicit none (type, external)
+   private
+   public :: add_requests, bind_requests, report_requests
+
+contains
+
+   !> Items and channels of requests. Expressions over channels that this catalogue does not have are left out.
+   subroutine add_requests(requests, catalogue)
+      type(requests_t), intent(in) :: requests         !! what is asked
+      type(catalogue_t), intent(inout) :: catalogue    !! grows; all other items and groups are there
+
+      integer :: k
+
+      if (.not. allocated(requests%points)) return  ! a system that was not made from a deck
+      if (size(requests%points) > 0) call catalogue%add_kind(room_points, point_channels())
+      do k = 1, size(requests%points)
+         call catalogue%add_item(room_points, requests%points(k)%s)
+      end do
+      if (size(requests%motions) > 0) call catalogue%add_kind(room_motions, motion_request_info())
+      do k = 1, size(requests%motions)
+         call catalogue%add_item(room_motions, requests%motions(k)%name)
+      end do
+      if (size(requests%reactions) > 0) call catalogue%add_kind(room_reactions, reaction_info(requests%is_spatial))
+      do k = 1, size(requests%reactions)
+         call catalogue%add_item(room_reactions, requests%reactions(k)%name)
+      end do
+      if (size(requests%formulas) > 0) call catalogue%add_item(room_requests, "request")
+      allocate (catalogue%formulas(size(requests%formulas)))
+      do k = 1, size(requests%formulas)
+         call add_formula(requests%formulas(k), catalogue, catalogue%formulas(k))
+      end do
+   end subroutine add_requests
+
+   !> A group for an expression, if all of its channels are there.
+   subroutine add_formula(formula, catalogue, bound)
+      type(formula_t), intent(in) :: formula           !! the expression
+      type(catalogue_t), intent(inout) :: catalogue    !! grows
+      type(bound_formula_t), intent(out) :: bound      !! the expression in it; without a group if it cannot be told
+
+      type(channel_t) :: channel
+      integer :: k
+
+      allocate (bound%source(3, size(formula%sources)))
+      do k = 1, size(formula%sources)
+         call find_source(formula%sources(k), catalogue, bound%source(:, k))
+         if (bound%source(1, k) == 0) return
+      end do
+      channel%name = formula%name
+      channel%unit = formula%unit
+      channel%frame = "none"
+      channel%help = formula%text
+      call catalogue%add_group(room_requests, channel)
+      bound%expression = formula%expression
+      bound%group = size(catalogue%groups)
+   end subroutine add_formula
+
+   !> Group, component and item of a channel; zeros if the catalogue does not have it.
+   pure subroutine find_source(source, catalogue, place)
+      type(source_t), intent(in) :: source          !! the channel by its names
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+      integer, intent(out) :: place(3)              !! (3) where it is
+
+      integer :: k
+
+      place = 0
+      do k = 1, catalogue%rooms(source%room)%n
+         if (catalogue%rooms(source%room)%names(k)%s /= source%item) cycle
+         if (source%room == room_contacts) then
+            if (catalogue%rooms(source%room)%labels(k)%s /= source%label) cycle
+         end if
+         place = [catalogue%find_group(source%room, source%channel), source%component, k]
+         return
+      end do
+   end subroutine find_source
+
+   !> Bind what is wanted of points, places and reactions, one by one.
+   subroutine bind_requests(catalogue)
+      type(catalogue_t), intent(inout) :: catalogue   !! its readings are set
+
+      integer :: k
+
+      associate (plan => catalogue%readings, rooms => catalogue%rooms)
+         call catalogue%bind(room_points, point_channels(), plan%points, [(k, k=1, rooms(room_points)%n)])
+         call catalogue%bind(room_motions, motion_request_info(), plan%motions, [(k, k=1, rooms(room_motions)%n)])
+         call catalogue%bind(room_reactions, reaction_info(catalogue%n_coordinates == 3), plan%reactions, &
+                             [(k, k=1, rooms(room_reactions)%n)])
+      end associate
+   end subroutine bind_requests
+
+   !> Values of all that is bound. No allocation.
+   subroutine report_requests(system, plan, groups)
+      type(mechanism_t), intent(in) :: system        !! the system at the state, with reactions where they are read
+      type(reading_plan_t), intent(in) :: plan       !! what is read
+      type(group_t), intent(inout) :: groups(:)      !! (groups) values
+
+      real(wp) :: force(3), moment(3)
+      integer :: m
+
+      do m = 1, plan%points%n
+         call report_place(system, system%requests%places(plan%points%item(m)), plan%points, m, groups)
+      end do
+      do m = 1, plan%motions%n
+         call report_place(system, system%requests%motions(plan%motions%item(m))%place, plan%motions, m, groups)
+      end do
+      do m = 1, plan%reactions%n
+         associate (values => groups(plan%reactions%group(m))%data(:, plan%reactions%item(m)))
+            call find_reaction(system, system%requests%reactions(plan%reactions%item(m)), force, moment)
+            if (plan%reactions%code(m) == of_reaction_force) then
+               values = force(:size(values))
+            else
+               values = moment(merge(3, 1, size(values) == 1):)
+            end if
+         end associate
+      end do
+   end subroutine report_requests
+
+   !> Value of one quantity of a place.
+   subroutine report_place(system, place, readings, m, groups)
+      type(mechanism_t), intent(in) :: system        !! the system at the state
+      type(place_t), intent(in) :: place             !! the place
+      type(readings_t), intent(in) :: readings       !! what is read
+      integer, intent(in) :: m                       !! number of the reading
+      type(group_t), intent(inout) :: groups(:)      !! (groups) values
+
+      real(wp) :: x(3)
+
+      x = place_values(place, readings%code(m), system%linkage%motion)
+      associate (values => groups(readings%group(m))%data(:, readings%item(m)))
+         values = x(:size(values))
+      end associate
+   end subroutine report_place
+
+end module request_report
