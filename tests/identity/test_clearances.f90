@@ -356,6 +356,7 @@ contains
          call evaluate_loads(bench, loads, losses)
          call check_close(error, sum(abs(loads%force)), 0.0_wp, 0.0_wp, bench%name//": force when centred")
          do k = 1, size(info%channels)
+            if (info%channels(k)%name == "p_v") cycle  ! of pins with a length
             value = 0.0_wp
             call read_loose(bench%set, info%channels(k)%name, bench%motion, value(1:info%channels(k)%components, :))
             call check_true(error, all(ieee_is_finite(value)), bench%name//": "//info%channels(k)%name//" is finite")

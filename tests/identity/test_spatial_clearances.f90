@@ -21,6 +21,7 @@ module test_spatial_clearances
    use motion, only: cross, loads_t, motion_t, new_loads, new_motion
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: most_of_item
+   use point_contacts, only: named_channels
    use read_channel, only: read_loose
    use revolute_level, only: film_channels
    use rotations, only: rate_of_parameters, rotation_of_parameters, second_rate_of_parameters, turned_by
@@ -395,8 +396,8 @@ contains
       scale = sum(abs(loads%force))
       do c = 1, size(bench%info%channels)
          associate (channel => bench%info%channels(c))
-            if (index(film_channels, " "//channel%name//" ") > 0) cycle
-            is_of_contact = index(" penetration penetration_rate normal_force friction_force state contact_point ", &
+            if (index(film_channels//" p_v ", " "//channel%name//" ") > 0) cycle  ! p v is one of pins with a length
+            is_of_contact = index(" penetration penetration_rate normal_force friction_force state contact_point"//named_channels, &
                                   " "//channel%name//" ") > 0
             allocate (values(merge(3, 1, channel%components == 2), merge(bench%set%n_contact, 1, is_of_contact)), &
                       source=not_a_number())

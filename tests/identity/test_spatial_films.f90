@@ -11,6 +11,7 @@ module test_spatial_films
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
    use motion, only: cross, loads_t, new_loads
+   use point_contacts, only: named_channels
    use read_channel, only: read_loose
    use rotations, only: rotation_of_parameters, turned_by
    use scene_fixture, only: nl, system_of_text
@@ -267,9 +268,9 @@ contains
          at_point = loads%moment(:, 2) - cross(matmul(motion%rot(:, :, 2), set%items%s_j(:, 1)), loads%force(:, 2))
          do c = 1, size(info%channels)
             associate (channel => info%channels(c))
-               if (channel%name == "contact_point") cycle  ! nothing touches
+               if (channel%name == "contact_point" .or. channel%name == "p_v") cycle  ! nothing touches
                if (channel%name == "film_pressure" .and. .not. set%laws%films%law%has_field()) cycle
-               is_of_contact = index(" penetration penetration_rate normal_force friction_force state ", &
+               is_of_contact = index(" penetration penetration_rate normal_force friction_force state"//named_channels, &
                                      " "//channel%name//" ") > 0
                allocate (values(merge(3, 1, channel%components == 2), merge(set%n_contact, 1, is_of_contact)), &
                          source=not_a_number())
