@@ -321,6 +321,9 @@ contains
       items(1)%values(c)%expression = make_expression("6*t/(1 s)", info%columns(c))
       c = column_number(info, "law")
       items(1)%values(c)%expression = constant_expression(0.0_wp, info%columns(c)%dimension)
+      c = column_number(info, "damper")
+      items(1)%values(c)%expression = constant_expression(0.0_wp, info%columns(c)%dimension)
+      items(1)%values(c)%number = 0.0_wp
       call new_force_set(kind_number(name), bench%set)
       call bench%set%prepare(items, bench%points)
    end subroutine make_spring
