@@ -18,7 +18,7 @@
 !> Source: R. L. Norton, Cam design and manufacturing handbook (2002), chapters 3 and 4. Limits: none.
 module rise_laws
    use intervals, only: hull, widened
-   use kinds, only: pi, two_pi, wp
+   use kinds, only: eps, pi, two_pi, wp
    implicit none (type, external)
    private
    public :: bound_rise, breaks_of, is_smooth_rise, jet_of_rise, number_of_rise, rise_names, rise_values
@@ -142,8 +142,9 @@ contains
             end if
          end do
       end do
-      do i = 1, 3
-         f(:, i) = widened(f(:, i))
+      if (u(2) < 0.0_wp .or. .not. u(1) < 1.0_wp) return
+      do i = 1, 3  ! round-off of a law is that of numbers of the order of one
+         f(:, i) = widened(f(:, i) + [-32.0_wp, 32.0_wp]*eps)
       end do
    end function bound_rise
 

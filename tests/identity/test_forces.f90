@@ -316,11 +316,11 @@ contains
       bench%points%s(1:2, 2) = [0.3_wp, 0.0_wp]
       items(1)%values(1)%index = merge(1, 0, info%columns(1)%refers_to == "points")
       items(1)%values(2)%index = merge(2, 1, info%columns(1)%refers_to == "points")
-      items(1)%values(3:6)%number = [10.0_wp, 2.0_wp, 3.0_wp, 7.0_wp]
+      items(1)%values(3:8)%number = [10.0_wp, 2.0_wp, 3.0_wp, 7.0_wp, 0.0_wp, 0.0_wp]
       c = column_number(info, "actuator")
       items(1)%values(c)%expression = make_expression("6*t/(1 s)", info%columns(c))
-      c = column_number(info, "law")
-      items(1)%values(c)%expression = constant_expression(0.0_wp, info%columns(c)%dimension)
+      items(1)%values(column_number(info, "law"))%expression = constant_expression(0.0_wp, info%columns(c)%dimension)
+      items(1)%values(column_number(info, "damper"))%expression = constant_expression(0.0_wp, info%columns(c)%dimension)
       call new_force_set(kind_number(name), bench%set)
       call bench%set%prepare(items, bench%points)
    end subroutine make_spring

@@ -53,6 +53,11 @@ contains
                if (info%columns(i)%is_any .and. scan(info%columns(i)%name, "0123456789") == 2) then
                   item%values(i)%dimensions(1) = dim_t(m=1, s=real(1 - i, wp))
                end if
+               select case (info%columns(i)%name)  ! of a cam that rises there
+               case ("rise", "return"); item%values(i)%number = 2.0_wp
+               case ("dwell", "start"); item%values(i)%number = 0.5_wp
+               case ("period"); item%values(i)%number = 9.0_wp
+               end select
                if (info%columns(i)%name == "end") item%values(i)%number = 3.0_wp  ! behind every origin, and where it is looked at
             end do
             call kind%make(item, made)
