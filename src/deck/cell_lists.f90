@@ -49,7 +49,7 @@ contains
                                             & "this is a number, not a word")
    end subroutine read_word
 
-   !> A list of words; what stands in parentheses is one word, with one blank between cells that are no equals signs.
+   !> A list of words; what stands in parentheses is one word, with one blank between two cells that no sign parts.
    subroutine read_words(deck, place, list, value, mistakes)
       type(deck_t), intent(in) :: deck                !! the deck
       character(*), intent(in) :: place               !! as `in key channels of output`
@@ -61,10 +61,8 @@ contains
       type(text_list_t) :: words
       character(:), allocatable :: whole, word
       integer :: depth, first, k
-      logical :: after_equals
 
       whole = ""
-      after_equals = .false.
       depth = 0
       first = 1
       do k = 1, size(list)
@@ -76,8 +74,9 @@ contains
          else
             call read_word(deck, place, list(k), word, mistakes)
          end if
-         if (k > first .and. list(k)%kind /= token_equals .and. .not. after_equals) whole = whole//" "
-         after_equals = list(k)%kind == token_equals
+         if (k > first .and. len(whole) > 0 .and. len(word) > 0) then
+            if (scan(whole(len(whole):), "(,=") == 0 .and. scan(word(1:1), "),=") == 0) whole = whole//" "
+         end if
          whole = whole//word
          if (list(k)%kind == token_word) depth = depth + n_of(word, "(") - n_of(word, ")")
          if (depth > 0) cycle

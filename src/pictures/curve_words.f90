@@ -205,6 +205,7 @@ contains
                message = "the ends of an axis do not increase"
                if (k /= at) message = "the ends of an axis are of different quantities"
                bad = "from"
+               hint = "write the lesser end first, as in from 0 mm to 20 mm"
                return
             end if
             axes(at)%range = [low, high]
@@ -230,6 +231,7 @@ contains
             if (len(trouble) == 0) return
          end do
          bad = name
+         hint = "this axis shows what is given in "//axes(1)%si
          at = 1
       end subroutine fit
 

@@ -5,7 +5,7 @@ import math
 import re
 
 import numpy as np
-from support import Run, assert_close, call, plain_deck, scratch, written
+from support import ROOT, Run, assert_close, call, plain_deck, scratch, written
 
 SWING = """deck = 1
 [scene]
@@ -91,11 +91,34 @@ def test_loose_joints(gudgeon):
     for name, column in (("impact_speed", "impact_speed"), ("peak_force", "peak_force"), ("peak_penetration", "peak_penetration")):
         assert joint[name] == contacts[column].max()
         assert joint[f"{name}_onset"] == contacts["time"][contacts[column].argmax()]
+        if name != "impact_speed":
+            assert joint[f"{name}_time"] == contacts[f"{name}_time"][contacts[column].argmax()]
     assert_close(joint["energy_lost"], contacts["energy_lost"].sum(), relative=1e-13)
+    assert_close(joint["impulse"], contacts["impulse"].sum(), relative=1e-13)
     ends = np.where(np.isnan(contacts["duration"]), 0.024, contacts["time"] + contacts["duration"])
     assert_close(joint["contact_fraction"], (ends - contacts["time"]).sum() / 0.024, relative=1e-12)
     for key in joint.keys() - {"joint"}:
         assert run.read(f"extremes/joints/{key}")[0] == joint[key]
+
+
+def test_times_of_peaks(gudgeon):
+    """At the time of the greatest force there is a row with that force; the greatest penetration is between onset and end."""
+    run = crank(gudgeon)
+    t, force = run.rows("time"), run.rows("clearances/contacts/normal_force")[:, 0]
+    for contact in run.contacts:
+        assert force[np.abs(t - contact["peak_force_time"]).argmin()] == contact["peak_force"]
+        end = contact["time"] + contact["duration"]
+        assert contact["time"] <= contact["peak_penetration_time"] and not contact["peak_penetration_time"] > end
+
+
+def test_impulse_of_an_impact(gudgeon):
+    """A free journal of 0.14 kg: its impulse is the change of its momentum; less well where the force of the law jumps."""
+    for law, near in (("hertz", 1e-6), ("lankarani_nikravesh", 1e-6), ("kelvin_voigt", 1e-4)):
+        directory = scratch()
+        call(gudgeon, "run", ROOT / "inputs" / "impact.deck", "--set", f"law={law}", "--write", "numbers", "--out", directory / "out",
+             "--quiet")
+        (contact,) = Run(directory / "out").contacts
+        assert_close(contact["impulse"], 0.14 * (contact["impact_speed"] + contact["release_speed"]), relative=near, what=law)
 
 
 def test_what_was_run(gudgeon):
