@@ -78,7 +78,7 @@ contains
    subroutine run_motion(options, loaded, stop_at, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(inout) :: loaded              !! the deck
-      real(wp), intent(in) :: stop_at                      !! time of the motion after which it is saved and ends; huge: it does not [s]
+      real(wp), intent(in) :: stop_at                      !! time of the motion after which it is saved and ends [s]
       type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
 
       class(integrator_t), allocatable :: method

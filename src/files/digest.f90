@@ -7,7 +7,7 @@ module digest
 
    integer, parameter :: n_digest = 64  !! characters of a digest
 
-   ! allow(assumed-size)
+   ! allow(assumed-size, assumed-size-character-intent)
    interface
       subroutine c_sha256(bytes, n, digest) bind(c, name="gudgeon_sha256")
          import :: c_char, c_int64_t

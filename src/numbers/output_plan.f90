@@ -66,6 +66,7 @@ module output_plan
    end type looks_t
 
    !> The plan. Strings and lists that are not allocated count as empty.
+   !> Components: all that the cli tells a recorder, which is one argument for this reason.
    type :: output_plan_t
       character(:), allocatable :: directory           !! of the run, which exists and is ours
       type(origin_t) :: origin                         !! where the run comes from
