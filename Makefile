@@ -103,6 +103,12 @@ stability:
 	$(inner)release binary
 	@$(PYTHON) -B tests/stability/stability.py --build $(abspath $(BUILD)) $(STABILITY)
 
+# runs killed at random moments: readable, and resumed bit for bit; KILL='--restarts 5 --kills 20 --seed 1' for options
+kill-test:
+	@scripts/setup
+	$(inner)release binary
+	@$(PYTHON) -B tests/restart/kill_runs.py $(BUILD)/gudgeon $(KILL)
+
 # whether the intervals of `gudgeon run --accuracy` hold the true errors of random decks; CERTIFY='-n 50 --seed 2' for options
 certify:
 	$(inner)release binary
@@ -158,6 +164,7 @@ help:
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
 	@echo "make browser-test  pages of animations and of runs opened by Chromium: no error, another picture after a step"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
+	@echo "make kill-test  runs killed at random moments, read and resumed; KILL='--kills 20' for options"
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"

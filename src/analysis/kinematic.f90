@@ -20,7 +20,8 @@ module kinematic
    use mechanism_report, only: build_catalogue, fill_catalogue
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
-   use recorder, only: recorder_t, status_complete, status_failed, summary_t
+   use recorder, only: recorder_t, status_complete, status_failed, status_stopped, summary_t
+   use saved_run, only: wish_stop
    use text, only: append_text, real_text
    use step_follower, only: follow_motion, must_follow
    use time_plan, only: instant, last_instant, time_plan_t
@@ -80,10 +81,12 @@ contains
       summary%cpu_seconds = cpu_1 - cpu_0
       summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
       summary%count%factorisations = newton%n_solved
-      summary%status = status_complete
+      if (.not. allocated(summary%status)) then
+         summary%status = status_complete
+         if (allocated(error)) summary%status = status_failed
+      end if
       summary%message = ""
       if (allocated(error)) then
-         summary%status = status_failed
          summary%message = error%message
       end if
       call recorder%finish(summary, late_error)
@@ -121,6 +124,12 @@ contains
          if (allocated(error)) return
          summary%count%samples = summary%count%samples + 1
          if (mod(k, progress_every) == 0_i8) call recorder%progress(state%t/plan%end)
+         if (recorder%wish(.false.) == wish_stop .and. k < last_instant(plan)) then
+            summary%status = status_stopped
+            call set_error(error, exit_integration, "stopped from outside at t = "//real_text(state%t, 9)// &
+                           " s; what was written before can be read")
+            return
+         end if
          if (budget%is_spent() .and. k < last_instant(plan)) then
             call budget%refuse(state%t, error)
             return

@@ -1,4 +1,4 @@
-!> Runs that are stopped and go on: what their options go together with, where they go on, and the proof that it makes no difference.
+!> Runs that are stopped and go on: what their options go together with, where they go on, the proof that it makes no difference.
 module restart_run
    use checkpoint_file, only: checkpoint_name
    use errors, only: error_t, exit_different, exit_usage, set_error

@@ -1,5 +1,6 @@
 !> What a run of a deck is to write and to say: the plan that its recorder follows.
 module run_plan
+   use blas_threads, only: blas_kernels
    use build_info, only: compile_flags, compiler, git_sha1
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
@@ -98,6 +99,7 @@ contains
       plan%origin%libraries = library_versions()
       plan%origin%command = options%command
       plan%origin%flags = compile_flags
+      plan%origin%kernels = blas_kernels()
       plan%origin%choices = "--write "//options%write
       if (options%change%member > 0) plan%origin%choices = plan%origin%choices//" --member "//to_text(options%change%member)
       if (options%with_horizon) plan%origin%choices = plan%origin%choices//" --horizon"

@@ -20,6 +20,7 @@ module verb_run
    use mobility, only: mobility_t
    use options, only: options_t
    use output_directory, only: output_directory_t
+   use output_size, only: check_size
    use output_tree, only: remove_run
    use output_plan, only: lifetime_t, output_plan_t, show_nothing
    use perturbation, only: new_shift
@@ -56,6 +57,7 @@ contains
       call load_deck(options, loaded, error)
       if (.not. allocated(error)) call check_accuracy(options, loaded, error)
       if (.not. allocated(error)) call check_restart(options, loaded, error)
+      if (.not. allocated(error)) call check_size(options, loaded, directory_of(options, loaded), error)
       if (.not. allocated(error) .and. options%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
                         trim(analysis_names(loaded%scene%analysis)))
@@ -76,7 +78,7 @@ contains
    subroutine run_motion(options, loaded, stop_at, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(inout) :: loaded              !! the deck
-      real(wp), intent(in) :: stop_at                      !! time of the motion after which it is saved and ends; huge: it does not [s]
+      real(wp), intent(in) :: stop_at                      !! time of the motion after which it is saved and ends [s]
       type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
 
       class(integrator_t), allocatable :: method
@@ -121,6 +123,7 @@ contains
       if (goes_on .and. .not. allocated(error)) then
          allocate (saved)
          call read_checkpoint(plan, saved, error)
+         if (.not. allocated(error)) keeper%plan%life%resumed_from = saved%t
       end if
       if (allocated(error)) then
          call directory%close()
@@ -284,8 +287,12 @@ contains
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, keeper%plan)
       limit_cpu = loaded%scene%settings%kinematic%number("limit_cpu")
+      keeper%plan%life%is_saved = .true.
+      call listen(.true.)
       call run_kinematic(loaded%system, q, loaded%plan, newton, limit_cpu, keeper, summary, error)
+      call listen(.false.)
       call directory%close()
+      call end_as_asked(summary, error)
    end subroutine run_prescribed
 
    !> Equilibrium at rest.

@@ -216,7 +216,7 @@ contains
       steps = steps_any
    end function integrator_steps
 
-   !> Whether a method that takes back what it remembers begins anew, because it has a history that it does not save: most have none.
+   !> Whether a method that takes back what it remembers begins anew, as its history is not saved: most have none.
    pure logical function integrator_begins_anew() result(begins_anew)
       begins_anew = .false.
    end function integrator_begins_anew

@@ -5,15 +5,15 @@
 !> for ever if there is no room for it. So where room is short the program begins anew with one thread from the start, and
 !> where it does not suffice for the one buffer it ends.
 module blas_threads
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_int64_t, c_null_char, &
-      c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, c_int, &
+      c_int64_t, c_null_char, c_null_ptr, c_ptr
    use errors, only: error_t, exit_file, set_error
    use kinds, only: i8
    use text, only: to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: use_one_blas_thread
+   public :: blas_kernels, use_one_blas_thread
 
    integer(i8), parameter :: megabyte = 1048576_i8                  !! bytes
    integer(i8), parameter :: buffer_of_blas = 128_i8*megabyte       !! largest of OpenBLAS 0.3, BUFFER_SIZE of its param.h [byte]
@@ -59,6 +59,13 @@ module blas_threads
          integer(c_int), value :: n  !! number of threads
       end subroutine set_threads_interface
 
+      !> OpenBLAS's openblas_get_corename.
+      function kernels_interface() bind(c) result(name)
+         import :: c_ptr
+         implicit none (type, external)
+         type(c_ptr) :: name  !! a string of C
+      end function kernels_interface
+
       !> OpenBLAS's blas_memory_alloc.
       function allocate_interface(position) bind(c) result(buffer)
          import :: c_int, c_ptr
@@ -102,6 +109,26 @@ contains
       call c_f_procpointer(address, set_threads)
       call set_threads(1_c_int)
    end subroutine use_one_blas_thread
+
+   !> The kernels that OpenBLAS has chosen, as it calls them; blank of another BLAS.
+   function blas_kernels() result(name)
+      character(:), allocatable :: name  !! as `Haswell`
+
+      procedure(kernels_interface), pointer :: get_name
+      character(kind=c_char), pointer :: letters(:)
+      type(c_funptr) :: address
+      integer :: k
+
+      name = ""
+      address = dlsym(c_null_ptr, "openblas_get_corename"//c_null_char)
+      if (.not. c_associated(address)) return
+      call c_f_procpointer(address, get_name)
+      call c_f_pointer(get_name(), letters, [32])
+      do k = 1, size(letters)
+         if (letters(k) == c_null_char) exit
+         name = name//letters(k)
+      end do
+   end function blas_kernels
 
    !> Begin the program anew with one thread; returns if that is not possible.
    subroutine begin_anew()

@@ -6,7 +6,6 @@
 module checkpoint_file
    use errors, only: error_t, exit_file, exit_usage, set_error
    use hdf5, only: h5fclose_f, hid_t
-   use hdf5_attributes, only: real_attribute
    use hdf5_calls, only: open_file
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
    use hdf5_read, only: has_dataset, read_reals, read_texts
@@ -57,7 +56,7 @@ contains
          versions = [versions, saved%parts(p)%pieces%version]
          row = [row, saved%parts(p)%row]
       end do
-      call real_attribute(file, "time", saved%t, status)
+      call real_dataset(file, "time", [1], [saved%t], "s", "time of the motion", status)
       call text_dataset(file, "belongs_to", whose(plan), .false., "program, options, deck with included files, as understood", &
                         status)
       call text_dataset(file, "parts/names", names, .false., "what remembers", status)
@@ -133,7 +132,7 @@ contains
       integer, intent(inout) :: status           !! negative: failed
 
       type(text_t), allocatable :: names(:)
-      real(wp), allocatable :: many(:), row(:), sizes(:), versions(:)
+      real(wp), allocatable :: many(:), row(:), sizes(:), time(:), versions(:)
       integer :: at, k, n, p, place
 
       call read_texts(file, "parts/names", names, status)
@@ -141,6 +140,7 @@ contains
       call read_reals(file, "parts/sizes", sizes, status)
       call read_reals(file, "parts/pieces", many, status)
       call read_reals(file, "parts/row", row, status)
+      call read_reals(file, "time", time, status)
       call get_tape(file, "motion", saved%motion, status)
       call get_tape(file, "output", saved%output, status)
       if (status < 0) return
@@ -149,6 +149,7 @@ contains
          return
       end if
       allocate (saved%parts(size(many)))
+      saved%t = time(1)
       at = 0
       place = 0
       do p = 1, size(many)

@@ -23,7 +23,7 @@ contains
       character(*), intent(in) :: other                     !! path of the other
       character(*), intent(in) :: left_out                  !! group that is not compared
       integer(i8), intent(out) :: n                         !! numbers and texts compared
-      character(:), allocatable, intent(out) :: difference  !! path of the first dataset that differs, or what cannot be read; or blank
+      character(:), allocatable, intent(out) :: difference  !! path of what differs; or blank
 
       integer(hid_t) :: a, b
       integer :: closed, status

@@ -13,12 +13,11 @@ module hdf5_layout
    use hdf5_scales, only: add_scale, close_scales, scales_t, take_scales
    use kinds, only: wp
    use output_plan, only: output_plan_t
-   use posix, only: host_name, utc_time
    use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
    use text, only: piece, text_t
    implicit none (type, external)
    private
-   public :: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
+   public :: dataset_t, make_quantities, make_root, make_row_kind, make_time, write_status
 
    integer, parameter :: format_version(2) = [2, 1]  !! major, minor: a reader must know the major number
    integer, parameter :: longest_status = max(len(status_running), len(status_complete), len(status_stopped), len(status_failed))
@@ -39,22 +38,6 @@ module hdf5_layout
    character(*), parameter :: parameter_names(4) = [character(2) :: "e0", "e1", "e2", "e3"]
 
 contains
-
-   !> When, where and by which command the file was made.
-   subroutine make_provenance(file, plan, status)
-      integer(hid_t), intent(in) :: file       !! the file
-      type(output_plan_t), intent(in) :: plan  !! what it says of the run
-      integer, intent(inout) :: status         !! negative: failed
-
-      integer(hid_t) :: group
-      integer :: closed
-
-      call new_group(file, "provenance", group, status)
-      call text_attribute(group, "created", utc_time(), status)
-      call text_attribute(group, "command", plan%origin%command, status)
-      call text_attribute(group, "host", host_name(), status)
-      if (group >= 0) call h5gclose_f(group, closed)
-   end subroutine make_provenance
 
    !> What has become of the run: a word of fixed length, since it is replaced when that is known, in one write without new space.
    subroutine write_status(file, word, status)

@@ -22,7 +22,7 @@ module hdf5_writer
    use hdf5_events, only: event_table_t
    use hdf5_extremes, only: bytes_of_extremes, write_extremes
    use hdf5_fields, only: bytes_of_fields, write_fields
-   use hdf5_layout, only: dataset_t, make_provenance, make_quantities, make_root, make_row_kind, make_time, write_status
+   use hdf5_layout, only: dataset_t, make_quantities, make_root, make_row_kind, make_time, write_status
    use hdf5_rows, only: write_rows, write_states
    use hdf5_statistics, only: write_statistics
    use hdf5_summary, only: write_summary
@@ -31,6 +31,7 @@ module hdf5_writer
    use kinds, only: i8, wp
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
+   use provenance, only: make_provenance
    use posix, only: release_space, remove_file, rename_path, reserve_space, sync_path, system_message
    use recorder, only: status_failed, summary_t
    use statistics, only: number_t, statistics_t

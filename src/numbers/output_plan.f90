@@ -29,6 +29,7 @@ module output_plan
       character(:), allocatable :: libraries           !! names and versions
       character(:), allocatable :: command             !! the command line
       character(:), allocatable :: flags               !! what it was compiled with
+      character(:), allocatable :: kernels             !! of the BLAS, as it calls them; blank: it does not tell
       character(:), allocatable :: choices             !! options that decide what is written, in words
       type(text_t), allocatable :: parameter_names(:)  !! (m) parameters of the deck
       type(text_t), allocatable :: parameter_texts(:)  !! (m) their values in force, as written
@@ -56,6 +57,7 @@ module output_plan
       logical :: is_concluded_later = .false.  !! figures and summary are made when they are asked for, not when the motion ends
       integer(i8) :: begun = 0              !! when the program began, on the clock of `clock_ms` [ms]
       real(wp) :: walltime = 0.0_wp         !! time from then on after which it ends; 0: none is set [s]
+      real(wp) :: resumed_from = 0.0_wp     !! with `goes_on`: time of the motion at which that was saved [s]
       real(wp) :: stop_at = huge(1.0_wp)    !! time of the motion after which it is saved and ends [s]
    end type lifetime_t
 
@@ -66,6 +68,7 @@ module output_plan
    end type looks_t
 
    !> The plan. Strings and lists that are not allocated count as empty.
+   !> Components: all that the cli tells a recorder, which is one argument for this reason.
    type :: output_plan_t
       character(:), allocatable :: directory           !! of the run, which exists and is ours
       type(origin_t) :: origin                         !! where the run comes from
@@ -105,6 +108,7 @@ contains
       call fill(self%origin%command, "")
       call fill(self%origin%flags, "")
       call fill(self%origin%choices, "")
+      call fill(self%origin%kernels, "")
       call fill(self%suffix, "")
       call fill(self%contact_rows, "")
       call fill_list(self%origin%include_names)

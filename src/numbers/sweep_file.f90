@@ -9,7 +9,8 @@ module sweep_file
    use hdf5_attributes, only: text_attribute
    use hdf5_calls, only: new_group
    use hdf5_datasets, only: integer_dataset, real_dataset, text_dataset
-   use hdf5_layout, only: make_provenance, write_status
+   use hdf5_layout, only: write_status
+   use provenance, only: make_provenance
    use kinds, only: not_a_number, wp
    use output_plan, only: output_plan_t
    use posix, only: path_exists
