@@ -1,12 +1,11 @@
 !> Columns of numbers that another program wrote.
 !>
-!> Numbers stand apart by commas, semicolons, tabs or blanks; `#`, `!` and `%` begin a comment. A row is a line of at least two
-!> numbers and nothing else. What stands before the first row with as many words as there are columns names them; a name may end
-!> with
-!> its unit in brackets or parentheses: `x [mm]`, `"TIME (sec)"`. Other lines are titles. A title between rows, or a time that
-!> steps
-!> back, begins another table, as in the request tables of Adams; a page that repeats its titles and goes on in time does not.
-!> `D` in a number is `E`.
+!> Numbers stand apart by commas, semicolons, tabs or blanks; `#`, `!` and `%` begin a comment, in which names may stand; those of
+!> the first line, as in the program's own files, count before others. A row is a line of at least two numbers and nothing else.
+!> What stands before the first row with as many words as there are columns names them; a name may end with its unit in brackets
+!> or parentheses: `x [mm]`, `"TIME (sec)"`. Other lines are titles. A title between rows, or a time that steps back, begins
+!> another table, as in the request tables of Adams; a page that repeats its titles and goes on in time does not. `D` in a number
+!> is `E`.
 !>
 !> Limits: one file of at most 64 MB; numbers with a decimal point.
 module column_file
@@ -31,12 +30,12 @@ contains
       type(source_t), intent(in) :: source                             !! the file
       type(column_table_t), allocatable, intent(out) :: tables(:)      !! (n) its tables
 
-      type(text_t), allocatable :: words(:), names(:), pending(:)
+      type(text_t), allocatable :: heading(:), names(:), pending(:), words(:)
       real(wp), allocatable :: row(:), rows(:, :), larger(:, :)
       logical :: has_title, is_row
       integer :: k, n, n_column
 
-      allocate (tables(0), pending(0))
+      allocate (heading(0), tables(0), pending(0))
       n = 0
       n_column = 0
       has_title = .false.
@@ -46,6 +45,7 @@ contains
          call numbers_of(words, row, is_row)
          if (.not. is_row) then
             has_title = n > 0
+            if (k == 1) heading = words
             pending = words
             cycle
          end if
@@ -61,6 +61,7 @@ contains
             if (allocated(rows)) deallocate (rows)
             allocate (names(0))
             if (size(pending) == n_column) names = pending
+            if (size(heading) == n_column) names = heading
             allocate (rows(n_column, 256))
          end if
          if (n == size(rows, 2)) then

@@ -5,7 +5,7 @@
 module csv_files
    use errors, only: error_t
    use kinds, only: i8
-   use text, only: piece, text_t
+   use text, only: append_text, piece, text_t
    use text_file, only: fail_file, text_file_t
    use posix, only: remove_file
    implicit none (type, external)
@@ -42,7 +42,7 @@ contains
          associate (name => names(k)%s)
             call convert(directory//"/"//name, directory//"/"//piece(name, 1, at)//"csv", error)
             if (allocated(error)) return
-            made = [made, text_t(piece(name, 1, at)//"csv")]
+            call append_text(made, piece(name, 1, at)//"csv")
          end associate
       end do
    end subroutine write_csv_files
@@ -84,7 +84,7 @@ contains
    end subroutine convert
 
    !> Characters of a `.dat` file as those of the other.
-   pure subroutine take(store, place, text)
+   subroutine take(store, place, text)
       character(*), intent(in) :: store                !! what was read
       type(place_t), intent(inout) :: place            !! where in a line it begins, and then ends
       character(:), allocatable, intent(out) :: text   !! the same with commas
@@ -121,7 +121,7 @@ contains
    contains
 
       !> One more character.
-      pure subroutine put(c)
+      subroutine put(c)
          character, intent(in) :: c   !! the character
 
          n = n + 1

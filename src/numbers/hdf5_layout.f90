@@ -14,7 +14,7 @@ module hdf5_layout
    use kinds, only: wp
    use output_plan, only: output_plan_t
    use recorder, only: row_kinds, status_complete, status_failed, status_running, status_stopped
-   use text, only: piece, text_t
+   use text, only: append_text, piece, text_t
    implicit none (type, external)
    private
    public :: dataset_t, make_quantities, make_root, make_row_kind, make_time, write_status
@@ -185,7 +185,7 @@ contains
             call text_dataset(file, this%name//"/names", picked(this%names, items), .false., &
                               "name of each item", status)
          end select
-         if (room /= room_energy) call add_scale(scales, file, scale_of(catalogue, room), status)
+         if (all(room /= [room_energy, room_requests])) call add_scale(scales, file, scale_of(catalogue, room), status)
          if (room /= room_clearances) return
          call new_dataset(file, this%name//"/clearance", h5t_ieee_f64le, [size(items, kind=hsize_t)], radius, status)
          if (status >= 0) call h5dwrite_f(radius, h5t_native_double, this%radius(items), &
@@ -213,16 +213,18 @@ contains
       character(longest_scale), intent(out) :: path      !! path in the file
       integer, intent(inout) :: status                   !! negative: failed
 
+      type(text_t), allocatable :: names(:)
       integer :: k
 
       path = "component"
       if (n == size(parameter_names)) path = "parameter"
       if (any([(scales%list(k)%path == path, k=1, size(scales%list))])) return
-      if (n == size(parameter_names)) then
-         call text_dataset(file, trim(path), [(text_t(parameter_names(k)), k=1, n)], .false., "Euler parameters", status)
-      else
-         call text_dataset(file, trim(path), [(text_t(axis_names(k)), k=1, n)], .false., "components of a vector", status)
-      end if
+      allocate (names(0))
+      do k = 1, n
+         if (n == size(parameter_names)) call append_text(names, parameter_names(k))
+         if (n < size(parameter_names)) call append_text(names, axis_names(k))
+      end do
+      call text_dataset(file, trim(path), names, .false., "names of the components", status)
       call add_scale(scales, file, trim(path), status)
    end subroutine find_components
 

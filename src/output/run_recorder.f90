@@ -359,6 +359,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
 
       type(error_t), allocatable :: second
+      type(text_t), allocatable :: files(:)
 
       call self%display%finish()
       if (.not. self%has_started) return
@@ -381,7 +382,9 @@ contains
             outcome%files = self%texts%names
          end if
          if (self%plan%with%csv .and. .not. allocated(error)) then
-            call write_csv_files(self%plan%directory, [outcome%files, text_t("events.dat")], outcome%csv, error)
+            files = outcome%files
+            call append_text(files, "events.dat")
+            call write_csv_files(self%plan%directory, files, outcome%csv, error)
          end if
          call self%motion%finish(full%status, second)
          call join_errors(error, second)

@@ -7,7 +7,7 @@ module envelope_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
    use script_parts, only: axes_t, scaled
-   use text, only: text_t, to_text
+   use text, only: append_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
    implicit none (type, external)
@@ -93,7 +93,7 @@ contains
          n = n + 1
          tables(:, :, n) = table
          envelope%numbers = [envelope%numbers, curves(k)%number]
-         names = [names, text_t(curves(k)%name)]
+         call append_text(names, curves(k)%name)
       end do
       if (n > 0) call write_file(folder//"/"//envelope%file, table_text(heading, names, tables(:, :, :n)), error)
    end subroutine make_envelope
@@ -214,14 +214,15 @@ contains
       character(24) :: number
       integer :: i, j, k
 
-      call lines%add(heading)
-      call lines%line("# ranges in "//to_text(size(tables, 2))//" columns of the picture, SI")
+      call lines%add("#")
       do k = 1, size(names)
          do i = 1, 4
-            call lines%add(""""//names(k)%s//" "//trim(of(i))//""" ")
+            call lines%add(" "//names(k)%s//"."//trim(of(i)))
          end do
       end do
       call lines%line("")
+      call lines%add(heading)
+      call lines%line("# ranges in "//to_text(size(tables, 2))//" columns of the picture, SI")
       do j = 1, size(tables, 2)
          do k = 1, size(names)
             do i = 1, 4

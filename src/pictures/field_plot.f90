@@ -38,7 +38,7 @@ contains
       is_written = .false.
       do k = 1, size(fields)
          if (fields(k)%request%name /= name) cycle
-         call write_file(folder//"/"//name//".dat", heading//table_text(fields(k)), error)
+         call write_file(folder//"/"//name//".dat", table_text(heading, fields(k)), error)
          if (.not. allocated(error)) call write_file(folder//"/"//name//".gp", script_of(fields(k), name, title), error)
          is_written = .not. allocated(error)
          return
@@ -46,7 +46,8 @@ contains
    end subroutine write_field_plot
 
    !> The table: a block for each angle, a row for each place; after two empty lines a row for each angle, at mid-length.
-   function table_text(field) result(text)
+   function table_text(heading, field) result(text)
+      character(*), intent(in) :: heading      !! lines with `#`
       type(film_field_t), intent(in) :: field  !! the film
       character(:), allocatable :: text        !! whole lines
 
@@ -54,7 +55,8 @@ contains
       character(100) :: row
       integer :: j, k
 
-      call lines%line("""angle [rad]"" ""place [m]"" ""pressure [Pa]"" ""gap [m]""")
+      call lines%line("# angle[rad] place[m] pressure[Pa] gap[m]")
+      call lines%add(heading)
       do k = 1, size(field%theta)
          if (k > 1) call lines%line("")
          do j = 1, size(field%y), row_step
