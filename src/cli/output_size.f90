@@ -54,7 +54,7 @@ contains
              " output instants of "//to_text(selection%count())//" numbers"
       hint = new_line("a")//"  = keep fewer 'channels', write less often ('every') or a part only ('last'), or leave out text "// &
              "(--write channels)"
-      room = free_space(nearest(directory))
+      room = free_space(nearest_directory(directory))
       if (total > size_limit*gigabyte) then
          call set_error(error, exit_deck, what//"; 'size_limit' in [output] allows "//real_text(size_limit, 3)//" GB"//hint// &
                         ", or raise the limit")
@@ -65,7 +65,7 @@ contains
    end subroutine check_size
 
    !> The nearest directory above a path that exists.
-   function nearest(path) result(there)
+   function nearest_directory(path) result(there)
       character(*), intent(in) :: path          !! any path
       character(:), allocatable :: there        !! itself, one above it, or `.`
 
@@ -79,6 +79,6 @@ contains
       there = "."
       if (n > 0) there = path(:n)
       if (n <= 0 .and. index(path, "/") == 1) there = "/"
-   end function nearest
+   end function nearest_directory
 
 end module output_size

@@ -239,8 +239,8 @@ contains
                             axis_of(motion, self%body(2, k), self%axes%frame_j(:, 1, k))) < 0.0_wp
    end function spatial_is_turned_over
 
-   !> What presses the two ends of a bearing or slider: N = |f/2 + m/L| + |f/2 - m/L|, with the multipliers f of rows that hold x and
-   !> y of the points, and m of rows x_i . z_j and y_i . z_j.
+   !> What presses the two ends of a bearing or slider: N = |f/2 + m/L| + |f/2 - m/L|, with the multipliers f of rows that hold
+   !> x and y of the points, and m of rows x_i . z_j and y_i . z_j.
    pure subroutine press_ends(f, m, length, normal, by_f, by_m)
       real(wp), intent(in) :: f(2)          !! (2) of the points [N]
       real(wp), intent(in) :: m(2)          !! (2) of the axes [N.m]

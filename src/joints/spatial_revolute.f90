@@ -6,8 +6,8 @@
 !>
 !> N = |f/2 + m/L| + |f/2 - m/L| + |f_z| R_f/R + preload
 !>
-!> f the force across z, m z x the moment across z about the points, which the ends of a bearing of length L bear, f_z the force along z on
-!> faces of mean radius R_f. Without L the moment is left out, without R_f the force along z.
+!> f the force across z, m z x the moment across z about the points, which the ends of a bearing of length L bear, f_z the force
+!> along z on faces of mean radius R_f. Without L the moment is left out, without R_f the force along z.
 !>
 !> Signs, frames: `spatial_joint`. Source: Flores et al. (2008), eqs. (6.14), (6.15): of the three rows of its cross product two are
 !> independent; these two are taken; friction: `joint_friction`. Limits: none.

@@ -8,8 +8,8 @@
 !>
 !> N = |f/2 + m/L| + |f/2 - m/L| + 2 |m_z|/w + preload
 !>
-!> f the force across z at the point of j, m z x the moment across z about it, which the ends of a slider of length L bear, m_z that about z, borne
-!> at w from side to side. Without L and w the moments are left out.
+!> f the force across z at the point of j, m z x the moment across z about it, which the ends of a slider of length L bear, m_z that
+!> about z, borne at w from side to side. Without L and w the moments are left out.
 !>
 !> Signs, frames: `spatial_joint`. Source: Nikravesh (1988), section 7.2.4; friction: `joint_friction`. Limits: none.
 module spatial_translational
