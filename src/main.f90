@@ -11,6 +11,7 @@ program gudgeon
    use text, only: printable, starts_with
    use verb_explain, only: check_deck, explain_deck
    use verb_help, only: list_kinds, show_help, show_version
+   use verb_merge, only: merge_sweep
    use verb_new, only: new_deck
    use verb_precision, only: compare_precision
    use verb_run, only: run_deck
@@ -36,6 +37,8 @@ program gudgeon
          call explain_deck(options, error)
       case ("sweep")
          call sweep_deck(options, error)
+      case ("merge")
+         call merge_sweep(options, error)
       case ("precision")
          call compare_precision(options, error)
       case ("new")

@@ -15,6 +15,7 @@ module verb_run
    use kinematic_start, only: find_kinematic_start
    use load, only: load_deck, loaded_t
    use mechanism, only: mechanism_t
+   use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
    use mobility, only: mobility_t
    use options, only: options_t
@@ -41,9 +42,10 @@ module verb_run
 contains
 
    !> Run the analysis of a deck.
-   subroutine run_deck(options, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+   subroutine run_deck(options, error, member)
+      type(options_t), intent(in) :: options                       !! the command line
+      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
+      type(member_result_t), intent(out), optional :: member       !! what a sweep wants to know of the run
 
       type(loaded_t) :: loaded
 
@@ -60,15 +62,16 @@ contains
       case (analysis_static)
          call run_equilibrium(options, loaded, error)
       case default
-         call run_motion(options, loaded, error)
+         call run_motion(options, loaded, error, member)
       end select
    end subroutine run_deck
 
    !> Motion in time under forces.
-   subroutine run_motion(options, loaded, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(inout) :: loaded              !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+   subroutine run_motion(options, loaded, error, member)
+      type(options_t), intent(in) :: options                       !! the command line
+      type(loaded_t), intent(inout) :: loaded                      !! the deck
+      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
+      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
@@ -82,9 +85,10 @@ contains
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)
 
+      if (present(member)) call cpu_time(member%cpu_start)
       call begin_motion(options, loaded, y, assembly, ideal, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
+      call open_place(options, loaded, directory, error)
       if (allocated(error)) return
       call make_plan(options, loaded, directory, assembly, plan)
       if (options%accuracy > 0.0_wp) then
@@ -111,7 +115,23 @@ contains
       call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error)
       call directory%close()
       call tell_accuracy(plan%accuracy, error)
+      if (present(member)) call keeper%result(member)
    end subroutine run_motion
+
+   !> The directory of a run, if it writes anything.
+   subroutine open_place(options, loaded, directory, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(output_directory_t), intent(inout) :: directory !! opened
+      type(error_t), allocatable, intent(out) :: error     !! it cannot be made, or is not free
+
+      if (options%write /= "nothing") then
+         call directory%open(directory_of(options, loaded), error)
+         return
+      end if
+      directory%path = "."
+      allocate (directory%warnings(0))
+   end subroutine open_place
 
    !> The start of a motion, perturbed if it is one of an ensemble.
    subroutine begin_motion(options, loaded, y, assembly, ideal, error)

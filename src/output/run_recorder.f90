@@ -5,7 +5,7 @@
 !> after a failed write nothing more is written to that file, and what it holds stays readable.
 module run_recorder
    use catalogue, only: catalogue_t
-   use channel_names, only: scalar_t
+   use channel_names, only: scalar_name, scalar_t
    use channels, only: list_scalars, select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
    use event_list, only: event_list_t
@@ -18,9 +18,10 @@ module run_recorder
    use frames, only: frame_keeper_t
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: wp
+   use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
    use motion_writer, only: motion_name, motion_writer_t
-   use output_plan, only: output_plan_t, show_json, show_summary
+   use output_plan, only: output_plan_t, show_json, show_nothing, show_summary
    use plot_table, only: plot_table_t
    use posix, only: write_error
    use progress, only: progress_t
@@ -55,6 +56,8 @@ module run_recorder
       type(statistics_t), private :: statistics               !! what is gathered for the statistics
       type(extremes_t), private :: extremes                   !! what the channels go through
       type(film_field_t), allocatable, private :: fields(:)   !! (any) films that were asked for
+      type(number_t), allocatable, private :: numbers(:)      !! (n) the statistics, once the run has ended
+      type(text_t), allocatable, private :: warnings(:)       !! (m) what a careful reader should know, likewise
       real(wp), private :: last_time = 0.0_wp                 !! time of the last sample [s]
       logical, private :: has_started = .false.               !! files were made
       logical, private :: is_broken = .false.                 !! a file could not be written
@@ -68,6 +71,7 @@ module run_recorder
       procedure :: event => event_run
       procedure :: progress => progress_run
       procedure :: finish => finish_run
+      procedure :: result => result_of_run
    end type run_recorder_t
 
 contains
@@ -354,8 +358,33 @@ contains
       end if
       call write_summary(self, full, outcome, second)
       call join_errors(error, second)
+      self%numbers = numbers
+      self%warnings = outcome%warnings
       self%has_started = .false.
    end subroutine finish_run
+
+   !> What a sweep wants to know of the run; of one that never began, nothing.
+   subroutine result_of_run(self, member)
+      class(run_recorder_t), intent(in) :: self            !! the recorder, finished
+      type(member_result_t), intent(inout) :: member       !! those lists are set that there are
+
+      integer :: k
+
+      if (allocated(self%numbers)) then
+         member%numbers = self%numbers
+         member%warnings = self%warnings
+         associate (n => self%statistics%n_strobe, channels => self%statistics%channels)
+            if (n > 0) then
+               allocate (member%strobe_names(size(channels)))
+               do k = 1, size(channels)
+                  member%strobe_names(k)%s = scalar_name(self%items, channels(k))
+               end do
+               member%strobe_times = self%statistics%strobe_times(:n)
+               member%strobes = self%statistics%strobes(:size(channels), :n)
+            end if
+         end associate
+      end if
+   end subroutine result_of_run
 
    !> Append a list to a list.
    subroutine append_all(list, more)
@@ -380,6 +409,7 @@ contains
       character(:), allocatable :: json, lines
       integer :: k
 
+      if (.not. self%plan%with%summary .and. self%plan%show == show_nothing) return
       lines = summary_lines(self%plan, summary, self%events, outcome, self%items)
       json = summary_json(self%plan, summary, self%events, outcome, self%items)
       if (self%plan%with%summary) then
