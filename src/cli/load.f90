@@ -96,7 +96,9 @@ contains
          call check_words(loaded%scene, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
       end if
-      if (mistakes%count() == 0) call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
+      if (mistakes%count() == 0 .and. .not. options%runs%is_member) then  ! which draws none
+         call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
+      end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
 

@@ -1,12 +1,13 @@
 !> The runs of a sweep, each in a process of its own, as many at once as wanted.
 !>
 !> The process of a run is a copy of this one, which has read the deck and all that it names: it does what `gudgeon run DECK
-!> --set ... --member K` does, and gives the very numbers of that command. What it found comes back and is written to the journal at
-!> once. A run that fails is recorded with its exit code and its message, and the others go on.
+!> --set ... --member K` does, and gives the very numbers of that command. A case is loaded here, once for all its runs, unless so
+!> many run at once that this process could not keep up; then each loads it, from the same memory. What it found comes back and is
+!> written to the journal at once. A run that fails is recorded with its exit code and its message, and the others go on.
 module sweep_runs
    use errors, only: error_t, exit_file, exit_ok
    use kinds, only: i8, wp
-   use load, only: loaded_t
+   use load, only: load_deck, loaded_t
    use member_result, only: member_result_t
    use members, only: hand_back, next_member, start_member
    use options, only: options_t
@@ -23,13 +24,24 @@ module sweep_runs
    use sweep_work, only: sweep_work_t, write_results
    use text, only: append_text, exact_text, printable, replace, text_t, to_text
    use text_file, only: fail_file
-   use verb_run, only: run_deck
+   use verb_run, only: run_loaded
    implicit none (type, external)
    private
    public :: run_all
 
    real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
    real(wp), parameter :: write_share = 50.0_wp     !! and this many times as long as writing them took [1]
+
+   integer, parameter :: most_fed = 8                !! runs at once for which this process can load all cases
+
+   !> The case whose runs are being started.
+   type :: ready_t
+      integer :: number = 0                       !! of the case; 0: none
+      type(options_t) :: options                  !! its command line
+      type(loaded_t) :: loaded                    !! its deck
+      type(error_t), allocatable :: error         !! the deck has mistakes
+      real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
+   end type ready_t
 
 contains
 
@@ -42,6 +54,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! a process cannot be started, or a file not be written
 
       type(progress_t) :: display
+      type(ready_t) :: ready
       type(text_t) :: none(0)
       character(:), allocatable :: bytes
       integer, allocatable :: due(:), processes(:)
@@ -60,7 +73,9 @@ contains
       ended = 0
       do while (ended < size(due))
          do while (next - ended <= jobs .and. next <= size(due))
-            call start_run(options, loaded%sweep, due(next), directory, work, processes(next), error)
+            call make_ready(options, loaded%sweep, due(next), work, ready)
+            if (jobs <= most_fed .or. work%results%n_member > 1) call load_case(ready)
+            call start_run(ready, due(next), directory, work, processes(next), error)
             if (allocated(error)) return
             next = next + 1
          end do
@@ -93,56 +108,95 @@ contains
 
    end subroutine run_all
 
-   !> Start a run. The copy of this process that makes it ends here.
-   subroutine start_run(options, sweep, number, directory, work, process, error)
+   !> Turn to the case of a run, if it is another than that of the last.
+   subroutine make_ready(options, sweep, number, work, ready)
       type(options_t), intent(in) :: options               !! the command line
       type(sweep_t), intent(in) :: sweep                   !! the cases
       integer, intent(in) :: number                        !! of the run
+      type(sweep_work_t), intent(in) :: work               !! the sweep
+      type(ready_t), intent(inout) :: ready                !! its case
+
+      integer :: case_number
+
+      case_number = (number - 1)/work%results%n_member + 1
+      if (ready%number /= case_number) then
+         ready = ready_t()
+         ready%number = case_number
+         ready%options = case_options(options, sweep, case_number)
+      end if
+      if (work%results%is_ensemble) ready%options%change%member = mod(number - 1, work%results%n_member) + 1
+      ready%options%directory = work%directories(number)%s
+   end subroutine make_ready
+
+   !> Load a case, unless that is done.
+   subroutine load_case(ready)
+      type(ready_t), intent(inout) :: ready   !! the case
+
+      real(wp) :: after, before
+
+      if (allocated(ready%loaded%path)) return
+      call cpu_time(before)
+      call load_deck(ready%options, ready%loaded, ready%error)
+      call cpu_time(after)
+      ready%cpu = after - before
+   end subroutine load_case
+
+   !> Start a run. The copy of this process that makes it ends here.
+   subroutine start_run(ready, number, directory, work, process, error)
+      type(ready_t), intent(inout) :: ready                !! its case
+      integer, intent(in) :: number                        !! of the run
       type(output_directory_t), intent(inout) :: directory !! of the sweep
-      type(sweep_work_t), intent(inout) :: work            !! the sweep
+      type(sweep_work_t), intent(in) :: work               !! the sweep
       integer, intent(out) :: process                      !! number of the process
       type(error_t), allocatable, intent(out) :: error     !! it cannot be started
 
-      type(options_t) :: case
       integer :: code
 
-      case = case_options(options, sweep, (number - 1)/work%results%n_member + 1)
-      if (work%results%is_ensemble) case%change%member = mod(number - 1, work%results%n_member) + 1
       associate (place => work%directories(number)%s)
-         case%directory = place
          code = enter_file(place//".log")
-         if (code == 0 .and. sweep%keeps_channels) code = enter_file(place//"/")
+         if (code == 0 .and. work%results%sweep%keeps_channels) code = enter_file(place//"/")
          if (path_exists(place)) call remove_run(place, code)
+         process = -1
          if (code == 0) code = start_member(place//".log", process)
          if (process == 0) then
             call directory%leave()
             if (code /= 0) call end_process(exit_file)
-            call make_run(case)
+            call make_run(ready)
          end if
          if (code /= 0) call fail_file(error, "cannot start run "//to_text(number)//" of", place, code, "")
       end associate
+      ready%cpu = 0.0_wp
    end subroutine start_run
 
    !> In the copy: make the run, hand back what it gave, and end.
-   subroutine make_run(case)
-      type(options_t), intent(in) :: case  !! the command line of the run
+   subroutine make_run(ready)
+      type(ready_t), intent(inout) :: ready  !! its case
 
       type(error_t), allocatable :: error
       type(member_result_t) :: member
       type(packer_t) :: packer
-      real(wp) :: now
+      real(wp) :: now, start
       integer :: code
 
-      call run_deck(case, error, member)
+      start = ready%cpu
+      ready%cpu = 0.0_wp
+      call load_case(ready)
+      member%cpu_start = start + ready%cpu
+      call cpu_time(start)
+      if (allocated(ready%error)) then
+         call move_alloc(ready%error, error)
+      else
+         call run_loaded(ready%options, ready%loaded, error, member)
+      end if
       call member%complete()
       code = exit_ok
       if (allocated(error)) then
          code = error%code
-         call write_error(printable("error: "//error%message)//new_line("a")//"  = alone: "//command_of(case)//new_line("a"))
+         call write_error(printable("error: "//error%message)//new_line("a")//"  = alone: "//command_of(ready%options)// &
+                          new_line("a"))
       end if
       call cpu_time(now)
-      if (member%cpu_start <= 0.0_wp) member%cpu_start = now  ! it never began
-      member%cpu_run = now - member%cpu_start
+      member%cpu_run = now - start
       call member%pack(packer)
       if (hand_back(packer%bytes%get()) /= 0) code = exit_file
       call end_process(code)

@@ -37,20 +37,29 @@ module verb_run
    use text, only: append_text, starts_with, text_t, to_text
    implicit none (type, external)
    private
-   public :: directory_of, new_method, run_deck
+   public :: directory_of, new_method, run_deck, run_loaded
 
 contains
 
    !> Run the analysis of a deck.
-   subroutine run_deck(options, error, member)
-      type(options_t), intent(in) :: options                       !! the command line
-      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
-      type(member_result_t), intent(out), optional :: member       !! what a sweep wants to know of the run
+   subroutine run_deck(options, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
 
       type(loaded_t) :: loaded
 
       call load_deck(options, loaded, error)
-      if (.not. allocated(error)) call check_accuracy(options, loaded, error)
+      if (.not. allocated(error)) call run_loaded(options, loaded, error)
+   end subroutine run_deck
+
+   !> Run the analysis of a deck that is loaded.
+   subroutine run_loaded(options, loaded, error, member)
+      type(options_t), intent(in) :: options                       !! the command line
+      type(loaded_t), intent(inout) :: loaded                      !! the deck
+      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
+      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
+
+      call check_accuracy(options, loaded, error)
       if (.not. allocated(error) .and. options%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
                         trim(analysis_names(loaded%scene%analysis)))
@@ -64,7 +73,7 @@ contains
       case default
          call run_motion(options, loaded, error, member)
       end select
-   end subroutine run_deck
+   end subroutine run_loaded
 
    !> Motion in time under forces.
    subroutine run_motion(options, loaded, error, member)
@@ -85,7 +94,6 @@ contains
       type(summary_t) :: summary
       real(wp), allocatable :: y(:)
 
-      if (present(member)) call cpu_time(member%cpu_start)
       call begin_motion(options, loaded, y, assembly, ideal, error)
       if (allocated(error)) return
       call open_place(options, loaded, directory, error)

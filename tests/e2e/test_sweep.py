@@ -39,11 +39,13 @@ def contents(file):
     found = {}
 
     def look(name, node):
+        if name.startswith("provenance"):
+            return
         if isinstance(node, h5py.Dataset):
             value = plain(node[()])
             found[name] = value.tobytes() if isinstance(value, np.ndarray) else value
         for key, value in node.attrs.items():
-            if "provenance" not in name and key not in ("REFERENCE_LIST", "DIMENSION_LIST"):
+            if key not in ("REFERENCE_LIST", "DIMENSION_LIST"):
                 found[f"{name}@{key}"] = str(value)
 
     file.visititems(look)
