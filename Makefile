@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers vtk-test browser-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -97,6 +97,11 @@ vtk-test:
 browser-test:
 	$(inner)release binary
 	@$(PYTHON) -B tests/browser/open_pages.py $(BUILD)/gudgeon $(BUILD)/browser
+
+# a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/batch.md
+slurm-test:
+	$(inner)release binary
+	@tests/slurm/run.sh $(abspath $(BUILD))/gudgeon $(abspath $(BUILD))/slurm
 
 stability:
 	@scripts/setup

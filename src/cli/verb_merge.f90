@@ -91,8 +91,7 @@ contains
       end if
       folder = stem_of(options%operands(1)%s)//".shards"
       call list_directory(folder, names, code)
-      if (code /= 0) allocate (names(0))
-      do k = 1, size(names)
+      do k = 1, merge(size(names), 0, code == 0)
          if (index(names(k)%s, "/") /= len(names(k)%s)) cycle
          part%folder = folder//"/"//names(k)%s(:len(names(k)%s) - 1)
          if (scan(part%folder(index(part%folder, "/", back=.true.):), ".") > 0) cycle  ! an older one that was kept

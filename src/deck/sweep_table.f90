@@ -126,7 +126,7 @@ contains
          end if
          n = n + 1
          cells(n) = cell
-         if (at > len(s)) exit
+         if (at > len(s) + 1) exit
       end do
       cells = cells(:n)
    end subroutine cut_line
@@ -141,12 +141,13 @@ contains
       type(cell_t), intent(out) :: cell               !! the cell
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      character(len(blanks)) :: around
       integer :: first, last, next
 
-      first = at
-      do while (first < len(s) .and. scan(s(first:first), blanks) == 1 .and. s(first:first) /= separator_of_words())
-         first = first + 1
-      end do
+      around = blanks
+      if (separator == tab) around = " "
+      first = verify(s(at:), around) + at - 1
+      if (first < at) first = at
       next = index(outside_quotes(s(first:)), separator)
       if (next == 0) next = len(s) - first + 2
       last = first + next - 2
@@ -165,14 +166,6 @@ contains
          next = verify(s(at:), blanks)
          if (next > 0) at = at + next - 1
       end if
-
-   contains
-
-      !> A blank that parts cells, not one that stands around them.
-      character function separator_of_words()
-         separator_of_words = merge(tab, achar(0), separator == tab)
-      end function separator_of_words
-
    end subroutine cut_cell
 
    !> A line up to its comment, without blanks at its end.
