@@ -162,6 +162,7 @@ help:
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
 	@echo "make browser-test  the pages of animations opened by Chromium: no error, another picture after a step"
+	@echo "make slurm-test    a sweep as a job array of a Slurm on this host, with tasks killed and out of time (as root)"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"

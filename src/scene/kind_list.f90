@@ -24,7 +24,7 @@ module kind_list
    use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
    private
-   public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, law_info
+   public :: all_kinds, ask_all, clearance_info, film_info, force_info, friction_info, function_info, joint_info, known, law_info
 
    ! where the kinds of a registry stand in the list: behind these
    integer, parameter :: before_joints = 6                                                !! sections and tables of the scene
@@ -36,7 +36,7 @@ module kind_list
    integer, parameter :: before_films = before_frictions + n_friction_kinds + 1           !! laws of friction, lubricants
    integer, parameter :: before_settings = before_films + n_film_kinds                    !! films
 
-   type(kind_info_t), allocatable :: known(:)  !! (kinds) what they said
+   type(kind_info_t), allocatable, protected :: known(:)  !! (kinds) what they said, once they were asked
 
 contains
 
