@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers vtk-test browser-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall debug run test test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -97,6 +97,11 @@ vtk-test:
 browser-test:
 	$(inner)release binary
 	@$(PYTHON) -B tests/browser/open_pages.py $(BUILD)/gudgeon $(BUILD)/browser
+
+# a sweep as a job array of a Slurm on this host, with tasks that are killed and out of time; as root, see docs/batch.md
+slurm-test:
+	$(inner)release binary
+	@tests/slurm/run.sh $(abspath $(BUILD))/gudgeon $(abspath $(BUILD))/slurm
 
 stability:
 	@scripts/setup
@@ -163,6 +168,7 @@ help:
 	@echo "make bench-peers  other programs (Simbody, MuJoCo, Exudyn) on the same scenes: time against error; PEERS='--quick'"
 	@echo "make vtk-test   the file of a motion (motion = vtkhdf) read by VTK itself, from PyPI in a virtual environment"
 	@echo "make browser-test  pages of animations and of runs opened by Chromium: no error, another picture after a step"
+	@echo "make slurm-test    a sweep as a job array of a Slurm on this host, with tasks killed and out of time (as root)"
 	@echo "make stability  the hard cases of inputs/hard, each way of holding the constraints beside its limit"
 	@echo "make kill-test  runs killed at random moments, read and resumed; KILL='--kills 20' for options"
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"

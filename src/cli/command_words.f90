@@ -33,7 +33,8 @@ module command_words
                 "--out --set --ideal --analysis --tolerance --method --accuracy --budget --horizon --quiet --json --member "// &
                  "--write --csv --legacy --resume --walltime --verify-restart"), &
       command_t("sweep", "DECK", "run all cases of [sweep] and all runs of [ensemble], on all processors", &
-                "--out --set --ideal --tolerance --method --quiet --json --jobs"), &
+                "--out --set --ideal --tolerance --method --quiet --json --jobs --shard"), &
+      command_t("merge", "DIR", "put the parts of a sweep, DIR.shards, together in DIR", "--out --quiet --json"), &
       command_t("precision", "DECK", "error against cost of methods and tolerances: how long for how many digits", &
                 "--out --set --ideal --methods --accuracy --budget --quiet --json"), &
       command_t("check", "DECK", "find every mistake without integrating", &
@@ -66,6 +67,7 @@ module command_words
       option_t("--walltime", "TIME", "save the run and end it before so much time of the clock is over, as 2h"), &
       option_t("--verify-restart", "", "run, run again with restarts from checkpoints, and compare all numbers bit for bit"), &
       option_t("--jobs", "N", "runs at once; default one for each processor"), &
+      option_t("--shard", "I/N", "every N-th run from the I-th on, into DIR.shards/I-of-N, for `gudgeon merge DIR`"), &
       option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
       option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &
       option_t("--budget", "TIME", "time that all runs may take, as 60s, instead of the deck's (run: with --accuracy)"), &

@@ -22,6 +22,7 @@ module load
    use mechanism, only: mechanism_t
    use mechanism_report, only: build_catalogue
    use memory_purpose, only: memory_is_for
+   use name_table, only: name_table_t
    use options, only: options_t
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions
@@ -30,7 +31,8 @@ module load
    use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
-   use sweep_values, only: read_sweep, sweep_t
+   use sweep_values, only: read_sweep
+   use swept, only: sweep_t
    use text, only: append_text, join, text_t, to_text
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
@@ -71,7 +73,9 @@ contains
       call read_deck(loaded%path, options%change%overrides, loaded%deck, mistakes)
       loaded%is_stream = loaded%deck%sources(1)%is_stream
       if (mistakes%count() == 0) call scene_from_deck(loaded%deck, loaded%scene, mistakes)
-      if (mistakes%count() == 0) call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
+      if (mistakes%count() == 0 .and. .not. options%runs%is_member) then
+         call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
+      end if
       call mistakes%to_error(loaded%deck%sources, error)
       if (allocated(error)) return
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and what they report")
@@ -99,7 +103,9 @@ contains
          call check_words(loaded%deck, loaded%scene, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
       end if
-      if (mistakes%count() == 0) call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
+      if (mistakes%count() == 0 .and. .not. options%runs%is_member) then  ! which draws none
+         call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
+      end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine load_deck
 
@@ -139,13 +145,18 @@ contains
 
       type(loaded_t) :: other
       type(options_t) :: case
-      integer :: i, k
+      type(name_table_t) :: table
+      integer :: i, k, previous
 
       do k = 1, size(loaded%sweep%parameters)
          associate (parameter => loaded%sweep%parameters(k))
             if (parameter%unit /= "") cycle
+            call table%start(size(parameter%texts))
             do i = 1, size(parameter%texts)
+               call table%enter(parameter%texts(i)%s, i, previous)
+               if (previous > 0) cycle
                case = options
+               case%runs%is_member = .true.
                call append_text(case%change%overrides, parameter%name//"="//parameter%texts(i)%s)
                call load_deck(case, other, error)
                if (allocated(error)) return

@@ -23,6 +23,14 @@ module options
       logical :: is_ideal = .false.                  !! `--ideal`
    end type changes_t
 
+   !> How many runs are made.
+   type :: runs_options_t
+      integer :: jobs = 0                            !! `--jobs N`: at once; 0: as many as there are processors
+      integer :: shard = 0                           !! `--shard I/N`: the I; 0: all runs
+      integer :: n_shards = 1                        !! the N
+      logical :: is_member = .false.                 !! one run of a sweep, whose cases need not be known
+   end type runs_options_t
+
    !> Help in other forms.
    type :: help_options_t
       logical :: is_manual = .false.                 !! `--manual`
@@ -56,8 +64,8 @@ module options
       type(text_t), allocatable :: operands(:)       !! (n) words that are no options
       type(changes_t) :: change                      !! what is set beside the deck
       character(:), allocatable :: directory         !! `--out DIR`; unallocated: outputs/NAME
-      character(:), allocatable :: write             !! `--write W`: numbers, channels or all
-      integer :: jobs = 0                            !! `--jobs N`: runs at once; 0: as many as there are processors
+      character(:), allocatable :: write             !! `--write W`: numbers, channels or all; nothing, in a sweep
+      type(runs_options_t) :: runs                   !! how many runs are made
       character(:), allocatable :: methods           !! `--methods LIST`; unallocated: as the deck says
       real(wp) :: accuracy = 0.0_wp                  !! `--accuracy X`; 0: as the deck says [1]
       real(wp) :: budget = 0.0_wp                    !! `--budget TIME`; 0: as the deck says [s]
@@ -189,7 +197,8 @@ contains
          case ("--absolute"); call take_allowance(word, value, options%legacy%absolute, error)
          case ("--relative"); call take_allowance(word, value, options%legacy%relative, error)
          case ("--member"); call take_count(word, value, options%change%member, error)
-         case ("--jobs"); call take_count(word, value, options%jobs, error)
+         case ("--jobs"); call take_count(word, value, options%runs%jobs, error)
+         case ("--shard"); call take_shard(word, value, options%runs%shard, options%runs%n_shards, error)
          case ("--method"); options%change%method = value
          case ("--analysis"); options%change%analysis = value
          case ("--set"); call append_text(options%change%overrides, value)
@@ -249,6 +258,24 @@ contains
       if (is_good) x = read
       if (.not. is_good) call set_error(error, exit_usage, "option "//word//" needs a number from 0 on, not '"//value//"'")
    end subroutine take_allowance
+
+   !> A part of many, as 3/20.
+   subroutine take_shard(word, value, shard, n_shards, error)
+      character(*), intent(in) :: word                     !! the option
+      character(*), intent(in) :: value                    !! its value
+      integer, intent(out) :: shard                        !! which part
+      integer, intent(out) :: n_shards                     !! of how many
+      type(error_t), allocatable, intent(out) :: error     !! not a part, or not of these
+
+      integer :: slash
+
+      n_shards = 1
+      slash = index(value, "/")
+      call take_count(word, value(:max(0, slash - 1)), shard, error)
+      if (.not. allocated(error)) call take_count(word, value(slash + 1:), n_shards, error)
+      if (.not. allocated(error) .and. shard <= n_shards) return
+      call set_error(error, exit_usage, "option "//word//" needs a part and the number of parts, as 3/20, not '"//value//"'")
+   end subroutine take_shard
 
    !> A part of one.
    subroutine take_accuracy(word, value, x, error)

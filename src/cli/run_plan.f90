@@ -45,7 +45,7 @@ contains
       plan%warnings = directory%warnings
       plan%directory = directory%path
       call tell_origin(options, loaded, plan)
-      plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
+      if (options%write /= "nothing") plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
       plan%title = loaded%scene%title
       plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
       if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
@@ -59,7 +59,9 @@ contains
       if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
       plan%with%contact_rows = has_contact_rows(loaded%scene, loaded%system)
       plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
-      plan%with%histories = options%write /= "numbers"
+      plan%with%hdf5 = options%write /= "nothing"
+      plan%with%summary = options%write /= "nothing"
+      plan%with%histories = options%write == "all" .or. options%write == "channels"
       plan%with%texts = options%write == "all"
       plan%with%figures = options%write == "all"
       plan%with%report = loaded%scene%settings%output%flag("report") .and. options%write == "all"

@@ -7,17 +7,18 @@ module sweep_report
    use figures, only: draw_figures
    use item, only: place_of
    use json_text, only: json_object_t
-   use kinds, only: i8
+   use kinds, only: i8, wp
    use load, only: loaded_t
    use mechanism_report, only: build_catalogue
+   use members, only: cpu_of_all
    use options, only: options_t
    use output_marker, only: enter_file
    use plot_table, only: plot_table_t, write_plot
    use posix, only: make_directory
-   use recorder, only: status_complete, status_failed
+   use recorder, only: status_complete, status_failed, status_stopped
    use sweep_plots, only: sweep_table
-   use sweep_work, only: failure_text, runs_folder, sweep_work_t
-   use text, only: append_text, text_t, to_text
+   use sweep_work, only: failure_text, sweep_work_t
+   use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: fail_file, replace_file
    use text_table, only: file_heading
@@ -82,21 +83,34 @@ contains
 
       type(buffer_t) :: lines
       type(json_object_t) :: json
+      character(:), allocatable :: state
       integer :: k, shown
 
+      state = status_complete
+      if (work%n_failed() > 0) state = status_failed
+      if (work%n_missing() > 0) state = status_stopped
       call lines%line(loaded%scene%title)
       call lines%line(to_text(loaded%sweep%n_cases())//" cases of "//to_text(work%results%n_member)// &
                       trim(merge(" run: ", " runs:", work%results%n_member == 1))//" "// &
-                      to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed)//" failed")
+                      to_text(count(work%results%runs%exit_code == 0))//" done, "//to_text(work%n_failed())//" failed"// &
+                      missing_text())
+      if (work%shard > 0) call lines%line("part "//to_text(work%shard)//" of "//to_text(work%n_shards)//": "// &
+                                          to_text(work%n_mine())//" runs")
+      if (work%n_made > 0) then
+         call lines%line(to_text(work%n_made)//" runs made now; processor time "//real_text(cpu_of_all(), 4)//" s, of that "// &
+                         real_text(work%cpu_made, 4)//" s of motions and their output")
+      else
+         call lines%line("no runs were missing")
+      end if
       shown = 0
       do k = 1, size(work%results%runs)
-         if (work%results%runs(k)%exit_code == 0 .or. shown == 10) cycle
+         if (work%results%runs(k)%exit_code <= 0 .or. shown == 10) cycle
          shown = shown + 1
          call lines%line("  run "//to_text(k)//": exit code "//to_text(work%results%runs(k)%exit_code)//", "// &
                          work%results%runs(k)%message)
       end do
       call lines%line("output     "//work%plan%directory//"/")
-      call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and spreads)")
+      if (work%shard == 0) call lines%line("           sweep.h5, sweep.csv (runs), cases.csv (means and spreads)")
       do k = 1, size(pictures)
          call lines%line("           "//pictures(k)%s)
       end do
@@ -108,20 +122,42 @@ contains
       call json%put_text("deck", loaded%path)
       call json%put_text("title", loaded%scene%title)
       call json%put_text("directory", work%plan%directory)
-      call json%put_text("status", trim(merge(status_failed//"  ", status_complete, work%n_failed > 0)))
+      call json%put_text("status", state)
       call json%put_text("message", failure_text(work))
       call json%put_integer("cases", int(loaded%sweep%n_cases(), i8))
-      call json%put_integer("runs", int(size(work%results%runs), i8))
-      call json%put_integer("failed", int(work%n_failed, i8))
+      call json%put_integer("runs", int(work%n_mine(), i8))
+      call json%put_integer("made", int(work%n_made, i8))
+      call json%put_integer("failed", int(work%n_failed(), i8))
+      call json%put_integer("missing", int(work%n_missing(), i8))
+      call json%put_real("cpu_runs", work%cpu_made)
+      call json%put_real("cpu_all", cpu_of_all())
       call json%put_list("figures", pictures)
       call json%put_list("warnings", warnings)
       call write_summaries(lines%get(), json%get()//new_line("a"))
-      if (work%n_failed > 0 .and. .not. allocated(error)) then
-         call set_error(error, exit_sweep, failure_text(work)//"; they are in "//work%plan%directory//runs_folder// &
-                        ", what they said in the .log files beside them")
-      end if
+      if (state == status_complete .or. allocated(error)) return
+      call set_error(error, exit_sweep, failure_text(work)//where_text())
 
    contains
+
+      !> How many runs are missing, if any.
+      function missing_text() result(words)
+         character(:), allocatable :: words     !! with a comma before it
+
+         words = ""
+         if (work%n_missing() > 0) words = ", "//to_text(work%n_missing())//" missing"
+      end function missing_text
+
+      !> Where more is said about runs that failed.
+      function where_text() result(words)
+         character(:), allocatable :: words     !! behind the number of them
+
+         words = ""
+         do k = 1, size(work%results%runs)
+            if (work%results%runs(k)%exit_code <= 0) cycle
+            words = "; what they said is in "//work%directories(k)%s(:index(work%directories(k)%s, "/", back=.true.))//"*.log"
+            return
+         end do
+      end function where_text
 
       !> Write and show them.
       subroutine write_summaries(text, object)

@@ -1,149 +1,238 @@
 !> The runs of a sweep, each in a process of its own, as many at once as wanted.
 !>
-!> A run is `gudgeon run DECK --set ... --member K`, so that it gives the very numbers of that command. One that fails is
-!> recorded with its exit code and its message, its directory is kept, and the others go on.
+!> The process of a run is a copy of this one, which has read the deck and all that it names: it does what `gudgeon run DECK
+!> --set ... --member K` does, and gives the very numbers of that command. A case is loaded here, once for all its runs, unless so
+!> many run at once that this process could not keep up; then each loads it, from the same memory. What it found comes back and is
+!> written to the journal at once. A run that fails is recorded with its exit code and its message, and the others go on.
 module sweep_runs
-   use errors, only: error_t
+   use errors, only: error_t, exit_file, exit_ok
    use kinds, only: i8, wp
-   use load, only: loaded_t
+   use load, only: load_deck, loaded_t
+   use member_result, only: member_result_t
+   use members, only: hand_back, next_member, start_member
    use options, only: options_t
+   use output_directory, only: output_directory_t
    use output_marker, only: enter_file
    use output_tree, only: remove_run
-   use posix, only: n_processors, remove_file
-   use processes, only: start_program, wait_any
+   use packed, only: packer_t, unpacker_t
+   use posix, only: n_processors, path_exists, remove_file, write_error
+   use processes, only: end_process
    use progress, only: progress_t
    use recorder, only: status_running
-   use sweep_values, only: sweep_t
+   use swept, only: sweep_t
+   use sweep_journal, only: run_record_t
    use sweep_work, only: sweep_work_t, write_results
-   use text, only: append_text, text_t, to_text
+   use text, only: append_text, exact_text, printable, replace, text_t, to_text
    use text_file, only: fail_file
+   use verb_run, only: run_loaded
    implicit none (type, external)
    private
    public :: run_all
 
-   real(wp), parameter :: write_interval = 10.0_wp  !! between two times that the results are written [s]
+   real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
+   real(wp), parameter :: write_share = 50.0_wp     !! and this many times as long as writing them took [1]
+
+   integer, parameter :: most_fed = 8                !! runs at once for which this process can load all cases
+
+   !> The case whose runs are being started.
+   type :: ready_t
+      integer :: number = 0                       !! of the case; 0: none
+      type(options_t) :: options                  !! its command line
+      type(loaded_t) :: loaded                    !! its deck
+      type(error_t), allocatable :: error         !! the deck has mistakes
+      real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
+   end type ready_t
 
 contains
 
-   !> Run everything, as many at once as wanted.
-   subroutine run_all(options, loaded, work, error)
+   !> Make all runs of this part that are not done.
+   subroutine run_all(options, loaded, directory, work, error)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(sweep_work_t), intent(inout) :: work                  !! the sweep
+      type(output_directory_t), intent(inout) :: directory !! of the sweep
+      type(sweep_work_t), intent(inout) :: work            !! the sweep
       type(error_t), allocatable, intent(out) :: error     !! a process cannot be started, or a file not be written
 
       type(progress_t) :: display
+      type(ready_t) :: ready
       type(text_t) :: none(0)
-      integer :: code, ended, jobs, next, process, running
-      integer(i8) :: now, rate, written_at
+      character(:), allocatable :: bytes
+      integer, allocatable :: due(:), processes(:)
+      integer :: at, code, ended, jobs, k, next, process
+      integer(i8) :: began, now, rate
+      real(wp) :: pause
 
-      jobs = options%jobs
+      due = pack([(k, k=1, size(work%is_done))], work%is_mine([(k, k=1, size(work%is_done))]) .and. .not. work%is_done)
+      allocate (processes(size(due)), source=0)
+      jobs = options%runs%jobs
       if (jobs == 0) jobs = n_processors()
       call display%start(.not. options%is_quiet)
-      call system_clock(written_at, rate)
+      call system_clock(began, rate)
+      pause = 0.0_wp
       next = 1
-      running = 0
       ended = 0
-      do while (ended < size(work%processes))
-         do while (running < jobs .and. next <= size(work%processes))
-            call start_run(options, loaded%sweep, next, work, error)
+      do while (ended < size(due))
+         do while (next - ended <= jobs .and. next <= size(due))
+            call make_ready(options, loaded%sweep, due(next), work, ready)
+            if (jobs <= most_fed .or. work%results%n_member > 1) call load_case(ready)
+            call start_run(ready, due(next), directory, work, processes(next), error)
             if (allocated(error)) return
             next = next + 1
-            running = running + 1
          end do
-         process = wait_any(code)
-         if (process == 0) exit
-         if (all(work%processes /= process)) cycle
-         call end_run(findloc(work%processes, process, dim=1), code, loaded%sweep%keeps_channels, work)
-         running = running - 1
+         call next_member(process, code, bytes)
+         at = findloc(processes, process, dim=1)
+         if (process == 0 .or. at == 0) exit
+         processes(at) = 0
+         call end_run(due(at), code, bytes, loaded%sweep%keeps_channels, work, error)
+         if (allocated(error)) return
          ended = ended + 1
-         call display%update(real(ended, wp)/real(size(work%processes), wp))
+         call display%update(real(ended, wp)/real(size(due), wp))
          call system_clock(now)
-         if (ended > 1 .and. real(now - written_at, wp) < write_interval*real(rate, wp)) cycle
+         if (work%shard > 0 .or. seconds(began, now) < pause) cycle
          call write_results(work, status_running, "", none, error)
          if (allocated(error)) return
-         call system_clock(written_at)
+         call system_clock(began)
+         pause = max(write_interval, write_share*seconds(now, began))
       end do
       call display%finish()
-   end subroutine run_all
-
-   !> Start a run.
-   subroutine start_run(options, sweep, number, work, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(sweep_t), intent(in) :: sweep                   !! the cases
-      integer, intent(in) :: number                        !! of the run
-      type(sweep_work_t), intent(inout) :: work                  !! the sweep
-      type(error_t), allocatable, intent(out) :: error     !! it cannot be started
-
-      type(options_t) :: case
-      type(text_t), allocatable :: arguments(:)
-      integer :: code, k
-
-      case = case_options(options, sweep, (number - 1)/work%results%n_member + 1)
-      allocate (arguments(0))
-      call add("run", case%operands(1)%s)
-      call add("--out", work%directories(number)%s)
-      call add("--write", trim(merge("channels", "numbers ", sweep%keeps_channels)))
-      call append_text(arguments, "--quiet")
-      do k = 1, size(case%change%overrides)
-         call add("--set", case%change%overrides(k)%s)
-      end do
-      if (case%change%is_ideal) call append_text(arguments, "--ideal")
-      if (allocated(case%change%method)) call add("--method", case%change%method)
-      if (case%change%tolerance > 0.0_wp) call add("--tolerance", to_exact(case%change%tolerance))
-      if (work%results%is_ensemble) call add("--member", to_text(mod(number - 1, work%results%n_member) + 1))
-      associate (directory => work%directories(number)%s)
-         code = enter_file(directory//".log")
-         if (code == 0) code = enter_file(directory//"/")
-         if (code == 0) code = start_program(".", work%program, arguments, directory//".log", .false., work%processes(number))
-      end associate
-      if (code /= 0) call fail_file(error, "cannot start", work%program, code, "")
 
    contains
 
-      !> Add an option and its value.
-      subroutine add(option, value)
-         character(*), intent(in) :: option  !! the option
-         character(*), intent(in) :: value   !! its value
+      !> Time between two readings of the clock.
+      pure real(wp) function seconds(from, to)
+         integer(i8), intent(in) :: from  !! the earlier
+         integer(i8), intent(in) :: to    !! the later
 
-         call append_text(arguments, option)
-         call append_text(arguments, value)
-      end subroutine add
+         seconds = real(to - from, wp)/real(rate, wp)  ! [s]
+      end function seconds
 
+   end subroutine run_all
+
+   !> Turn to the case of a run, if it is another than that of the last.
+   subroutine make_ready(options, sweep, number, work, ready)
+      type(options_t), intent(in) :: options               !! the command line
+      type(sweep_t), intent(in) :: sweep                   !! the cases
+      integer, intent(in) :: number                        !! of the run
+      type(sweep_work_t), intent(in) :: work               !! the sweep
+      type(ready_t), intent(inout) :: ready                !! its case
+
+      integer :: case_number
+
+      case_number = (number - 1)/work%results%n_member + 1
+      if (ready%number /= case_number) then
+         ready = ready_t()
+         ready%number = case_number
+         ready%options = case_options(options, sweep, case_number)
+      end if
+      if (work%results%is_ensemble) ready%options%change%member = mod(number - 1, work%results%n_member) + 1
+      ready%options%directory = work%directories(number)%s
+   end subroutine make_ready
+
+   !> Load a case, unless that is done.
+   subroutine load_case(ready)
+      type(ready_t), intent(inout) :: ready   !! the case
+
+      real(wp) :: after, before
+
+      if (allocated(ready%loaded%path)) return
+      call cpu_time(before)
+      call load_deck(ready%options, ready%loaded, ready%error)
+      call cpu_time(after)
+      ready%cpu = after - before
+   end subroutine load_case
+
+   !> Start a run. The copy of this process that makes it ends here.
+   subroutine start_run(ready, number, directory, work, process, error)
+      type(ready_t), intent(inout) :: ready                !! its case
+      integer, intent(in) :: number                        !! of the run
+      type(output_directory_t), intent(inout) :: directory !! of the sweep
+      type(sweep_work_t), intent(in) :: work               !! the sweep
+      integer, intent(out) :: process                      !! number of the process
+      type(error_t), allocatable, intent(out) :: error     !! it cannot be started
+
+      integer :: code
+
+      associate (place => work%directories(number)%s)
+         code = enter_file(place//".log")
+         if (code == 0 .and. work%results%sweep%keeps_channels) code = enter_file(place//"/")
+         if (path_exists(place)) call remove_run(place, code)
+         process = -1
+         if (code == 0) code = start_member(place//".log", process)
+         if (process == 0) then
+            call directory%leave()
+            if (code /= 0) call end_process(exit_file)
+            call make_run(ready)
+         end if
+         if (code /= 0) call fail_file(error, "cannot start run "//to_text(number)//" of", place, code, "")
+      end associate
+      ready%cpu = 0.0_wp
    end subroutine start_run
 
-   !> A number with all its digits.
-   function to_exact(x) result(digits)
-      real(wp), intent(in) :: x               !! the number [any]
-      character(:), allocatable :: digits     !! as an option has it
+   !> In the copy: make the run, hand back what it gave, and end.
+   subroutine make_run(ready)
+      type(ready_t), intent(inout) :: ready  !! its case
 
-      character(32) :: buffer
+      type(error_t), allocatable :: error
+      type(member_result_t) :: member
+      type(packer_t) :: packer
+      real(wp) :: now, start
+      integer :: code
 
-      write (buffer, "(es24.16e3)") x
-      digits = trim(adjustl(buffer))
-   end function to_exact
+      start = ready%cpu
+      ready%cpu = 0.0_wp
+      call load_case(ready)
+      member%cpu_start = start + ready%cpu
+      call cpu_time(start)
+      if (allocated(ready%error)) then
+         call move_alloc(ready%error, error)
+      else
+         call run_loaded(ready%options, ready%loaded, error, member)
+      end if
+      call member%complete()
+      code = exit_ok
+      if (allocated(error)) then
+         code = error%code
+         call write_error(printable("error: "//error%message)//new_line("a")//"  = alone: "//command_of(ready%options)// &
+                          new_line("a"))
+      end if
+      call cpu_time(now)
+      member%cpu_run = now - start
+      call member%pack(packer)
+      if (hand_back(packer%bytes%get()) /= 0) code = exit_file
+      call end_process(code)
+   end subroutine make_run
 
    !> Take what a run left behind.
-   subroutine end_run(number, code, keeps_channels, work)
-      integer, intent(in) :: number             !! of the run
-      integer, intent(in) :: code               !! its exit code
-      logical, intent(in) :: keeps_channels     !! whether its directory is needed at the end
-      type(sweep_work_t), intent(inout) :: work       !! the sweep
+   subroutine end_run(number, code, bytes, keeps_channels, work, error)
+      integer, intent(in) :: number                      !! of the run
+      integer, intent(in) :: code                        !! its exit code
+      character(*), intent(in) :: bytes                  !! what it handed back
+      logical, intent(in) :: keeps_channels              !! whether it has a directory
+      type(sweep_work_t), intent(inout) :: work          !! the sweep
+      type(error_t), allocatable, intent(out) :: error   !! the journal cannot be written
 
-      character(:), allocatable :: log, message
+      character(:), allocatable :: log
+      type(run_record_t) :: record
+      type(unpacker_t) :: unpacker
       integer :: ignored
 
       log = work%directories(number)%s//".log"
-      message = ""
-      if (code /= 0) message = message_of(log, code)
-      call work%results%take(number, code, message, work%directories(number)%s//"/run.h5")
-      work%processes(number) = 0
-      if (code /= 0) then
-         work%n_failed = work%n_failed + 1
-         return
+      record%number = number
+      record%exit_code = code
+      record%message = ""
+      unpacker%bytes = bytes
+      call record%member%unpack(unpacker)
+      if (.not. unpacker%is_good) then
+         record%member = member_result_t()
+         call record%member%complete()
+         if (code == exit_ok) record%exit_code = exit_file
       end if
-      ignored = remove_file(log)
-      if (.not. keeps_channels) call remove_run(work%directories(number)%s, ignored)
+      if (record%exit_code /= exit_ok) record%message = message_of(log, record%exit_code)
+      call work%results%take(record)
+      work%n_made = work%n_made + 1
+      work%cpu_made = work%cpu_made + record%member%cpu_run
+      call work%journal%add(record, error)
+      if (record%exit_code == exit_ok) ignored = remove_file(log)
    end subroutine end_run
 
    !> Why a run failed: its error message, without the picture of the place.
@@ -169,7 +258,7 @@ contains
       close (unit)
    end function message_of
 
-   !> The options with which a case runs: those of the command line and the case's parameters.
+   !> The command line of a case: that of the sweep and the case's parameters.
    function case_options(options, sweep, case_number) result(case)
       type(options_t), intent(in) :: options         !! the command line
       type(sweep_t), intent(in) :: sweep             !! the cases
@@ -179,11 +268,43 @@ contains
       integer :: k
 
       case = options
+      case%verb = "run"
+      case%is_quiet = .true.
+      case%is_json = .false.
+      case%runs%is_member = .true.
+      case%write = trim(merge("channels", "nothing ", sweep%keeps_channels))
       do k = 1, size(sweep%parameters)
          associate (parameter => sweep%parameters(k))
             call append_text(case%change%overrides, parameter%name//"="//parameter%texts(sweep%value_number(k, case_number))%s)
          end associate
       end do
    end function case_options
+
+   !> The command that makes a run alone.
+   function command_of(case) result(command)
+      type(options_t), intent(in) :: case            !! the run
+      character(:), allocatable :: command           !! for a shell
+
+      integer :: k
+
+      command = "gudgeon run "//quoted(case%operands(1)%s)
+      do k = 1, size(case%change%overrides)
+         command = command//" --set "//quoted(case%change%overrides(k)%s)
+      end do
+      if (case%change%is_ideal) command = command//" --ideal"
+      if (allocated(case%change%method)) command = command//" --method "//case%change%method
+      if (case%change%tolerance > 0.0_wp) command = command//" --tolerance "//exact_text(case%change%tolerance)
+      if (case%change%member > 0) command = command//" --member "//to_text(case%change%member)
+   end function command_of
+
+   !> A word for a shell, in quotes if it needs them.
+   pure function quoted(word) result(s)
+      character(*), intent(in) :: word         !! any word
+      character(:), allocatable :: s           !! the same for a shell
+
+      s = word
+      if (verify(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./=:,^") == 0) return
+      s = "'"//replace(word, "'", "'\''")//"'"
+   end function quoted
 
 end module sweep_runs

@@ -16,6 +16,7 @@ module verb_run
    use kinematic_start, only: find_kinematic_start
    use load, only: load_deck, loaded_t
    use mechanism, only: mechanism_t
+   use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
    use mobility, only: mobility_t
    use options, only: options_t
@@ -43,7 +44,7 @@ module verb_run
    use text, only: append_text, starts_with, text_t, to_text
    implicit none (type, external)
    private
-   public :: directory_of, new_method, run_deck
+   public :: directory_of, new_method, run_deck, run_loaded
 
 contains
 
@@ -55,9 +56,21 @@ contains
       type(loaded_t) :: loaded
 
       call load_deck(options, loaded, error)
-      if (.not. allocated(error)) call check_accuracy(options, loaded, error)
+      if (.not. allocated(error)) call run_loaded(options, loaded, error)
+   end subroutine run_deck
+
+   !> Run the analysis of a deck that is loaded.
+   subroutine run_loaded(options, loaded, error, member)
+      type(options_t), intent(in) :: options                       !! the command line
+      type(loaded_t), intent(inout) :: loaded                      !! the deck
+      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
+      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
+
+      call check_accuracy(options, loaded, error)
       if (.not. allocated(error)) call check_restart(options, loaded, error)
-      if (.not. allocated(error)) call check_size(options, loaded, directory_of(options, loaded), error)
+      if (.not. allocated(error) .and. options%write /= "nothing") then
+         call check_size(options, loaded, directory_of(options, loaded), error)
+      end if
       if (.not. allocated(error) .and. options%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
                         trim(analysis_names(loaded%scene%analysis)))
@@ -69,17 +82,18 @@ contains
       case (analysis_static)
          call run_equilibrium(options, loaded, error)
       case default
-         call run_motion(options, loaded, huge(1.0_wp), error)
+         call run_motion(options, loaded, huge(1.0_wp), error, member)
          if (options%restart%is_verified .and. .not. allocated(error)) call verify_restart(options, loaded%plan%end, error)
       end select
-   end subroutine run_deck
+   end subroutine run_loaded
 
    !> Motion in time under forces.
-   subroutine run_motion(options, loaded, stop_at, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(inout) :: loaded              !! the deck
-      real(wp), intent(in) :: stop_at                      !! time of the motion after which it is saved and ends [s]
-      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+   subroutine run_motion(options, loaded, stop_at, error, member)
+      type(options_t), intent(in) :: options                       !! the command line
+      type(loaded_t), intent(inout) :: loaded                      !! the deck
+      real(wp), intent(in) :: stop_at                              !! time of the motion after which it is saved and ends [s]
+      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
+      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
 
       class(integrator_t), allocatable :: method
       type(assembly_t) :: assembly
@@ -96,10 +110,10 @@ contains
 
       call begin_motion(options, loaded, y, assembly, ideal, error)
       if (allocated(error)) return
-      call open_directory(options, directory_of(options, loaded), directory, goes_on, is_complete, error)
+      call open_place(options, loaded, directory, goes_on, is_complete, error)
       if (allocated(error) .or. is_complete) return
       call make_plan(options, loaded, directory, assembly, plan)
-      plan%life%is_saved = .true.
+      plan%life%is_saved = options%write /= "nothing"
       plan%life%is_concluded_later = .true.
       plan%life%goes_on = goes_on
       plan%life%stop_at = stop_at
@@ -135,6 +149,7 @@ contains
       call conclude(loaded, ideal, keeper, summary, error)
       call directory%close()
       call tell_accuracy(plan%accuracy, error)
+      if (present(member)) call keeper%result(member)
       call end_as_asked(summary, error)
    end subroutine run_motion
 
@@ -207,6 +222,25 @@ contains
       call compare_restarted(directory, other%directory, done, options%is_quiet .or. options%is_json, error)
       if (.not. allocated(error)) call remove_run(other%directory, k)
    end subroutine verify_restart
+
+   !> The directory of a run, if it writes anything.
+   subroutine open_place(options, loaded, directory, goes_on, is_complete, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      type(output_directory_t), intent(inout) :: directory !! opened
+      logical, intent(out) :: goes_on                      !! an earlier run is gone on with
+      logical, intent(out) :: is_complete                  !! that run has ended: nothing is to be done
+      type(error_t), allocatable, intent(out) :: error     !! it cannot be made, or is not free
+
+      if (options%write /= "nothing") then
+         call open_directory(options, directory_of(options, loaded), directory, goes_on, is_complete, error)
+         return
+      end if
+      goes_on = .false.
+      is_complete = .false.
+      directory%path = "."
+      allocate (directory%warnings(0))
+   end subroutine open_place
 
    !> The start of a motion, perturbed if it is one of an ensemble.
    subroutine begin_motion(options, loaded, y, assembly, ideal, error)

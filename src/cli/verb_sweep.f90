@@ -1,22 +1,25 @@
 !> `gudgeon sweep DECK`: every case of [sweep] and every run of [ensemble], each in a process of its own.
 !>
-!> A run is `gudgeon run DECK --set ... --member K`, so that it gives the very numbers of that command, however many run side
-!> by side. Runs are numbered case by case and collected by their number. A run that fails is recorded with its exit code and
-!> its message, its directory is kept, and the others go on. What is done is in sweep.h5 and sweep.csv, which are written
-!> anew now and then; directories of runs that are not in there yet are left where the sweep is killed.
+!> The deck and every file that it names are read once, so that all runs are of the same model whatever becomes of the files. Runs
+!> are numbered case by case and collected by their number. What is done is in the journal as soon as it is (`sweep_journal`): a
+!> sweep of the same model into the same directory goes on from there. With `--shard I/N` only every N-th run is made, into a
+!> directory of its own, and `gudgeon merge` puts the parts together (`verb_merge`).
 module verb_sweep
    use errors, only: error_t, exit_usage, set_error
+   use file_store, only: changed_files, keep_files
    use load, only: check_swept_words, load_deck, loaded_t
+   use members, only: stamp_of
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_tree, only: remove_run
-   use posix, only: path_exists, remove_within
+   use posix, only: own_path, path_exists, remove_within
    use recorder, only: status_complete, status_failed
    use scene, only: analysis_dynamic
+   use sweep_journal, only: differences, journal_t, origin_of_sweep_t
    use sweep_report, only: make_sweep_figures, report_sweep
    use sweep_runs, only: run_all
-   use sweep_work, only: failure_text, new_sweep_work, runs_folder, sweep_work_t, write_results
-   use text, only: append_text, text_t
+   use sweep_work, only: failure_text, new_sweep_work, origin_of_sweep, runs_folder, sweep_work_t, take_journal, write_results
+   use text, only: append_text, text_t, to_text
    use verb_run, only: directory_of
    implicit none (type, external)
    private
@@ -30,20 +33,31 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! mistakes, no directory, or part of the runs failed
 
       type(loaded_t) :: loaded
+      type(origin_of_sweep_t) :: origin
       type(output_directory_t) :: directory
       type(text_t), allocatable :: pictures(:), warnings(:)
       type(sweep_work_t) :: work
+      character(:), allocatable :: path, program, stamp
 
+      program = own_path()
+      stamp = stamp_of(program)
+      call keep_files()
       call load_deck(options, loaded, error)
       if (.not. allocated(error)) call check_request(options, loaded, error)
       if (.not. allocated(error)) call check_swept_words(options, loaded, error)
       if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
+      path = directory_of(options, loaded)
+      if (options%runs%shard > 0) path = path//".shards/"//to_text(options%runs%shard)//"-of-"//to_text(options%runs%n_shards)
+      origin = origin_of_sweep(options, loaded)
+      call directory%open(path, error, goes_on=is_of(path, origin))
       if (allocated(error)) return
       warnings = directory%warnings
-      call new_sweep_work(options, loaded, directory%path, work, error)
-      if (.not. allocated(error)) call run_all(options, loaded, work, error)
-      if (.not. allocated(error)) call finish(loaded, work, pictures, warnings, error)
+      call begin_sweep(options, loaded, directory%path, origin, work, error)
+      if (.not. allocated(error)) call run_all(options, loaded, directory, work, error)
+      if (.not. allocated(error)) then
+         call tell_changes(program, stamp, warnings)
+         call finish(loaded, work, pictures, warnings, error)
+      end if
       if (.not. allocated(error)) call report_sweep(options, loaded, work, pictures, warnings, error)
       call directory%close()
    end subroutine sweep_deck
@@ -59,9 +73,6 @@ contains
       if (.not. loaded%sweep%is_present .and. .not. loaded%scene%settings%ensemble%is_present) then
          call set_error(error, exit_usage, "the deck has neither a section [sweep] nor [ensemble]"//new_line("a")// &
                         "  = 'gudgeon help sweep' tells how to write one; 'gudgeon run' runs the deck as it is")
-      else if (loaded%is_stream) then
-         call set_error(error, exit_usage, "a sweep reads its deck once for every run, so it cannot come through a pipe; "// &
-                        "save it to a file")
       else if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "a sweep runs the section [analysis.dynamic], which the deck does not begin with")
       end if
@@ -78,10 +89,59 @@ contains
       end do
    end subroutine check_request
 
+   !> Whether a directory holds an earlier sweep of the same.
+   logical function is_of(path, origin)
+      character(*), intent(in) :: path                     !! the directory
+      type(origin_of_sweep_t), intent(in) :: origin        !! what the sweep is of
+
+      type(journal_t) :: journal
+
+      call journal%read(path)
+      is_of = journal%is_there
+      if (is_of) is_of = differences(journal%origin, origin) == ""
+   end function is_of
+
+   !> What an earlier sweep of the same has done, and the journal for what comes.
+   subroutine begin_sweep(options, loaded, path, origin, work, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(in) :: loaded                 !! the deck
+      character(*), intent(in) :: path                     !! directory of the sweep
+      type(origin_of_sweep_t), intent(in) :: origin        !! what it is of
+      type(sweep_work_t), intent(inout) :: work            !! the sweep
+      type(error_t), allocatable, intent(out) :: error     !! a file or directory cannot be made
+
+      call work%journal%read(path)  ! once more: the directory is ours only now
+      work%journal%origin = origin
+      call new_sweep_work(options, loaded, path, work, error)
+      if (allocated(error)) return
+      call take_journal(work, work%journal, path)
+      call work%journal%begin(path, error)
+   end subroutine begin_sweep
+
+   !> Files that are not what they were when the sweep began; its runs are of what was read then.
+   subroutine tell_changes(program, stamp, warnings)
+      character(*), intent(in) :: program                        !! path of this program
+      character(*), intent(in) :: stamp                          !! by which it was known at the beginning
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) grown
+
+      type(text_t), allocatable :: changed(:)
+      integer :: k
+
+      changed = changed_files()
+      do k = 1, size(changed)
+         call append_text(warnings, changed(k)%s// &
+                          " was changed while the sweep ran; all runs are of what it was at the beginning")
+      end do
+      if (stamp_of(program) /= stamp) then
+         call append_text(warnings, "the program "//program// &
+                          " was made anew while the sweep ran; all runs are of the one that began")
+      end if
+   end subroutine tell_changes
+
    !> The last time that the results are written, the figures, and what is no longer needed is removed.
    subroutine finish(loaded, work, pictures, warnings, error)
       type(loaded_t), intent(in) :: loaded                       !! the deck
-      type(sweep_work_t), intent(in) :: work                           !! the sweep
+      type(sweep_work_t), intent(inout) :: work                  !! the sweep
       type(text_t), allocatable, intent(out) :: pictures(:)      !! (n) pictures made, paths within the directory
       type(text_t), allocatable, intent(inout) :: warnings(:)    !! (m) what was noticed before, and what was not made
       type(error_t), allocatable, intent(out) :: error           !! a file cannot be written
@@ -90,20 +150,26 @@ contains
       integer :: ignored, k
 
       allocate (pictures(0), directories(0))
-      if (loaded%sweep%keeps_channels) directories = work%directories
-      call write_results(work, trim(merge(status_failed//"  ", status_complete, work%n_failed > 0)), failure_text(work), &
-                         directories, error)
-      if (allocated(error)) return
-      do k = 1, size(directories)
-         if (work%results%runs(k)%exit_code == 0) call remove_run(directories(k)%s, ignored)
-      end do
-      if (work%n_failed == 0) then
+      if (work%shard == 0) then
+         if (loaded%sweep%keeps_channels) directories = work%directories
+         ! the channels of an earlier sweep are in its file only, where nothing was missing
+         if (work%n_made > 0 .or. .not. work%journal%has_ended .or. .not. loaded%sweep%keeps_channels) then
+            call write_results(work, trim(merge(status_failed//"  ", status_complete, work%n_failed() > 0)), failure_text(work), &
+                               directories, error)
+            if (.not. allocated(error)) call work%journal%end(error)
+            if (allocated(error)) return
+         end if
+         do k = 1, size(directories)
+            if (work%results%runs(k)%exit_code == 0 .and. path_exists(directories(k)%s)) call remove_run(directories(k)%s, ignored)
+         end do
+      end if
+      if (work%n_failed() == 0 .and. (work%shard == 0 .or. .not. loaded%sweep%keeps_channels)) then
          ignored = remove_within(work%plan%directory, runs_folder(2:)//"/")
          if (path_exists(work%plan%directory//runs_folder)) then
             call append_text(warnings, work%plan%directory//runs_folder//" holds files that gudgeon did not make, so it stays")
          end if
       end if
-      call make_sweep_figures(loaded, work, pictures, warnings, error)
+      if (work%shard == 0) call make_sweep_figures(loaded, work, pictures, warnings, error)
    end subroutine finish
 
 end module verb_sweep

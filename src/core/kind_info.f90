@@ -70,7 +70,7 @@ module kind_info
    integer, parameter :: cell_duration = 8    !! a time, or `N turns of DRIVER` (settings only)
 
    integer, parameter :: cell_list = 9        !! numbers with one unit, in quotes (tables only)
-   integer, parameter :: cell_file = 10       !! a text file of two columns of numbers
+   integer, parameter :: cell_file = 10       !! a text file
    integer, parameter :: cell_condition = 11  !! conditions on channels (settings only)
    integer, parameter :: cell_formula = 12    !! an expression over channels, understood when these are known (tables only)
 
@@ -240,7 +240,7 @@ contains
       is_of_space = info%space == in_any_space .or. info%space == merge(in_space, in_plane, is_spatial)
    end function is_of_space
 
-   !> Append a column that names a text file of two columns of numbers, which is read with the deck.
+   !> Append a column that names a text file, which is read with the deck; that of a table has two columns of numbers.
    subroutine add_file(info, name, help, default)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck

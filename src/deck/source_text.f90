@@ -3,8 +3,8 @@
 !> Lines end with LF or CR LF. A tab counts as one column. A byte order mark of UTF-8 is skipped.
 !> A file that is missing, a directory, a device, empty, too large or not text is refused with a clear message.
 module source_text
+   use file_store, only: read_kept
    use kinds, only: i8
-   use system_file, only: read_file
    implicit none (type, external)
    private
    public :: line_of, n_line_of, new_source, read_source, source_t
@@ -47,7 +47,7 @@ contains
 
       call new_source(source, path, "")
       source%is_file = .true.
-      call read_file(path, .not. may_be_stream, largest_file, bytes, message, source%is_stream)
+      call read_kept(path, .not. may_be_stream, largest_file, bytes, message, source%is_stream)
       if (source%is_stream) source%place = ""
       if (len(message) > 0) return
       message = why_not_text(bytes)

@@ -1,16 +1,16 @@
-!> The section [sweep]: parameters and the values that they take.
+!> Reads the section [sweep]: parameters and the values that they take.
 !>
 !> `c = 0.5 0.2 0.1 mm` or `c = 0.5mm 0.2mm`: a list, with one unit at its end or one at each number. `law = hertz goldsmith`:
 !> words. `speed = 1000 .. 5000 rpm in 9`: nine values at equal distances, both ends among them; `in 9 geometric`: at equal
-!> ratios. The key `combine` says how several parameters go together, `keep` what is kept of each run.
-!> Cases are numbered from 1; in a grid the last parameter changes fastest.
+!> ratios. The key `combine` says how several parameters go together, `keep` what is kept of each run, `file` where cases stand as
+!> rows of a table.
 module sweep_values
    use cells, only: blank_value, read_value
    use deck_types, only: deck_t, find_section, text_of
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
    use expression_compile, only: dimension_agrees, symbol_broken, symbol_number, symbol_word
-   use item, only: item_t, location_t
+   use item, only: item_t, location_t, place_of
    use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
    use name_table, only: name_table_t
@@ -19,82 +19,29 @@ module sweep_values
    use quantities, only: is_numeric, quantity_t, read_bare
    use table_header, only: column_index
    use spelling, only: nearest_word
+   use sweep_table, only: read_sweep_table
+   use swept, only: most_cases, sweep_t, swept_t
    use text, only: exact_text, join, text_t, to_text
    use text_list, only: text_list_t
    use tokens, only: span, token_brace, token_equals, token_quoted, token_t, token_word
    implicit none (type, external)
    private
-   public :: read_sweep, sweep_t, swept_t
+   public :: read_sweep
 
    character(*), parameter :: section_name = "sweep"
-   integer, parameter :: most_cases = 1000000  !! of a sweep
-
-   !> A parameter and its values.
-   type :: swept_t
-      character(:), allocatable :: name           !! of the parameter
-      character(:), allocatable :: unit           !! SI unit of numbers, `1` if none; blank of words
-      type(location_t) :: location                !! of the line
-      type(text_t), allocatable :: texts(:)       !! (n) values as a deck has them
-      real(wp), allocatable :: numbers(:)         !! (n) the same in SI, NaN of words [any]
-   end type swept_t
-
-   !> A whole sweep.
-   type :: sweep_t
-      logical :: is_present = .false.              !! the deck has the section
-      logical :: is_paired = .false.               !! all parameters go on together
-      logical :: keeps_channels = .false.          !! channels of the runs are kept
-      type(swept_t), allocatable :: parameters(:)  !! (n) what is swept
-   contains
-      procedure :: n_cases
-      procedure :: value_number
-   end type sweep_t
 
 contains
 
-   !> Number of cases; 1 without a sweep.
-   pure integer function n_cases(self)
-      class(sweep_t), intent(in) :: self  !! the sweep
-
-      integer :: k
-
-      n_cases = 1
-      if (.not. allocated(self%parameters)) return
-      do k = 1, size(self%parameters)
-         if (self%is_paired) then
-            n_cases = size(self%parameters(k)%texts)
-         else if (n_cases <= most_cases) then
-            n_cases = n_cases*min(size(self%parameters(k)%texts), most_cases)
-         end if
-      end do
-   end function n_cases
-
-   !> Which of its values a parameter has in a case.
-   pure integer function value_number(self, parameter_number, case_number) result(at)
-      class(sweep_t), intent(in) :: self           !! the sweep
-      integer, intent(in) :: parameter_number      !! of the parameter
-      integer, intent(in) :: case_number           !! of the case, from 1
-
-      integer :: block, k
-
-      at = case_number
-      if (self%is_paired) return
-      block = 1
-      do k = parameter_number + 1, size(self%parameters)
-         block = block*size(self%parameters(k)%texts)
-      end do
-      at = mod((case_number - 1)/block, size(self%parameters(parameter_number)%texts)) + 1
-   end function value_number
-
    !> Read the section.
    subroutine read_sweep(deck, info, sweep, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck, its parameters worked out
+      type(deck_t), intent(inout) :: deck             !! the deck, its parameters worked out; takes the file of cases
       type(kind_info_t), intent(in) :: info           !! the section's own keys
       type(sweep_t), intent(out) :: sweep             !! what is swept
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       type(item_t) :: own
       type(name_table_t) :: table
-      type(swept_t), allocatable :: swept(:)
+      type(swept_t), allocatable :: of_file(:), swept(:)
       integer :: k, key, n, previous, section
       logical :: is_good
 
@@ -138,7 +85,17 @@ contains
                                               & "it has its values already")
          end associate
       end do
-      sweep%parameters = swept(:n)
+      allocate (of_file(0))
+      associate (value => own%values(place_of(own, "file")))
+         if (value%given .and. mistakes%count() == 0) call read_sweep_table(deck, value, of_file, mistakes)
+      end associate
+      do k = 1, size(of_file)
+         call table%enter(of_file(k)%name, n + k, previous)
+         if (previous > 0) call mistakes%add(of_file(k)%location, "parameter '"//of_file(k)%name//"' is swept twice", &
+                                           & "the file has values of it, or has it twice")
+      end do
+      sweep%n_together = max(1, size(of_file))
+      sweep%parameters = [of_file, swept(:n)]
       sweep%is_paired = own%word("combine") == "paired"
       sweep%keeps_channels = own%word("keep") == "channels"
       call check_whole(deck, section, sweep, mistakes)

@@ -26,24 +26,32 @@ module output_directory
       character(:), allocatable :: path                     !! the directory as named, without a slash at its end
       type(text_t), allocatable :: warnings(:)              !! (n) what was kept, and why
       character(:), allocatable, private :: place           !! the directory behind links
+      type(text_t), allocatable, private :: older(:)        !! (m) files of an older run that goes on
       integer, private :: descriptor = -1                   !! of the locked marker, -1: not open
    contains
       procedure :: open => open_directory
       procedure :: close => close_directory
       procedure :: open_again => open_directory_again
+      procedure :: leave => leave_directory
    end type output_directory_t
 
 contains
 
-   !> Make the directory of a run empty and ours.
-   subroutine open_directory(self, path, error)
+   !> Make the directory of a run empty and ours; or go on in that of an older run of the same, whose files stay.
+   subroutine open_directory(self, path, error, goes_on)
       class(output_directory_t), intent(inout) :: self   !! the directory
       character(*), intent(in) :: path                   !! where it is to be
       type(error_t), allocatable, intent(out) :: error   !! it cannot be made, or is not free
+      logical, intent(in), optional :: goes_on           !! an older run there is gone on with, not moved away
 
       integer :: attempt
+      logical :: keeps
 
+      keeps = .false.
+      if (present(goes_on)) keeps = goes_on
       call self%close()
+      if (allocated(self%older)) deallocate (self%older)
+      allocate (self%older(0))
       if (allocated(self%warnings)) deallocate (self%warnings)
       allocate (self%warnings(0))
       self%path = without_slash(path)
@@ -61,14 +69,14 @@ contains
       call make_parent(self%place, error)
       do attempt = 1, most_attempts
          if (allocated(error) .or. self%descriptor >= 0) exit
-         call enter(self, error)
+         call enter(self, keeps, error)
       end do
       if (allocated(error)) return
       if (self%descriptor < 0) then
          call set_error(error, exit_file, "others change "//self%path//" all the time; "//elsewhere)
          return
       end if
-      attempt = begin_marker(self%path)
+      attempt = begin_marker(self%path, self%older)
       if (attempt == 0) return
       call fail_file(error, "cannot write", self%path//"/"//marker_name, attempt, "Make room there, or "//elsewhere//".")
       attempt = remove_file(self%path//"/"//marker_name)
@@ -114,6 +122,14 @@ contains
       self%descriptor = -1
    end subroutine close_directory
 
+   !> In a copy of the process: let go of the lock, which stays with the process that opened the directory.
+   subroutine leave_directory(self)
+      class(output_directory_t), intent(inout) :: self  !! the directory
+
+      if (self%descriptor >= 0) call close_file(self%descriptor)
+      self%descriptor = -1
+   end subroutine leave_directory
+
    !> A path without slashes at its end.
    pure function without_slash(path) result(short)
       character(*), intent(in) :: path     !! any path
@@ -145,8 +161,9 @@ contains
 
    !> One step on the way in: a new or empty directory is taken, an older run is moved out of the way. Then, or if another
    !> process was faster, there is no error and the directory is not open yet: once more.
-   subroutine enter(self, error)
+   subroutine enter(self, keeps, error)
       type(output_directory_t), intent(inout) :: self    !! the directory; `descriptor` is set once it is ours
+      logical, intent(in) :: keeps                       !! an older run there is gone on with
       type(error_t), allocatable, intent(out) :: error   !! it is not free, or not ours
 
       type(marker_t) :: marker
@@ -182,6 +199,10 @@ contains
       if (.not. marker%is_ours) then
          call set_error(error, exit_file, self%path//"/"//marker_name//" was not made by gudgeon, so "//self%path// &
                         " is left alone; "//elsewhere)
+      else if (keeps) then
+         self%descriptor = file
+         self%older = marker%files
+         return
       else if (size(names) == 1) then
          code = remove_file(self%place//"/"//marker_name)
          if (code /= 0) call fail_file(error, "cannot remove", self%path//"/"//marker_name, code, "")
@@ -232,7 +253,7 @@ contains
 
       do k = 1, size(names)
          select case (names(k)%s)
-         case ("run.h5", "sweep.h5", "deck.echo", "summary.json")
+         case ("run.h5", "sweep.h5", "sweep.runs", "deck.echo", "summary.json")
             call set_error(error, exit_file, path//" holds "//names(k)%s//", but no marker "//marker_name//" that would say "// &
                            "that it is the output of gudgeon (older versions made none), so it is left alone; move it "// &
                            "away, or "//elsewhere)

@@ -9,6 +9,7 @@ module output_marker
    use posix, only: host_name, process_number, random_name, write_at
    use system_file, only: read_file
    use text, only: printable, starts_with, text_t, to_text
+   use text_buffer, only: buffer_t
    use version, only: program_version
    implicit none (type, external)
    private
@@ -44,12 +45,15 @@ module output_marker
 
 contains
 
-   !> Say in an empty marker whose directory this is.
-   integer function begin_marker(directory, id) result(code)
+   !> Say in a marker whose directory this is, and which files are in it already.
+   integer function begin_marker(directory, files, id) result(code)
       character(*), intent(in) :: directory     !! as all paths of its files begin
+      type(text_t), intent(in) :: files(:)      !! (n) paths of files that an earlier run of the same made
       character(*), intent(in), optional :: id  !! by which a copy is known; absent: a new one
 
+      type(buffer_t) :: names
       character(:), allocatable :: name, text
+      integer :: k, previous
 
       here = open_marker_t()
       name = random_name()
@@ -57,12 +61,21 @@ contains
       text = first_line//new_line("a")//"id = "//name//new_line("a")//"program = gudgeon "//program_version// &
              new_line("a")//"host = "//printable(host_name())//new_line("a")//"process = "//to_text(process_number())// &
              new_line("a")//files_line//new_line("a")
+      do k = 1, size(files)
+         call names%line(files(k)%s)
+      end do
+      text = text//names%get()
       code = write_at(directory//"/"//marker_name, text, 0_i8)
       if (code /= 0) return
       here%length = len(text, i8)
       here%directory = directory
-      allocate (here%files(64))
+      here%n = size(files)
+      allocate (here%files(max(64, 2*here%n)))
       call here%table%start(size(here%files))
+      do k = 1, here%n
+         here%files(k)%s = files(k)%s
+         call here%table%enter(files(k)%s, k, previous)
+      end do
    end function begin_marker
 
    !> Say in the marker of an earlier run that this process goes on with it.
@@ -70,12 +83,7 @@ contains
       character(*), intent(in) :: directory     !! as all paths of its files begin
       type(marker_t), intent(in) :: marker      !! what the marker says
 
-      integer :: k
-
-      code = begin_marker(directory, marker%id)
-      do k = 1, size(marker%files)
-         if (code == 0) code = enter_file(directory//"/"//marker%files(k)%s)
-      end do
+      code = begin_marker(directory, marker%files, marker%id)
    end function go_on_with_marker
 
    !> Enter a file that is about to be made, or a directory with a slash at its end, unless it is there.

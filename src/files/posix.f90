@@ -14,7 +14,7 @@ module posix
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: close_file, host_name, is_alive, is_busy, is_directory, is_link, is_missing, is_pipe_gone
+   public :: close_file, from_c, host_name, is_alive, is_busy, is_directory, is_link, is_missing, is_pipe_gone
    public :: is_terminal, list_directory, lock_file, make_directory, n_processors, own_path, path_exists, process_number
    public :: cut_file, free_space
    public :: random_name, real_path, release_space, remove_file, remove_within, rename_path, reserve_space, set_default_variable

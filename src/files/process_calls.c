@@ -137,23 +137,34 @@ static void watch_signals(void)
    }
 }
 
+/* A child answers signals as programs do by default, but for those that are ignored as nohup wants it, and ends by `death` when
+ * the program that made it does. Returns 0, or an errno value if that is gone already. */
+int gudgeon_begin_child(int death, pid_t parent)
+{
+   for (int k = 0; k < max_groups; k++) groups[k] = 0;
+   for (int k = 0; k < n_ends; k++) {
+      struct sigaction now;
+      if (sigaction(ends[k], NULL, &now) == 0 && now.sa_handler == SIG_IGN) continue;
+      signal(ends[k], SIG_DFL);
+   }
+#ifdef __linux__
+   prctl(PR_SET_PDEATHSIG, death);
+   if (getppid() != parent) return ECHILD;
+#else
+   (void)death;
+   (void)parent;
+#endif
+   return 0;
+}
+
 /* What the child does until it is another program. Returns an errno value if it could not become that. */
 static int become(const char *directory, const char *program, char **vector, const char *log, int is_group, pid_t parent)
 {
    if (is_group) setpgid(0, 0);
-   for (int k = 0; k < n_ends; k++) {
-      struct sigaction now;
-      if (sigaction(ends[k], NULL, &now) == 0 && now.sa_handler == SIG_IGN) continue; /* as nohup wants it */
-      signal(ends[k], SIG_DFL);
-   }
+   int code = gudgeon_begin_child(is_group ? SIGKILL : SIGTERM, parent);
+   if (code != 0) return code;
    signal(SIGPIPE, SIG_DFL);
    signal(SIGXFSZ, SIG_DFL);
-#ifdef __linux__
-   prctl(PR_SET_PDEATHSIG, is_group ? SIGKILL : SIGTERM); /* it ends with the program that asked for it */
-   if (getppid() != parent) return ECHILD;
-#else
-   (void)parent;
-#endif
    if (chdir(directory) != 0) return EIO;
    int input = open("/dev/null", O_RDWR | O_CLOEXEC);
    int messages = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -213,19 +224,8 @@ int gudgeon_start_program(const char *directory, const char *program, const char
    return code;
 }
 
-static int exit_code(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
-
-/* Waits for whichever program ends next; its number, and its exit code as below. 0: none is running. */
-int gudgeon_wait_any(int *code)
-{
-   int status = 0;
-   pid_t child;
-   do child = waitpid(-1, &status, 0);
-   while (child < 0 && errno == EINTR);
-   if (child < 0) return 0;
-   *code = exit_code(status);
-   return (int)child;
-}
+/* 128 + signal if one ended the process. */
+int gudgeon_exit_code(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
 
 static int64_t now_ms(void)
 {
@@ -263,7 +263,7 @@ int gudgeon_wait_group(int process, int64_t until, int *is_late)
    }
    for (int k = 0; k < max_groups; k++)
       if (groups[k] == process) groups[k] = 0;
-   return exit_code(status);
+   return gudgeon_exit_code(status);
 }
 
 static volatile sig_atomic_t asked_by; /* signal that asked this process to end; 0: none did */

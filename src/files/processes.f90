@@ -8,7 +8,7 @@ module processes
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: asked_by, begin_process, clock_ms, end_by, end_process, listen, start_program, wait_any, wait_group
+   public :: asked_by, begin_process, clock_ms, end_by, end_process, listen, start_program, wait_group
 
    ! allow(assumed-size)
    interface
@@ -52,12 +52,6 @@ module processes
          integer(c_int), value :: is_group                   !! 1: a group of its own, which ends with this process
          integer(c_int), intent(out) :: process              !! its number
       end function c_start_program
-
-      integer(c_int) function c_wait_any(code) bind(c, name="gudgeon_wait_any")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), intent(out) :: code  !! exit code
-      end function c_wait_any
 
       integer(c_int) function c_wait_group(process, until, is_late) bind(c, name="gudgeon_wait_group")
          import :: c_int, c_int64_t
@@ -125,14 +119,6 @@ contains
       code = c_start_program(directory//c_null_char, program//c_null_char, list%get()//c_null_char, size(arguments), &
                              log//c_null_char, merge(1_c_int, 0_c_int, is_group), process)
    end function start_program
-
-   !> Wait for whichever program ends next; its number, 0 if none is running.
-   integer function wait_any(code) result(process)
-      integer, intent(out) :: code  !! its exit code, 128 + signal if one ended it
-
-      code = 0
-      process = c_wait_any(code)
-   end function wait_any
 
    !> Wait for a program up to an instant, then end it with all that it started; its exit code.
    integer function wait_group(process, until, is_late) result(code)

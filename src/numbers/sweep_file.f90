@@ -47,6 +47,7 @@ contains
          call write_runs(file, results, status)
          call write_cases(file, results, status)
          call make_provenance(file, plan, status)
+         call write_cost(file, results, status)
          if (size(run_directories) > 0) call copy_channels(file, results, run_directories, status)
          call write_status(file, state, status)
          call text_attribute(file, "status_message", message, status)
@@ -67,7 +68,7 @@ contains
 
       p = size(results%sweep%parameters)
       n = results%sweep%n_cases()
-      allocate (names(0), units(0), texts(0), values(0))
+      allocate (names(0), units(0), texts(p*n), values(p*n))
       all_units = ""
       do k = 1, p
          associate (parameter => results%sweep%parameters(k))
@@ -80,8 +81,8 @@ contains
       do m = 1, n
          do k = 1, p
             associate (parameter => results%sweep%parameters(k), at => results%sweep%value_number(k, m))
-               call append_text(texts, parameter%texts(at)%s)
-               values = [values, parameter%numbers(at)]
+               texts((m - 1)*p + k)%s = parameter%texts(at)%s
+               values((m - 1)*p + k) = parameter%numbers(at)
             end associate
          end do
       end do
@@ -104,11 +105,11 @@ contains
       type(text_t), allocatable :: rows(:)
       integer :: k, m
 
-      allocate (rows(0))
-      do k = 1, size(texts), p
-         call append_text(rows, texts(k)%s)
-         do m = 1, p - 1
-            rows(size(rows))%s = rows(size(rows))%s//" "//texts(k + m)%s
+      allocate (rows(size(texts)/p))
+      do k = 1, size(rows)
+         rows(k)%s = texts((k - 1)*p + 1)%s
+         do m = 2, p
+            rows(k)%s = rows(k)%s//" "//texts((k - 1)*p + m)%s
          end do
       end do
       call text_dataset(file, path, rows, .false., "values of the parameters in each case, as in the deck", status)
@@ -120,22 +121,26 @@ contains
       type(sweep_results_t), intent(in) :: results      !! the runs
       integer, intent(inout) :: status                  !! negative: failed
 
-      type(text_t), allocatable :: messages(:)
+      type(text_t), allocatable :: messages(:), warnings(:)
       real(wp), allocatable :: times(:), values(:, :), samples(:)
       integer, allocatable :: owners(:)
-      integer :: k, n
+      integer :: k, m, n
 
       n = size(results%runs)
-      allocate (messages(0))
+      allocate (messages(n), warnings(n))
       allocate (values(size(results%names), n), source=not_a_number())
-      allocate (times(0), samples(0), owners(0))
+      m = sum([(size(results%runs(k)%strobe_times), k=1, n)])
+      allocate (owners(m), times(m), samples(m*size(results%strobe_names)))
+      m = 0
       do k = 1, n
-         associate (run => results%runs(k))
-            call append_text(messages, run%message)
+         associate (run => results%runs(k), q => size(results%strobe_names), more => size(results%runs(k)%strobe_times))
+            messages(k)%s = run%message
+            warnings(k)%s = run%warnings
             values(1:size(run%numbers), k) = run%numbers
-            owners = [owners, spread(k, 1, size(run%strobe_times))]
-            times = [times, run%strobe_times]
-            samples = [samples, reshape(run%strobes, [size(run%strobes)])]
+            owners(m + 1:m + more) = k
+            times(m + 1:m + more) = run%strobe_times
+            samples(q*m + 1:q*(m + more)) = reshape(results%strobes_of(k), [q*more])
+            m = m + more
          end associate
       end do
       call integer_dataset(file, "runs/case", [n], [((k - 1)/results%n_member + 1, k=1, n)], "case of the run", status)
@@ -144,6 +149,7 @@ contains
       call integer_dataset(file, "runs/exit_code", [n], [(results%runs(k)%exit_code, k=1, n)], &
                            "0: done; -1: not run; else what the run ended with", status)
       call text_dataset(file, "runs/message", messages, .false., "why a run failed; blank if it did not", status)
+      call text_dataset(file, "runs/warnings", warnings, .false., "what was noticed in a run; blank: nothing", status)
       call text_dataset(file, "runs/names", results%names, .false., "names of the numbers", status)
       call text_dataset(file, "runs/units", results%units, .false., "their units", status)
       call real_dataset(file, "runs/values", [size(results%names), n], reshape(values, [size(values)]), &
@@ -155,6 +161,21 @@ contains
       call real_dataset(file, "strobe/values", [size(results%strobe_names), size(times)], samples, "list", &
                         "the channels at these instants", status)
    end subroutine write_runs
+
+   !> What the runs cost, which no two sweeps have alike.
+   subroutine write_cost(file, results, status)
+      integer(hid_t), intent(in) :: file                !! the file
+      type(sweep_results_t), intent(in) :: results      !! the runs
+      integer, intent(inout) :: status                  !! negative: failed
+
+      integer :: k, n
+
+      n = size(results%runs)
+      call real_dataset(file, "provenance/cpu_start", [n], [(results%runs(k)%cpu(1), k=1, n)], "s", &
+                        "processor time of a run until its motion begins", status)
+      call real_dataset(file, "provenance/cpu_run", [n], [(results%runs(k)%cpu(2), k=1, n)], "s", &
+                        "processor time of a run's motion and output", status)
+   end subroutine write_cost
 
    !> Statistics over the runs of each case.
    subroutine write_cases(file, results, status)
@@ -168,7 +189,6 @@ contains
       n = size(done)
       n_number = size(results%names)
       do k = 1, n
-         done(k) = count(results%runs((k - 1)*results%n_member + 1:k*results%n_member)%exit_code == 0)
          do i = 1, n_number
             call case_numbers(results, k, i, done(k), spreads(:, i, k))
          end do

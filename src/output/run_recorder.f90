@@ -5,7 +5,7 @@
 !> after a failed write nothing more is written to that file, and what it holds stays readable.
 module run_recorder
    use catalogue, only: catalogue_t
-   use channel_names, only: scalar_t
+   use channel_names, only: scalar_name, scalar_t
    use csv_files, only: write_csv_files
    use channels, only: list_scalars, select_channels, selection_t
    use errors, only: error_t, exit_deck, exit_file, set_error
@@ -19,9 +19,10 @@ module run_recorder
    use frames, only: frame_keeper_t
    use hdf5_writer, only: hdf5_writer_t
    use kinds, only: i8, wp
+   use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
    use motion_writer, only: motion_name, motion_writer_t
-   use output_plan, only: output_plan_t, show_json, show_summary
+   use output_plan, only: output_plan_t, show_json, show_nothing, show_summary
    use plot_table, only: plot_table_t
    use posix, only: write_error
    use progress, only: progress_t
@@ -88,6 +89,7 @@ module run_recorder
       procedure :: go_on => go_on_with_run
       procedure :: forget => forget_checkpoint
       procedure :: conclude => conclude_run
+      procedure :: result => result_of_run
    end type run_recorder_t
 
    interface
@@ -439,6 +441,29 @@ contains
       call append_all(self%outcome%warnings, missing)
    end subroutine draw_figures
 
+   !> What a sweep wants to know of the run; of one that never began, nothing.
+   subroutine result_of_run(self, member)
+      class(run_recorder_t), intent(in) :: self            !! the recorder, finished
+      type(member_result_t), intent(inout) :: member       !! those lists are set that there are
+
+      integer :: k
+
+      if (allocated(self%outcome%numbers)) then
+         member%numbers = self%outcome%numbers
+         member%warnings = self%outcome%warnings
+         associate (n => self%statistics%n_strobe, channels => self%statistics%channels)
+            if (n > 0) then
+               allocate (member%strobe_names(size(channels)))
+               do k = 1, size(channels)
+                  member%strobe_names(k)%s = scalar_name(self%items, channels(k))
+               end do
+               member%strobe_times = self%statistics%strobe_times(:n)
+               member%strobes = self%statistics%strobes(:size(channels), :n)
+            end if
+         end associate
+      end if
+   end subroutine result_of_run
+
    !> Append a list to a list.
    subroutine append_all(list, more)
       type(text_t), allocatable, intent(inout) :: list(:)  !! (any) grown
@@ -462,6 +487,7 @@ contains
       character(:), allocatable :: json, lines
       integer :: k
 
+      if (.not. self%plan%with%summary .and. self%plan%show == show_nothing) return
       lines = summary_lines(self%plan, summary, self%events, outcome, self%items)
       json = summary_json(self%plan, summary, self%events, outcome, self%items)
       if (self%plan%with%report) then

@@ -10,7 +10,7 @@ module sweep_plots
    use kinds, only: not_a_number, wp
    use plot_table, only: draw_bars, draw_marks, draw_points, panel_t, plot_curve_t, plot_table_t
    use sweep_results, only: case_numbers, n_spread, spread_names, sweep_results_t
-   use sweep_values, only: sweep_t
+   use swept, only: sweep_t
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private
@@ -72,14 +72,6 @@ contains
       if (sweep%parameters(1)%unit /= "") x = sweep%parameters(1)%numbers(sweep%value_number(1, case_number))
    end function abscissa
 
-   !> Cases per value of the first parameter that differ in the others: the curves.
-   pure integer function n_curves(sweep)
-      type(sweep_t), intent(in) :: sweep  !! the cases
-
-      n_curves = 1
-      if (size(sweep%parameters) > 1 .and. .not. sweep%is_paired) n_curves = sweep%n_cases()/size(sweep%parameters(1)%texts)
-   end function n_curves
-
    !> The other parameters of a curve.
    function curve_title(sweep, curve) result(title)
       type(sweep_t), intent(in) :: sweep         !! the cases
@@ -89,9 +81,9 @@ contains
       integer :: k
 
       title = ""
-      if (n_curves(sweep) == 1) return
-      do k = 2, size(sweep%parameters)
-         if (k > 2) title = title//", "
+      if (sweep%n_curves() == 1) return
+      do k = sweep%n_together + 1, size(sweep%parameters)
+         if (k > sweep%n_together + 1) title = title//", "
          title = title//sweep%parameters(k)%name//" "//sweep%parameters(k)%texts(sweep%value_number(k, curve))%s
       end do
    end function curve_title
@@ -103,6 +95,7 @@ contains
       type(sweep_results_t), intent(in) :: results      !! what the runs gave
       type(plot_table_t), intent(inout) :: table        !! the table
 
+      real(wp), allocatable :: strobes(:, :)
       integer :: channel, curve, k, m, n, run
 
       do channel = 1, size(results%strobe_names)
@@ -111,7 +104,7 @@ contains
       if (channel > size(results%strobe_names)) return
       call append_text(table%labels, name//"["//unit//"]")
       allocate (table%panels(1))
-      allocate (table%panels(1)%curves(n_curves(results%sweep)))
+      allocate (table%panels(1)%curves(results%sweep%n_curves()))
       table%panels(1)%y_name = name//" once per period"
       table%panels(1)%y_unit = unit
       n = 0
@@ -120,7 +113,7 @@ contains
       end do
       allocate (table%values(2, n), source=0.0_wp)
       n = 0
-      do curve = 1, n_curves(results%sweep)
+      do curve = 1, results%sweep%n_curves()
          associate (this => table%panels(1)%curves(curve))
             this%style = draw_points
             this%colour = curve
@@ -128,10 +121,11 @@ contains
             this%first = n + 1
             do run = 1, size(results%runs)
                m = (run - 1)/results%n_member + 1
-               if (mod(m - 1, n_curves(results%sweep)) + 1 /= curve) cycle
-               do k = 1, size(results%runs(run)%strobe_times)
+               if (mod(m - 1, results%sweep%n_curves()) + 1 /= curve) cycle
+               strobes = results%strobes_of(run)
+               do k = 1, size(strobes, 2)
                   n = n + 1
-                  table%values(:, n) = [abscissa(results%sweep, m), results%runs(run)%strobes(channel, k)]
+                  table%values(:, n) = [abscissa(results%sweep, m), strobes(channel, k)]
                end do
             end do
             this%last = n
@@ -159,7 +153,7 @@ contains
             call append_text(table%labels, names(i)%s//"."//trim(spread_names(k))//"["//results%units(at)%s//"]")
          end do
       end do
-      n = n_curves(results%sweep)
+      n = results%sweep%n_curves()
       n_value = results%sweep%n_cases()/n
       allocate (table%values(1 + n_spread*size(names), n*n_value), source=not_a_number())
       do curve = 1, n

@@ -1,4 +1,4 @@
-!> Every kind and section that a deck may hold, in the order of the manual.
+!> Every kind and section that a deck may hold, in the order of the manual. Each is asked once; what it said is kept.
 module kind_list
    use bodies, only: bodies_info, material_info, points_info
    use spatial_bodies, only: spatial_bodies_info, spatial_points_info
@@ -25,7 +25,19 @@ module kind_list
    use study_info, only: ensemble_info, statistics_info, sweep_info
    implicit none (type, external)
    private
-   public :: all_kinds, clearance_info, film_info, force_info, friction_info, function_info, joint_info, law_info
+   public :: all_kinds, ask_all, clearance_info, film_info, force_info, friction_info, function_info, joint_info, known, law_info
+
+   ! where the kinds of a registry stand in the list: behind these
+   integer, parameter :: before_joints = 6                                                !! sections and tables of the scene
+   integer, parameter :: before_forces = before_joints + n_joint_kinds                    !! joints
+   integer, parameter :: before_functions = before_forces + n_force_kinds                 !! forces
+   integer, parameter :: before_clearances = before_functions + n_function_kinds + 1      !! functions, materials
+   integer, parameter :: before_laws = before_clearances + n_clearance_kinds              !! clearances
+   integer, parameter :: before_frictions = before_laws + n_law_kinds                     !! laws of contact
+   integer, parameter :: before_films = before_frictions + n_friction_kinds + 1           !! laws of friction, lubricants
+   integer, parameter :: before_settings = before_films + n_film_kinds                    !! films
+
+   type(kind_info_t), allocatable, protected :: known(:)  !! (kinds) what they said, once they were asked
 
 contains
 
@@ -34,10 +46,8 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(joint_set_t), allocatable :: set
-
-      call new_joint_set(k, set)
-      info = set%info()
+      call ask_all()
+      info = known(before_joints + k)
    end function joint_info
 
    !> What kind number k of force elements says of itself.
@@ -45,10 +55,8 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(force_set_t), allocatable :: set
-
-      call new_force_set(k, set)
-      info = set%info()
+      call ask_all()
+      info = known(before_forces + k)
    end function force_info
 
    !> What kind number k of named functions says of itself.
@@ -56,10 +64,8 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(function_kind_t), allocatable :: kind
-
-      call new_function_kind(k, kind)
-      info = kind%info()
+      call ask_all()
+      info = known(before_functions + k)
    end function function_info
 
    !> What geometry number k says of itself.
@@ -67,10 +73,8 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(clearance_set_t), allocatable :: set
-
-      call new_clearance_set(k, set)
-      info = set%info()
+      call ask_all()
+      info = known(before_clearances + k)
    end function clearance_info
 
    !> What normal law number k says of itself.
@@ -78,10 +82,8 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(normal_law_t), allocatable :: law
-
-      call new_normal_law(k, law)
-      info = law%info()
+      call ask_all()
+      info = known(before_laws + k)
    end function law_info
 
    !> What friction law number k says of itself.
@@ -89,10 +91,8 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(friction_law_t), allocatable :: law
-
-      call new_friction_law(k, law)
-      info = law%info()
+      call ask_all()
+      info = known(before_frictions + k)
    end function friction_info
 
    !> What film number k says of itself.
@@ -100,72 +100,80 @@ contains
       integer, intent(in) :: k   !! number in the registry
       type(kind_info_t) :: info  !! the kind
 
-      class(film_law_t), allocatable :: law
-
-      call new_film_law(k, law)
-      info = law%info()
+      call ask_all()
+      info = known(before_films + k)
    end function film_info
 
    !> All kinds.
    subroutine all_kinds(kinds)
       type(kind_info_t), allocatable, intent(out) :: kinds(:)  !! (kinds) in the order of the manual
 
-      integer :: k, n
-
-      allocate (kinds(21 + n_joint_kinds + n_force_kinds + n_function_kinds + n_clearance_kinds + n_law_kinds &
-                      + n_friction_kinds + n_film_kinds))
-      kinds(1) = scene_info()
-      kinds(2) = bodies_info()
-      kinds(3) = points_info()
-      kinds(4) = spatial_bodies_info()
-      kinds(5) = spatial_points_info()
-      kinds(6) = shapes_info()
-      n = 6
-      do k = 1, n_joint_kinds
-         kinds(n + k) = joint_info(k)
-      end do
-      n = n + n_joint_kinds
-      do k = 1, n_force_kinds
-         kinds(n + k) = force_info(k)
-      end do
-      n = n + n_force_kinds
-      do k = 1, n_function_kinds
-         kinds(n + k) = function_info(k)
-      end do
-      n = n + n_function_kinds
-      kinds(n + 1) = material_info()
-      n = n + 1
-      do k = 1, n_clearance_kinds
-         kinds(n + k) = clearance_info(k)
-      end do
-      n = n + n_clearance_kinds
-      do k = 1, n_law_kinds
-         kinds(n + k) = law_info(k)
-      end do
-      n = n + n_law_kinds
-      do k = 1, n_friction_kinds
-         kinds(n + k) = friction_info(k)
-      end do
-      n = n + n_friction_kinds
-      kinds(n + 1) = lubricant_info()
-      n = n + 1
-      do k = 1, n_film_kinds
-         kinds(n + k) = film_info(k)
-      end do
-      n = n + n_film_kinds
-      kinds(n + 1) = dynamic_info()
-      kinds(n + 2) = kinematic_info()
-      kinds(n + 3) = static_info()
-      kinds(n + 4) = guards_info()
-      kinds(n + 5) = request_info()
-      kinds(n + 6) = motion_request_info()
-      kinds(n + 7) = reaction_info(is_spatial=.false.)
-      kinds(n + 8) = reaction_info(is_spatial=.true.)
-      kinds(n + 9) = output_info()
-      kinds(n + 10) = statistics_info()
-      kinds(n + 11) = sweep_info()
-      kinds(n + 12) = ensemble_info()
-      kinds(n + 13) = precision_section()
+      call ask_all()
+      kinds = known
    end subroutine all_kinds
+
+   !> Ask all kinds, unless that was done.
+   subroutine ask_all()
+      class(clearance_set_t), allocatable :: clearance
+      class(film_law_t), allocatable :: film
+      class(force_set_t), allocatable :: force
+      class(friction_law_t), allocatable :: friction
+      class(function_kind_t), allocatable :: function
+      class(joint_set_t), allocatable :: joint
+      class(normal_law_t), allocatable :: law
+      integer :: k
+
+      if (allocated(known)) return
+      allocate (known(before_settings + 13))
+      known(1) = scene_info()
+      known(2) = bodies_info()
+      known(3) = points_info()
+      known(4) = spatial_bodies_info()
+      known(5) = spatial_points_info()
+      known(6) = shapes_info()
+      do k = 1, n_joint_kinds
+         call new_joint_set(k, joint)
+         known(before_joints + k) = joint%info()
+      end do
+      do k = 1, n_force_kinds
+         call new_force_set(k, force)
+         known(before_forces + k) = force%info()
+      end do
+      do k = 1, n_function_kinds
+         call new_function_kind(k, function)
+         known(before_functions + k) = function%info()
+      end do
+      known(before_clearances) = material_info()
+      do k = 1, n_clearance_kinds
+         call new_clearance_set(k, clearance)
+         known(before_clearances + k) = clearance%info()
+      end do
+      do k = 1, n_law_kinds
+         call new_normal_law(k, law)
+         known(before_laws + k) = law%info()
+      end do
+      do k = 1, n_friction_kinds
+         call new_friction_law(k, friction)
+         known(before_frictions + k) = friction%info()
+      end do
+      known(before_films) = lubricant_info()
+      do k = 1, n_film_kinds
+         call new_film_law(k, film)
+         known(before_films + k) = film%info()
+      end do
+      known(before_settings + 1) = dynamic_info()
+      known(before_settings + 2) = kinematic_info()
+      known(before_settings + 3) = static_info()
+      known(before_settings + 4) = guards_info()
+      known(before_settings + 5) = request_info()
+      known(before_settings + 6) = motion_request_info()
+      known(before_settings + 7) = reaction_info(is_spatial=.false.)
+      known(before_settings + 8) = reaction_info(is_spatial=.true.)
+      known(before_settings + 9) = output_info()
+      known(before_settings + 10) = statistics_info()
+      known(before_settings + 11) = sweep_info()
+      known(before_settings + 12) = ensemble_info()
+      known(before_settings + 13) = precision_section()
+   end subroutine ask_all
 
 end module kind_list

@@ -13,7 +13,7 @@ module read_scene
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space, kind_info_t
-   use kind_list, only: all_kinds, clearance_info, force_info, friction_info, joint_info, law_info
+   use kind_list, only: ask_all, clearance_info, force_info, friction_info, joint_info, known, law_info
    use option_check, only: check_options
    use precision_info, only: check_precision, precision_section
    use lubricant, only: lubricant_info, oil_of_row
@@ -42,14 +42,13 @@ contains
       type(scene_t), intent(out) :: scene                 !! what it means
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      type(kind_info_t), allocatable :: kinds(:)
       type(directory_t) :: directory
       integer :: k
 
       call read_section(deck, scene_info(), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
-      call all_kinds(kinds)
-      call check_sections(deck, kinds, scene%settings%is_spatial, diagnostics)
+      call ask_all()
+      call check_sections(deck, known, scene%settings%is_spatial, diagnostics)
       call functions_from_deck(deck, scene, diagnostics)
       call read_analyses(deck, scene%settings, diagnostics)
       scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)

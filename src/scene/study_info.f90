@@ -1,6 +1,6 @@
 !> The sections that ask for statistics and for many runs: [statistics], [ensemble], [sweep].
 module study_info
-   use kind_info, only: add_duration, add_number, add_word, add_words, dim_length, dim_none, dim_speed, kind_info_t
+   use kind_info, only: add_duration, add_file, add_number, add_word, add_words, dim_length, dim_none, dim_speed, kind_info_t
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -56,6 +56,8 @@ contains
                     //"of all, then the second ones", default="grid", choices="grid paired")
       call add_word(info, "keep", "what sweep.h5 holds of each run: its numbers, or its channels too", default="numbers", &
                     choices="numbers channels")
+      call add_file(info, "file", "table of cases: the first line names parameters as `c[mm], speed[rpm], law`, each further one " &
+                    //"is a case; commas, semicolons, tabs or blanks between the cells", default="")
    end function sweep_info
 
 end module study_info

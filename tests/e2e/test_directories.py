@@ -235,22 +235,26 @@ def test_the_marker_names_what_was_made(gudgeon, place):
     assert found - {MARKER} <= set(named) and "figures/slider.velocity.png" in found
     for _ in range(2):
         run(gudgeon, place)
-    written(place, text + "\n[sweep]\nc = 0.5 0.2 mm\n")
-    for _ in range(3):
+    for c in (0.2, 0.3, 0.4):  # the same sweep would go on in its directory
+        written(place, text + f"\n[sweep]\nc = 0.5 {c} mm\n")
         run(gudgeon, place, "swept", verb="sweep")
     assert sorted(p.name for p in place.iterdir()) == ["out", "out.1", "scene.deck", "swept", "swept.1"]
 
 
 def test_failed_runs_of_a_sweep_go_with_it(gudgeon, place):
     """Directories of failed runs are the sweep's; notes among them are not."""
-    written(place, plain_deck(SHORT) + "\n[sweep]\nc = 0.5 20 mm\n")
-    run(gudgeon, place, verb="sweep", expect=8)
+
+    def swept(c):  # the same sweep would go on in its directory
+        written(place, plain_deck(SHORT) + f"\n[sweep]\nc = {c} 20 mm\n")
+        run(gudgeon, place, verb="sweep", expect=8)
+
+    swept(0.5)
     assert (place / "out" / "runs" / "2.log").exists()
-    run(gudgeon, place, verb="sweep", expect=8)
+    swept(0.4)
     (place / "out" / "runs" / "why.txt").write_text("mine")
-    run(gudgeon, place, verb="sweep", expect=8)
+    swept(0.3)
     assert not (place / "out.2").exists()
-    run(gudgeon, place, verb="sweep", expect=8)
+    swept(0.2)
     assert (place / "out.2" / "runs" / "why.txt").read_text() == "mine"
 
 

@@ -2,6 +2,7 @@
 
 import csv
 import functools
+import json
 import os
 import signal
 import subprocess
@@ -39,11 +40,13 @@ def contents(file):
     found = {}
 
     def look(name, node):
+        if name.startswith("provenance"):
+            return
         if isinstance(node, h5py.Dataset):
             value = plain(node[()])
             found[name] = value.tobytes() if isinstance(value, np.ndarray) else value
         for key, value in node.attrs.items():
-            if "provenance" not in name and key not in ("REFERENCE_LIST", "DIMENSION_LIST"):
+            if key not in ("REFERENCE_LIST", "DIMENSION_LIST"):
                 found[f"{name}@{key}"] = str(value)
 
     file.visititems(look)
@@ -178,6 +181,142 @@ def test_a_killed_sweep_leaves_what_is_done(gudgeon):
     again = written(directory, short("\n[sweep]\nc = 0.1 mm\n"))
     call(gudgeon, "sweep", again, "--out", directory / "out", "--quiet")
     assert (directory / "out.1" / "sweep.h5").exists()
+
+
+def merged(program, deck, parts, *options):
+    """The directory of a sweep made in parts, the last part first."""
+    out = scratch() / "out"
+    for part in range(parts, 0, -1):
+        call(program, "sweep", deck, "--out", out, "--quiet", "--shard", f"{part}/{parts}", *options)
+    call(program, "merge", out, "--quiet")
+    return out
+
+
+@pytest.mark.parametrize("keep", ["numbers", "channels"])
+def test_parts_make_the_whole(gudgeon, keep):
+    """The same file as of one sweep, whatever the number of parts, even after the deck is gone."""
+    whole = four_cases(gudgeon, 1)
+    text = short(SWEEP, "keep = channels\n")
+    if keep == "numbers":
+        text = short(SWEEP)
+        whole = swept(gudgeon, text)[0]
+    deck = written(scratch(), text)
+    for parts in (2, 3):
+        out = merged(gudgeon, deck, parts)
+        for name in ("sweep.csv", "cases.csv"):
+            assert (out / name).read_bytes() == (whole / name).read_bytes()
+        with h5py.File(whole / "sweep.h5") as a, h5py.File(out / "sweep.h5") as b:
+            assert contents(a) == contents(b)
+    deck.write_text("not a deck any more")
+    call(gudgeon, "merge", out, "--quiet")
+
+
+def test_parts_that_are_missing_or_of_another_deck(gudgeon):
+    directory = scratch()
+    deck = written(directory, short(SWEEP))
+    out = directory / "out"
+    assert "no parts" in call(gudgeon, "merge", out, expect=9).stderr
+    call(gudgeon, "sweep", deck, "--out", out, "--quiet", "--shard", "1/2")
+    assert "2 of 4 runs are missing" in call(gudgeon, "merge", out, expect=8).stderr
+    with h5py.File(out / "sweep.h5") as file:
+        assert list(file["runs/exit_code"]) == [0, -1, 0, -1]
+    deck = written(directory, short(SWEEP, end="5 ms"))
+    call(gudgeon, "sweep", deck, "--out", out, "--quiet", "--shard", "2/2")
+    assert "differ in: file " in call(gudgeon, "merge", out, expect=2).stderr
+    assert "as 3/20" in call(gudgeon, "sweep", deck, "--shard", "3/2", expect=2).stderr
+    assert "as 3/20" in call(gudgeon, "sweep", deck, "--shard", "3", expect=2).stderr
+
+
+def test_a_sweep_goes_on_where_it_was_killed(gudgeon):
+    """Only what is missing is made; the file is that of a sweep that nothing disturbed."""
+    text = short("\n[sweep]\nc = 0.1 .. 0.5 mm in 60\n", end="20 ms")
+    whole = swept(gudgeon, text)[0]
+    directory = scratch()
+    deck = written(directory, text)
+    command = [gudgeon, "sweep", deck, "--out", directory / "out", "--quiet", "--jobs", "1"]
+    process = subprocess.Popen(command)
+    journal = directory / "out" / "sweep.runs"
+    for _ in range(4000):
+        time.sleep(0.005)
+        if journal.exists() and journal.read_bytes().count(b"motor.moment.rms") >= 10:
+            break
+    process.kill()
+    process.wait()
+    with open(journal, "ab") as file:  # a block that was cut off
+        file.write(journal.read_bytes()[-50:-20])
+    done = call(gudgeon, "sweep", deck, "--out", directory / "out", "--json").stdout
+    assert 1 <= json.loads(done)["made"] <= 50
+    with h5py.File(whole / "sweep.h5") as a, h5py.File(directory / "out" / "sweep.h5") as b:
+        assert contents(a) == contents(b)
+    assert json.loads(call(gudgeon, "sweep", deck, "--out", directory / "out", "--json").stdout)["made"] == 0
+    assert not (directory / "out.1").exists()
+
+
+def test_a_deck_edited_meanwhile_changes_nothing(gudgeon):
+    """All rows are of the deck as it was at the beginning, and a warning names what changed."""
+    text = short("\n[sweep]\nc = 0.1 .. 0.5 mm in 40\n", end="20 ms")
+    whole = swept(gudgeon, text)[0]
+    directory = scratch()
+    written(directory, text, "base.deck")
+    deck = written(directory, 'deck = 1\ninclude "base.deck"\n')
+    process = subprocess.Popen([gudgeon, "sweep", deck, "--out", directory / "out", "--quiet", "--jobs", "1"])
+    for _ in range(4000):
+        time.sleep(0.005)
+        if (directory / "out" / "sweep.h5").exists():
+            break
+    written(directory, text.replace("restitution = 0.9", "restitution = 0.5"), "base.deck")
+    assert process.wait() == 0
+    assert (whole / "sweep.csv").read_bytes() == (directory / "out" / "sweep.csv").read_bytes()
+    assert "base.deck was changed while the sweep ran" in (directory / "out" / "summary.txt").read_text()
+
+
+def test_cases_from_a_file(gudgeon):
+    """A row is a case; with further parameters every combination."""
+    directory = scratch()
+    written(directory, "# of the bench\nc [mm], law, restitution\n0.5, hertz, 0.9\n\n0.2, lankarani_nikravesh, 0.8 # soft\n",
+            "cases.csv")
+    deck = written(directory, short('\n[sweep]\nfile = "cases.csv"\nspeed = 4000 5000 rpm\n'))
+    call(gudgeon, "sweep", deck, "--out", directory / "out", "--quiet")
+    rows = list(csv.DictReader((directory / "out" / "sweep.csv").open()))
+    assert [(row["law"], float(row["c [m]"]), float(row["restitution"])) for row in rows] == \
+        [("hertz", 5e-4, 0.9)] * 2 + [("lankarani_nikravesh", 2e-4, 0.8)] * 2
+    assert_close([float(row["speed [rad/s]"]) for row in rows], np.array([4000, 5000, 4000, 5000]) * np.pi / 30, relative=1e-15)
+    alone = short()
+    call(gudgeon, "run", written(directory, alone, "alone.deck"), "--out", directory / "alone", "--quiet", "--set", "c=0.2mm",
+         "--set", "restitution=0.8", "--set", "speed=5000rpm")
+    with h5py.File(directory / "out" / "sweep.h5") as file:
+        assert file["runs/values"][3].tobytes() == Run(directory / "alone").read("statistics/values").tobytes()
+
+
+@pytest.mark.parametrize(
+    "table, words",
+    [
+        ("cc[mm]\n1\n", "did you mean 'c'"),
+        ("c[mm]\n1 2\n", "has 2 cells"),
+        ("c[mm],law\n1,\n", "is empty"),
+        ("c[kg]\n1\n", "this is a mass"),
+        ("c[mm]\nx\n", "is not a number"),
+        ("law\n3\n", "this is not a word"),
+        ("law\nherz\n", "unknown"),
+        ("c[mm]\n", "has 0 rows"),
+        ("c[mm];c[mm]\n1;2\n", "swept twice"),
+        ("c[mm]\n1\n", "swept twice"),
+    ],
+)
+def test_mistakes_of_a_file_of_cases(gudgeon, table, words):
+    directory = scratch()
+    written(directory, table, "cases.txt")
+    more = "c = 1 mm\n" if words == "swept twice" and ";" not in table else ""
+    deck = written(directory, DECK.read_text() + f'\n[sweep]\nfile = "cases.txt"\n{more}')
+    done = call(gudgeon, "sweep", deck, "--out", directory / "out", expect=3)
+    assert words in done.stderr, done.stderr
+
+
+def test_a_sweep_through_a_pipe(gudgeon):
+    directory = scratch()
+    done = subprocess.run([gudgeon, "sweep", "/dev/stdin", "--out", directory / "out", "--quiet"], input=short(SWEEP), text=True)
+    assert done.returncode == 0
+    assert len((directory / "out" / "sweep.csv").read_text().splitlines()) == 5
 
 
 def left(directory):
