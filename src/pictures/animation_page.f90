@@ -207,22 +207,23 @@ contains
       character(*), parameter :: codes(6) = [character(2) :: "22", "27", "3c", "3e", "26", "5c"]
       character(*), parameter :: signs = """'<>&\"
       character(:), allocatable :: clean
+      type(buffer_t) :: buffer
       integer :: i, k
 
       clean = valid_utf8(text)
-      s = ""
       do i = 1, len(clean)
          k = index(signs, clean(i:i))
          if (iachar(clean(i:i)) < 32) then
-            s = s//" "
+            call buffer%add(" ")
          else if (k == 0) then
-            s = s//clean(i:i)
+            call buffer%add(clean(i:i))
          else if (in_page) then
-            s = s//"&#x"//codes(k)//";"
+            call buffer%add("&#x"//codes(k)//";")
          else
-            s = s//"\u00"//codes(k)
+            call buffer%add("\u00"//codes(k))
          end if
       end do
+      s = buffer%get()
    end function escaped
 
 end module animation_page
