@@ -42,7 +42,7 @@ export PYTHONDONTWRITEBYTECODE := 1
 parallel = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 inner = +@$(MAKE) $(parallel) MODE=
 
-.PHONY: all install uninstall debug run test test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
+.PHONY: all install uninstall debug run test test-sanitize test-debian check bench bench-peers vtk-test browser-test slurm-test stability certify fuzz figures studies film-table film-errors lint format docs clean help
 .PHONY: objects binary test_program bench_programs fuzz_program film_programs
 
 all:
@@ -62,6 +62,12 @@ test:
 	$(inner)debug binary test_program fuzz_program
 	@GUDGEON_BUILD=$(abspath $(BUILD)) PYTEST_DISABLE_PLUGIN_AUTOLOAD=1 \
 	  $(PYTHON) -B -m pytest -c tests/pytest.ini $(PYTEST) tests
+
+# The tests in a build with the sanitizers of addresses, leaks and undefined behaviour, an hour; what they say is in build/sanitize/reports
+test-sanitize:
+	@scripts/setup
+	$(inner)sanitize binary test_program
+	@scripts/test_sanitize $(abspath $(BUILD)) $(PYTEST)
 
 test-debian:
 	@scripts/test_debian $(SUITE) $(or $(DIR),$(BUILD)/debian/$(SUITE))
@@ -119,13 +125,21 @@ certify:
 	$(inner)release binary
 	@$(PYTHON) -B tests/accuracy/certify.py --build $(abspath $(BUILD)) $(CERTIFY)
 
-# N mutants in each build; FUZZ='--run 0.5 --seed 2' for options of tests/fuzz/fuzz.py
+# SECONDS=1800: guided by coverage, with the sanitizers, FUZZ='--seed 2' for options of tests/fuzz/guided.py. Without: N mutants in
+# each build; FUZZ='--run 0.5 --seed 2' for options of tests/fuzz/fuzz.py
 N ?= 1000
+ifeq ($(origin SECONDS),command line)
+fuzz:
+	$(inner)release binary fuzz_program
+	$(inner)sanitize fuzz_program
+	@$(PYTHON) -B tests/fuzz/guided.py --build $(BUILD) --seconds $(SECONDS) $(FUZZ)
+else
 fuzz:
 	$(inner)release binary fuzz_program
 	$(inner)debug binary fuzz_program
 	@$(PYTHON) -B tests/fuzz/fuzz.py --build $(abspath $(BUILD)) -n $(N) $(FUZZ)
 	@$(PYTHON) -B tests/fuzz/fuzz.py --build $(abspath $(BUILD)) --debug -n $(N) $(FUZZ)
+endif
 
 figures:
 	@scripts/setup
@@ -173,6 +187,8 @@ help:
 	@echo "make kill-test  runs killed at random moments, read and resumed; KILL='--kills 20' for options"
 	@echo "make certify    intervals of 'run --accuracy' against the true errors of 200 random decks; CERTIFY='-n 50' for options"
 	@echo "make fuzz       N=1000 broken decks through check, explain and run in both builds; FUZZ='--run 0.5' for options"
+	@echo "make fuzz SECONDS=1800  the deck reader, guided by coverage, in a build with sanitizers; FUZZ='--seed 2' for options"
+	@echo "make test-sanitize  the tests in a build with sanitizers of addresses, leaks, undefined behaviour: an hour; PYTEST='-k reader'"
 	@echo "make studies    the sweeps of inputs/studies, some minutes: STUDIES=--docs copies their results to docs/"
 	@echo "make film-table   the table of the film 'finite' anew, some minutes; make film-errors: docs/film_errors.csv"
 	@echo "make docs       docs/manual.md and the API pages      make clean    remove build/"
@@ -191,10 +207,10 @@ help:
 
 ifeq ($(MODE),release)
 B := $(BUILD)
-else ifeq ($(MODE),debug)
-B := $(BUILD)/debug
+else ifneq ($(filter $(MODE),debug sanitize),)
+B := $(BUILD)/$(MODE)
 else
-$(error MODE=$(MODE): release or debug)
+$(error MODE=$(MODE): release, debug or sanitize)
 endif
 
 ifneq ($(filter binary test_program bench_programs fuzz_program film_programs objects,$(MAKECMDGOALS)),)
@@ -228,6 +244,7 @@ BENCH_MAINS := $(sort $(shell grep -li '^program ' /dev/null $(wildcard tests/be
 FILM_MAINS := $(sort $(shell grep -li '^program ' /dev/null $(wildcard tests/films/*.f90)))
 FILM_HELPERS := $(sort $(filter-out $(FILM_MAINS),$(wildcard tests/films/*.f90)))
 FUZZ_MAIN := tests/fuzz/many_decks.f90
+COVERAGE := tests/fuzz/coverage.c
 BENCH_HELPERS := $(sort $(filter-out $(BENCH_MAINS),$(wildcard tests/bench/*.f90)))
 GENERATED := $(B)/build_info.f90 $(B)/tests/run_tests.f90
 
@@ -309,6 +326,13 @@ ifeq ($(MODE),release)
 # Loops here are short: as calls of memcpy and memset (loop-distribute-patterns) they take longer. Vectors of the two components
 # of a point (slp-vectorize) take longer too: they are put together from memory, just written, and taken apart again.
 OPTIMISE := -O3 -fno-tree-loop-distribute-patterns -fno-tree-slp-vectorize -g $(ARCH:%=-march=%)
+else ifeq ($(MODE),sanitize)
+# Wrong accesses and leaks of memory, and what the language leaves undefined: the first one ends the program.
+# Of the undefined in Fortran, sums, shifts and conversions: checks of the pointer at each access to a component make the compiler
+# take minutes for a file, and where an access is wrong the address tells.
+SANITIZE := -fno-sanitize-recover=all -fno-omit-frame-pointer -fsanitize=address,undefined,float-cast-overflow
+OPTIMISE := -O1 -g -fno-var-tracking -fno-sanitize-recover=all -fno-omit-frame-pointer \
+            -fsanitize=address,signed-integer-overflow,integer-divide-by-zero,shift,float-cast-overflow
 else
 # No trap for overflow: a number of a deck that leads there is told as one that is not finite, by both builds alike.
 OPTIMISE := -Og -g -fcheck=all,no-array-temps -ffpe-trap=invalid,zero -finit-real=snan \
@@ -316,7 +340,7 @@ OPTIMISE := -Og -g -fcheck=all,no-array-temps -ffpe-trap=invalid,zero -finit-rea
 endif
 FFLAGS := -std=f2018 -fimplicit-none $(WARNINGS) $(OPTIMISE)
 DEFINES := -DSUNDIALS_VERSION=$(SUNDIALS_VERSION) -DSUNDIALS_INDEX=$(SUNDIALS_INDEX)
-CFLAGS := -std=c11 -Wall -Wextra $(filter-out -f%,$(OPTIMISE))
+CFLAGS := -std=c11 -Wall -Wextra $(filter-out -f%,$(OPTIMISE))$(if $(SANITIZE), $(SANITIZE))
 PREFIX_MAP := -ffile-prefix-map=$(CURDIR)=.
 COMPILE = $(FC) $(FFLAGS) $(PREFIX_MAP) -J$(B)/mod -I$(B)/mod $(SUNDIALS_INCLUDE) $(HDF5_INCLUDE)
 LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
@@ -325,7 +349,7 @@ LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
 $(shell mkdir -p $(sort $(B)/mod $(B)/obj/gen $(B)/tests $(B)/bench $(B)/films \
   $(dir $(call object,$(SOURCES) $(C_SOURCES) src/main $(TEST_SOURCES) $(TEST_HELPERS) $(BENCH_MAINS) $(BENCH_HELPERS) \
-  $(FILM_MAINS) $(FILM_HELPERS) $(FUZZ_MAIN)))))
+  $(FILM_MAINS) $(FILM_HELPERS) $(FUZZ_MAIN) $(COVERAGE)))))
 $(shell { $(FC) --version | head -n 1; echo '$(COMPILE) $(DEFINES) $(CC) $(CFLAGS)'; } > $(B)/flags.new; \
   $(call keep_if_equal,$(B)/flags); \
   echo '$(OBJECTS) $(TEST_OBJECTS) $(LIBRARIES)' > $(B)/objects.new; $(call keep_if_equal,$(B)/objects); \
@@ -372,13 +396,20 @@ $(FILM_PROGRAMS): $(B)/films/%: $(B)/obj/tests/films/%.o $(call object,$(FILM_HE
 	@echo "  LD $@"
 	@$(LINK)
 
-$(B)/tests/many_decks: $(call object,$(FUZZ_MAIN)) $(OBJECTS) $(B)/objects
+$(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
 	@$(LINK)
 
 # What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs.
 ifeq ($(MODE),release)
 $(TEST_OBJECTS) $(call object,$(filter src/scene/% src/cli/%,$(SOURCES))): private FFLAGS += -O1
+endif
+
+# What reads decks and makes kinds of their rows notes where it goes, for `make fuzz SECONDS=`.
+ifeq ($(MODE),sanitize)
+COVERED := core math deck functions contact lubrication joints forces clearance scene build
+$(call object,$(filter $(COVERED:%=src/%/%),$(SOURCES))): private FFLAGS += -fsanitize-coverage=trace-pc
+$(B)/gudgeon $(B)/tests/run_tests: $(call object,$(COVERAGE))
 endif
 
 $(B)/obj/%.o: %.f90 $(B)/flags
@@ -399,6 +430,6 @@ $(B)/obj/%.o: %.c $(B)/flags
 	@echo "  CC $<"
 	@$(CC) $(CFLAGS) $(PREFIX_MAP) $(HDF5_INCLUDE) -MMD -MP -c $< -o $@
 
--include $(patsubst %.o,%.d,$(call object,$(C_SOURCES)))
+-include $(patsubst %.o,%.d,$(call object,$(C_SOURCES) $(COVERAGE)))
 
 endif

@@ -9,7 +9,7 @@ module channels
    use channel_names, only: component_letter, item_name, scalar_t
    use name_table, only: name_table_t
    use point_contacts, only: named_channels
-   use text, only: append_text, text_t
+   use text, only: text_t
    implicit none (type, external)
    private
    public :: chosen_t, find_scalars, item_finder_t, list_scalars, match_word, select_channels, selection_t
@@ -209,16 +209,16 @@ contains
       character(*), intent(in) :: word        !! a word of the deck
       type(text_t), allocatable :: parts(:)   !! (n) its parts, n at least 1
 
-      integer :: at, next
+      integer :: at, i, k, next
 
+      allocate (parts(1 + count([(word(i:i) == ".", i=1, len(word))])))
       next = 1
-      do
+      do k = 1, size(parts) - 1
          at = index(word(next:), ".")
-         if (at == 0) exit
-         call append_text(parts, word(next:next + at - 2))
+         parts(k)%s = word(next:next + at - 2)
          next = next + at
       end do
-      call append_text(parts, word(next:))
+      parts(size(parts))%s = word(next:)
    end function split_dots
 
    !> Every number of a selection, in the order of the catalogue.

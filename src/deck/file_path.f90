@@ -48,7 +48,11 @@ contains
       end do
       plain = join(parts(1:n), "/")
       k = min(1, len(path))
-      if (path(1:k) == "/") plain = "/"//plain
+      if (path(1:k) == "/") then
+         plain = "/"//plain
+      else if (n == 0 .and. k > 0) then
+         plain = "."
+      end if
    end function plain_path
 
 end module file_path

@@ -6,6 +6,7 @@ module settings
    use diagnostics, only: diagnostics_t
    use item, only: item_t
    use kind_info, only: is_of_space, kind_info_t
+   use name_table, only: name_table_t
    use table_header, only: column_index, column_list
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t, to_text
@@ -13,6 +14,8 @@ module settings
    implicit none (type, external)
    private
    public :: check_sections, has_section, read_settings
+
+   integer, parameter :: most_helped = 1000  !! mistakes with a hint of what was meant; far more than are shown
 
 contains
 
@@ -167,6 +170,7 @@ contains
       logical, intent(in) :: is_spatial               !! whether the scene is in space
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
+      type(name_table_t) :: seen(2)
       character(:), allocatable :: name
       integer :: first, i, k
       logical :: is_known, is_other
@@ -186,14 +190,13 @@ contains
             call mistakes%add(deck%sections(i)%location, "section "//name//" is not known in "//words_of(is_spatial), &
                               "a kind of "//words_of(.not. is_spatial), "the scene says space = " &
                               //trim(merge("spatial", "planar ", is_spatial)))
+         else if (.not. is_known .and. mistakes%count() >= most_helped) then
+            call mistakes%add(deck%sections(i)%location, "unknown section '"//name//"'", "not a section")
          else if (.not. is_known) then
             call report_unknown(deck, i, pack(kinds, is_of_space(kinds, is_spatial)), mistakes)
          else if (.not. kinds(k)%is_table) then
-            do first = 1, i
-               if (deck%sections(first)%name == name .and. (deck%sections(first)%location%file == 1 .eqv. &
-                                                            deck%sections(i)%location%file == 1)) exit
-            end do
-            if (first < i) call mistakes%add(deck%sections(i)%location, "section "//name//" stands twice", &
+            call seen(merge(1, 2, deck%sections(i)%location%file == 1))%enter(name, i, first)
+            if (first > 0) call mistakes%add(deck%sections(i)%location, "section "//name//" stands twice", &
                                 & "settings stand in one place", "first in line " &
                                 & //to_text(deck%sections(first)%location%line))
          end if

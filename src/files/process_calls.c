@@ -114,8 +114,19 @@ void gudgeon_begin(void)
    watch_memory();
 }
 
-/* Ends the program at once: everything is written, and libraries that tidy up may fail at it (HDF5 does after a failed write). */
-void gudgeon_end(int code) { _exit(code); }
+#ifdef __SANITIZE_ADDRESS__
+int __lsan_do_recoverable_leak_check(void);
+#endif
+
+/* Ends the program at once: everything is written, and libraries that tidy up may fail at it (HDF5 does after a failed write).
+ * A program with the address sanitizer looks for lost memory here, as it would at an ordinary end. */
+void gudgeon_end(int code)
+{
+#ifdef __SANITIZE_ADDRESS__
+   if (__lsan_do_recoverable_leak_check()) _exit(exit_internal);
+#endif
+   _exit(code);
+}
 
 /* A signal that ends this process ends the groups that it started, too. */
 static void end_groups(int signal_number)

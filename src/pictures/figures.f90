@@ -242,7 +242,7 @@ contains
       code = enter_file(folder//"/"//stem(name)//".log")
       if (code == 0) code = enter_file(folder//"/"//picture_of(name))
       if (code /= 0) return
-      code = start_program(folder, "gnuplot", [text_t("-d"), text_t(stem(name)//".gp")], stem(name)//".log", .true., process)
+      code = start_program(folder, "gnuplot", [text_t("-d"), text_t("./"//stem(name)//".gp")], stem(name)//".log", .true., process)
       if (code /= 0) process = 0
    end subroutine start_drawing
 

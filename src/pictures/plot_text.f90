@@ -71,17 +71,12 @@ contains
 
       integer :: code, i, n
 
-      s = ""
+      s = bytes
       i = 1
       do while (i <= len(bytes))
          call next_character(bytes(i:), n, code)
-         if (n == 0) then
-            s = s//"?"
-            i = i + 1
-         else
-            s = s//bytes(i:i + n - 1)
-            i = i + n
-         end if
+         if (n == 0) s(i:i) = "?"
+         i = i + max(n, 1)
       end do
    end function valid_utf8
 

@@ -85,11 +85,16 @@ contains
       subroutine look_up_joints(kinds)
          character(*), intent(in) :: kinds   !! blank-separated kinds, or a prefix ending in a dot
 
+         type(text_t), allocatable :: names(:)
          integer, allocatable :: place(:)
          integer :: k
 
          place = pack([(k, k=1, size(directory%joints))], [(is_among(directory%kinds(k)%s, kinds), k=1, size(directory%kinds))])
-         call look_up_all(directory%joints(place), "joint", words_of(kinds), .false.)
+         allocate (names(size(place)))
+         do k = 1, size(place)
+            names(k)%s = directory%joints(place(k))%s
+         end do
+         call look_up_all(names, "joint", words_of(kinds), .false.)
          do k = 1, size(items)
             associate (value => items(k)%values(c))
                if (value%index > 0) value%index = place(value%index)

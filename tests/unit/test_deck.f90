@@ -227,6 +227,7 @@ contains
       call check_equal(error, beside("a.deck", "b.inc"), "b.inc", "in the same directory")
       call check_equal(error, beside("inputs/a.deck", "/b.inc"), "/b.inc", "an absolute path")
       call check_equal(error, plain_path("./a//b/../c.deck"), "a/c.deck", "a plain path")
+      call check_equal(error, plain_path("a/.."), ".", "the directory itself")
       call check_equal(error, plain_path("../../a"), "../../a", "upwards")
       call check_equal(error, plain_path("/a/./b/"), "/a/b", "from the root")
    end subroutine test_file_paths
