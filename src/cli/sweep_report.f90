@@ -117,27 +117,32 @@ contains
       do k = 1, size(warnings)
          call lines%line("warning: "//warnings(k)%s)
       end do
-      call json%start(0)
-      call json%put_text("program", "gudgeon "//program_version)
-      call json%put_text("deck", loaded%path)
-      call json%put_text("title", loaded%scene%title)
-      call json%put_text("directory", work%plan%directory)
-      call json%put_text("status", state)
-      call json%put_text("message", failure_text(work))
-      call json%put_integer("cases", int(loaded%sweep%n_cases(), i8))
-      call json%put_integer("runs", int(work%n_mine(), i8))
-      call json%put_integer("made", int(work%n_made, i8))
-      call json%put_integer("failed", int(work%n_failed(), i8))
-      call json%put_integer("missing", int(work%n_missing(), i8))
-      call json%put_real("cpu_runs", work%cpu_made)
-      call json%put_real("cpu_all", cpu_of_all())
-      call json%put_list("figures", pictures)
-      call json%put_list("warnings", warnings)
+      call fill_json()
       call write_summaries(lines%get(), json%get()//new_line("a"))
       if (state == status_complete .or. allocated(error)) return
       call set_error(error, exit_sweep, failure_text(work)//where_text())
 
    contains
+
+      !> The same for scripts.
+      subroutine fill_json()
+         call json%start(0)
+         call json%put_text("program", "gudgeon "//program_version)
+         call json%put_text("deck", loaded%path)
+         call json%put_text("title", loaded%scene%title)
+         call json%put_text("directory", work%plan%directory)
+         call json%put_text("status", state)
+         call json%put_text("message", failure_text(work))
+         call json%put_integer("cases", int(loaded%sweep%n_cases(), i8))
+         call json%put_integer("runs", int(work%n_mine(), i8))
+         call json%put_integer("made", int(work%n_made, i8))
+         call json%put_integer("failed", int(work%n_failed(), i8))
+         call json%put_integer("missing", int(work%n_missing(), i8))
+         call json%put_real("cpu_runs", work%cpu_made)
+         call json%put_real("cpu_all", cpu_of_all())
+         call json%put_list("figures", pictures)
+         call json%put_list("warnings", warnings)
+      end subroutine fill_json
 
       !> How many runs are missing, if any.
       function missing_text() result(words)

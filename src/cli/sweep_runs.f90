@@ -60,7 +60,7 @@ contains
       integer, allocatable :: due(:), processes(:)
       integer :: at, code, ended, jobs, k, next, process
       integer(i8) :: began, now, rate
-      real(wp) :: pause
+      real(wp) :: interval
 
       due = pack([(k, k=1, size(work%is_done))], work%is_mine([(k, k=1, size(work%is_done))]) .and. .not. work%is_done)
       allocate (processes(size(due)), source=0)
@@ -68,7 +68,7 @@ contains
       if (jobs == 0) jobs = n_processors()
       call display%start(.not. options%is_quiet)
       call system_clock(began, rate)
-      pause = 0.0_wp
+      interval = 0.0_wp
       next = 1
       ended = 0
       do while (ended < size(due))
@@ -88,11 +88,11 @@ contains
          ended = ended + 1
          call display%update(real(ended, wp)/real(size(due), wp))
          call system_clock(now)
-         if (work%shard > 0 .or. seconds(began, now) < pause) cycle
+         if (work%shard > 0 .or. seconds(began, now) < interval) cycle
          call write_results(work, status_running, "", none, error)
          if (allocated(error)) return
          call system_clock(began)
-         pause = max(write_interval, write_share*seconds(now, began))
+         interval = max(write_interval, write_share*seconds(now, began))
       end do
       call display%finish()
 

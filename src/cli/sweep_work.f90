@@ -5,6 +5,7 @@ module sweep_work
    use kinds, only: wp
    use load, only: loaded_t
    use members, only: program_identity
+   use numbers, only: read_number
    use options, only: options_t
    use output_marker, only: enter_file
    use output_plan, only: output_plan_t
@@ -175,7 +176,8 @@ contains
       character(*), intent(in) :: settings         !! a line for each
       type(options_t), intent(inout) :: options    !! changed
 
-      integer :: first, last, status
+      integer :: first, last
+      logical :: is_good
 
       first = 1
       do while (first <= len(settings))
@@ -184,7 +186,7 @@ contains
             if (starts_with(line, "set ")) then
                call append_text(options%change%overrides, line(5:))
             else if (starts_with(line, "tolerance ")) then
-               read (line(11:), *, iostat=status) options%change%tolerance
+               call read_number(line(11:), 0, options%change%tolerance, is_good)
             else if (starts_with(line, "method ")) then
                options%change%method = line(8:)
             else

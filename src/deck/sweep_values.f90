@@ -10,7 +10,7 @@ module sweep_values
    use diagnostics, only: diagnostics_t
    use dimension_text, only: dimension_name, unit_text
    use expression_compile, only: dimension_agrees, symbol_broken, symbol_number, symbol_word
-   use item, only: item_t, location_t, place_of
+   use item, only: item_t, location_t, place_of, value_t
    use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
    use name_table, only: name_table_t
@@ -41,7 +41,7 @@ contains
 
       type(item_t) :: own
       type(name_table_t) :: table
-      type(swept_t), allocatable :: of_file(:), swept(:)
+      type(swept_t), allocatable :: swept(:)
       integer :: k, key, n, previous, section
       logical :: is_good
 
@@ -85,21 +85,35 @@ contains
                                               & "it has its values already")
          end associate
       end do
-      allocate (of_file(0))
+      sweep%parameters = swept(:n)
       associate (value => own%values(place_of(own, "file")))
-         if (value%given .and. mistakes%count() == 0) call read_sweep_table(deck, value, of_file, mistakes)
+         if (value%given .and. mistakes%count() == 0) call add_table(deck, value, sweep, table, mistakes)
       end associate
-      do k = 1, size(of_file)
-         call table%enter(of_file(k)%name, n + k, previous)
-         if (previous > 0) call mistakes%add(of_file(k)%location, "parameter '"//of_file(k)%name//"' is swept twice", &
-                                           & "the file has values of it, or has it twice")
-      end do
-      sweep%n_together = max(1, size(of_file))
-      sweep%parameters = [of_file, swept(:n)]
       sweep%is_paired = own%word("combine") == "paired"
       sweep%keeps_channels = own%word("keep") == "channels"
       call check_whole(deck, section, sweep, mistakes)
    end subroutine read_sweep
+
+   !> Put the parameters of a file before those of the deck.
+   subroutine add_table(deck, value, sweep, table, mistakes)
+      type(deck_t), intent(inout) :: deck             !! the deck; takes the file
+      type(value_t), intent(in) :: value              !! the key that names it
+      type(sweep_t), intent(inout) :: sweep           !! grown
+      type(name_table_t), intent(inout) :: table      !! names so far
+      type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+
+      type(swept_t), allocatable :: of_file(:)
+      integer :: k, previous
+
+      call read_sweep_table(deck, value, of_file, mistakes)
+      do k = 1, size(of_file)
+         call table%enter(of_file(k)%name, size(sweep%parameters) + k, previous)
+         if (previous > 0) call mistakes%add(of_file(k)%location, "parameter '"//of_file(k)%name//"' is swept twice", &
+                                           & "the file has values of it, or has it twice")
+      end do
+      sweep%n_together = max(1, size(of_file))
+      sweep%parameters = [of_file, sweep%parameters]
+   end subroutine add_table
 
    !> A sweep has parameters; paired ones have as many values as one another.
    subroutine check_whole(deck, section, sweep, mistakes)

@@ -10,7 +10,7 @@ module sweep_journal
    use member_result, only: member_result_t
    use packed, only: packer_t, unpacker_t
    use system_file, only: read_file
-   use text, only: text_t
+   use text, only: piece
    use text_file, only: replace_file, text_file_t
    implicit none (type, external)
    private
@@ -259,7 +259,7 @@ contains
          if (len(a%files(k)%bytes) == len(b%files(k)%bytes) .and. a%files(k)%bytes == b%files(k)%bytes) cycle
          words = words//", file "//b%files(k)%path
       end do
-      if (len(words) > 0) words = words(3:)
+      words = piece(words, len(", ") + 1)
    end function differences
 
 end module sweep_journal

@@ -27,7 +27,7 @@ module sweep_results
       real(wp), allocatable :: strobe_times(:)      !! (m) instants once per period [s]
       real(wp), allocatable :: strobes(:, :)        !! (own channels, m) its channels at them, SI [any]
       integer, allocatable :: strobe_order(:)       !! (own channels) their numbers in `strobe_names`
-      real(wp) :: cpu(2) = 0.0_wp                   !! processor time of its start and of itself [s]
+      real(wp) :: cpu(2) = 0.0_wp                   !! (2) processor time of its start and of itself [s]
    end type run_result_t
 
    !> All results.
