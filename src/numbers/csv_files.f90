@@ -84,7 +84,7 @@ contains
    end subroutine convert
 
    !> Characters of a `.dat` file as those of the other.
-   pure subroutine take(store, place, text)
+   subroutine take(store, place, text)
       character(*), intent(in) :: store                !! what was read
       type(place_t), intent(inout) :: place            !! where in a line it begins, and then ends
       character(:), allocatable, intent(out) :: text   !! the same with commas
@@ -121,7 +121,7 @@ contains
    contains
 
       !> One more character.
-      pure subroutine put(c)
+      subroutine put(c)
          character, intent(in) :: c   !! the character
 
          n = n + 1
