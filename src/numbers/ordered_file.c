@@ -11,9 +11,10 @@
  *       halves while the node itself still holds all), then lists of names;
  *    4. object headers, with the lengths of datasets.
  *
- * The first flush writes the superblock last, so that there is a file or none. A block is one write, and a node or header is small:
- * the file system makes it whole. Limits: not for power failures, which order nothing; not where the library, between two flushes,
- * frees a place that the file points to and takes it again (appending rows frees nothing).
+ * The first flush writes the superblock last, so that there is a file or none. A block is one write. The system makes a write page by
+ * page, and a process that is killed may have made the first pages only: a block that fits into a page never lies in two. Nodes and
+ * headers do. Limits: not for power failures, which order nothing; not for a header or heap longer than a page; not where the library,
+ * between two flushes, frees a place that the file points to and takes it again (appending rows frees nothing).
  */
 #define _GNU_SOURCE
 
@@ -24,6 +25,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+enum { page = 4096 };  /* bytes; where the system's pages are larger they are multiples of it */
 
 /* Metadata that waits. */
 typedef struct {
@@ -95,9 +98,21 @@ static herr_t ordered_close(H5FD_t *file)
 static herr_t ordered_query(const H5FD_t *file, unsigned long *flags)
 {
    (void)file;
-   /* not: H5FD_FEAT_ACCUMULATE_METADATA, which would join blocks of several kinds */
-   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DATA_SIEVE;
+   /* not: H5FD_FEAT_ACCUMULATE_METADATA, which would join blocks of several kinds; H5FD_FEAT_AGGREGATE_METADATA, which would ask for
+      places of several blocks at once */
+   *flags = H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DATA_SIEVE;
    return 0;
+}
+
+/* A place at the end for a block; metadata that fits into a page gets one within a page. */
+static haddr_t ordered_alloc(H5FD_t *file, H5FD_mem_t type, hid_t transfer, hsize_t size)
+{
+   (void)transfer;
+   ordered_t *self = (ordered_t *)file;
+   haddr_t address = self->end;
+   if (type != H5FD_MEM_DRAW && size <= page && address % page + size > page) address += page - address % page;
+   self->end = address + size;
+   return address;
 }
 
 static haddr_t ordered_get_eoa(const H5FD_t *file, H5FD_mem_t type)
@@ -276,6 +291,7 @@ static const H5FD_class_t ordered_class = {
    .open = ordered_open,
    .close = ordered_close,
    .query = ordered_query,
+   .alloc = ordered_alloc,
    .get_eoa = ordered_get_eoa,
    .set_eoa = ordered_set_eoa,
    .get_eof = ordered_get_eof,

@@ -1,5 +1,6 @@
 /* Preloaded before the program: a SIGKILL at the n-th write to run.h5, or another file (-DNAME), with GUDGEON_KILL_AT=n. Without it each of
- * them is a line on the standard error. */
+ * them is a line on the standard error. A write at a place is one for each page, as the system makes it; a node or a heap in two pages is
+ * a line, too. */
 #define _GNU_SOURCE
 
 #include <dlfcn.h>
@@ -37,14 +38,26 @@ ssize_t write(int file, const void *bytes, size_t size)
    return ((write_t *)dlsym(RTLD_NEXT, "write"))(file, bytes, size);
 }
 
-ssize_t pwrite(int file, const void *bytes, size_t size, off_t at)
+static ssize_t write_pages(int file, const char *bytes, size_t size, off_t at)
 {
-   count(file);
-   return ((pwrite_t *)dlsym(RTLD_NEXT, "pwrite"))(file, bytes, size, at);
+   enum { page = 4096 };
+   static const char *const signatures[] = {"TREE", "SNOD", "HEAP"};
+   const int is_short = size <= page && (size_t)(at % page) + size > page;
+   for (int k = 0; k < 3; k++) {
+      if (is_short && memcmp(bytes, signatures[k], 4) == 0) fprintf(stderr, "%s in two pages\n", signatures[k]);
+   }
+   size_t done = 0;
+   while (done < size) {
+      size_t part = page - (size_t)(at + (off_t)done) % page;
+      if (part > size - done) part = size - done;
+      count(file);
+      ssize_t n_written = ((pwrite_t *)dlsym(RTLD_NEXT, "pwrite"))(file, bytes + done, part, at + (off_t)done);
+      if (n_written <= 0) return done > 0 ? (ssize_t)done : n_written;
+      done += (size_t)n_written;
+   }
+   return (ssize_t)done;
 }
 
-ssize_t pwrite64(int file, const void *bytes, size_t size, off_t at)
-{
-   count(file);
-   return ((pwrite_t *)dlsym(RTLD_NEXT, "pwrite"))(file, bytes, size, at);
-}
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t at) { return write_pages(file, bytes, size, at); }
+
+ssize_t pwrite64(int file, const void *bytes, size_t size, off_t at) { return write_pages(file, bytes, size, at); }

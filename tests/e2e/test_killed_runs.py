@@ -76,6 +76,7 @@ def test_a_run_killed_at_any_write(gudgeon, tmp_path, condition):
 
     done = killed(tmp_path / "whole")
     assert done.returncode == 0, done
+    assert "in two pages" not in done.stderr
     writes = done.stderr.count("write to run.h5")
     whole, status, message = histories(tmp_path / "whole" / "run.h5")
     assert status == "complete" and bool(message) == bool(condition)

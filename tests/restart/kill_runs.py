@@ -11,6 +11,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -137,6 +138,11 @@ def try_restarts(program, n, rng):
                 done += hits
 
 
+def has_begun(path):
+    """Whether there is a file of HDF5: before its first flush it is empty, or without its first line."""
+    return path.exists() and path.open("rb").read(4) == b"\x89HDF"
+
+
 def try_kills(program, n, rng):
     """Kills of runs that write all the time: every file can be read, and lacks no more than the last block."""
     blocks = []
@@ -147,12 +153,15 @@ def try_kills(program, n, rng):
         seconds = duration(program, path, directory / "whole")
         whole = contents(directory / "whole" / "run.h5")
         while len(blocks) < n:
-            out = directory / "killed"
+            out = directory / f"killed_{len(blocks)}"
             process = start(program, path, out)
-            time.sleep(rng.uniform(0.1 * seconds, seconds))
+            while process.poll() is None and not has_begun(out / "run.h5"):
+                time.sleep(0.002)
+            time.sleep(rng.uniform(0, seconds))
             process.send_signal(signal.SIGKILL)
             process.communicate()
             if process.returncode == 0:
+                shutil.rmtree(out)
                 continue
             found = contents(out / "run.h5")
             rows = len(found["time"])
@@ -167,6 +176,7 @@ def try_kills(program, n, rng):
             lines = sum(1 for line in text.splitlines() if line[:1] not in ("#", '"'))
             blocks.append(lines - rows)
             assert rows + 256 >= lines, (rows, lines)
+            shutil.rmtree(out)
     print(f"kills: {len(blocks)} files of {n} readable; rows behind the text files: at most {max(blocks)}")
 
 
