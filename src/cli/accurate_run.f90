@@ -41,8 +41,8 @@ contains
 
       type(setting_t) :: setting
 
-      if (options%accuracy <= 0.0_wp) then
-         if (options%budget > 0.0_wp) call set_error(error, exit_usage, "option --budget of run is for --accuracy")
+      if (options%digits%accuracy <= 0.0_wp) then
+         if (options%digits%budget > 0.0_wp) call set_error(error, exit_usage, "option --budget of run is for --accuracy")
       else if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --accuracy is for the section [analysis.dynamic]: a kinematic or static "// &
                         "analysis solves its equations to the tolerance asked for")
@@ -91,8 +91,9 @@ contains
       job%with_contact_rows = plan%with%contact_rows
       asked = reshape([(scalars(k)%group, scalars(k)%component, scalars(k)%item, k=1, size(scalars))], [3, size(scalars)])
       stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(catalogue) + 3*size(scalars), wp)/most_kept)
-      plan%accuracy%asked = options%accuracy
-      call budget%begin(merge(options%budget, loaded%scene%settings%precision%number("budget"), options%budget > 0.0_wp))
+      plan%accuracy%asked = options%digits%accuracy
+      call budget%begin(merge(options%digits%budget, loaded%scene%settings%precision%number("budget"), &
+                              options%digits%budget > 0.0_wp))
       call display%start(plan%with%progress)
       call find_accuracy(job, budget, loaded%scene%settings%dynamic%word("method"), asked, stride, display, plan%accuracy)
       call display%finish()

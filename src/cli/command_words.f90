@@ -85,7 +85,8 @@ module command_words
       !! in the order of the help
 
    integer, parameter :: exit_codes(*) = [exit_ok, exit_different, exit_usage, exit_deck, exit_assembly, exit_integration, &
-                                          exit_audit, exit_stopped, exit_sweep, exit_file, exit_internal]  !! that a run may end with
+                                          exit_audit, exit_stopped, exit_sweep, exit_file, exit_internal]
+      !! that a run may end with
    character(*), parameter :: exit_meanings(size(exit_codes)) = [character(60) :: &
       "done", "compared and found different", "a wrong command line", "a mistake in the deck", &
       "the mechanism cannot be assembled", "the integration failed", &

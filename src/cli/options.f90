@@ -58,6 +58,13 @@ module options
       integer(i8) :: begun = 0                       !! when the program began, on the clock of `clock_ms` [ms]
    end type restart_options_t
 
+   !> How right the numbers are.
+   type :: digits_options_t
+      real(wp) :: accuracy = 0.0_wp                  !! `--accuracy X`; 0: as the deck says [1]
+      real(wp) :: budget = 0.0_wp                    !! `--budget TIME`; 0: as the deck says [s]
+      logical :: with_horizon = .false.              !! `--horizon`
+   end type digits_options_t
+
    !> What the user asked for.
    type :: options_t
       character(:), allocatable :: verb              !! one of `known_verbs`
@@ -67,12 +74,10 @@ module options
       character(:), allocatable :: write             !! `--write W`: numbers, channels or all; nothing, in a sweep
       type(runs_options_t) :: runs                   !! how many runs are made
       character(:), allocatable :: methods           !! `--methods LIST`; unallocated: as the deck says
-      real(wp) :: accuracy = 0.0_wp                  !! `--accuracy X`; 0: as the deck says [1]
-      real(wp) :: budget = 0.0_wp                    !! `--budget TIME`; 0: as the deck says [s]
+      type(digits_options_t) :: digits               !! how right the numbers are
       character(:), allocatable :: command           !! the whole command line
       logical :: is_quiet = .false.                  !! `--quiet`
       logical :: is_json = .false.                   !! `--json`
-      logical :: with_horizon = .false.              !! `--horizon`
       logical :: is_csv = .false.                    !! `--csv`
       type(restart_options_t) :: restart             !! runs that are stopped and go on
       type(help_options_t) :: help                   !! what help is asked for
@@ -161,7 +166,7 @@ contains
       case ("--ideal"); options%change%is_ideal = .true.
       case ("--quiet"); options%is_quiet = .true.
       case ("--json"); options%is_json = .true.
-      case ("--horizon"); options%with_horizon = .true.
+      case ("--horizon"); options%digits%with_horizon = .true.
       case ("--csv"); options%is_csv = .true.
       case ("--adams"); options%legacy%with_adams = .true.
       case ("--statistics"); options%legacy%by_statistics = .true.
@@ -203,9 +208,9 @@ contains
          case ("--analysis"); options%change%analysis = value
          case ("--set"); call append_text(options%change%overrides, value)
          case ("--methods"); options%methods = value
-         case ("--accuracy"); call take_accuracy(word, value, options%accuracy, error)
+         case ("--accuracy"); call take_accuracy(word, value, options%digits%accuracy, error)
          case ("--walltime"); call take_time(word, value, options%restart%walltime, error)
-         case ("--budget"); call take_time(word, value, options%budget, error)
+         case ("--budget"); call take_time(word, value, options%digits%budget, error)
          case ("--tolerance")
             is_finite = number_length(value) == len(value) .and. len(value) > 0
             if (is_finite) call read_number(value, 0, options%change%tolerance, is_finite)

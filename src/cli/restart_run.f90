@@ -34,7 +34,7 @@ contains
       if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option "//option//" is for motions of [analysis.dynamic]; this deck's analysis is "// &
                         trim(analysis_names(loaded%scene%analysis)))
-      else if (options%accuracy > 0.0_wp) then
+      else if (options%digits%accuracy > 0.0_wp) then
          call set_error(error, exit_usage, "options "//option//" and --accuracy exclude each other: the latter makes several "// &
                         "runs, which are not saved"//new_line("a")//"  = run with the tolerance that --accuracy finds: "// &
                         "--tolerance X "//option)

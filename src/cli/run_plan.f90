@@ -104,7 +104,7 @@ contains
       plan%origin%kernels = blas_kernels()
       plan%origin%choices = "--write "//options%write
       if (options%change%member > 0) plan%origin%choices = plan%origin%choices//" --member "//to_text(options%change%member)
-      if (options%with_horizon) plan%origin%choices = plan%origin%choices//" --horizon"
+      if (options%digits%with_horizon) plan%origin%choices = plan%origin%choices//" --horizon"
       plan%life%begun = options%restart%begun
       plan%life%walltime = options%restart%walltime
       call get_includes(loaded%deck, plan%origin%include_names, plan%origin%include_texts)

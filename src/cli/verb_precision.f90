@@ -122,9 +122,9 @@ contains
 
       associate (asked => loaded%scene%settings%precision)
          study%budget = asked%number("budget")
-         if (options%budget > 0.0_wp) study%budget = options%budget
+         if (options%digits%budget > 0.0_wp) study%budget = options%digits%budget
          study%accuracy = asked%number("accuracy")
-         if (options%accuracy > 0.0_wp) study%accuracy = options%accuracy
+         if (options%digits%accuracy > 0.0_wp) study%accuracy = options%digits%accuracy
          study%wanted = findloc(error_names == asked%word("error"), .true., dim=1)
       end associate
       study%machine%processor = processor_name()

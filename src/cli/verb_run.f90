@@ -71,7 +71,7 @@ contains
       if (.not. allocated(error) .and. options%write /= "nothing") then
          call check_size(options, loaded, directory_of(options, loaded), error)
       end if
-      if (.not. allocated(error) .and. options%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
+      if (.not. allocated(error) .and. options%digits%with_horizon .and. loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --horizon is for motions of [analysis.dynamic]; this deck's analysis is "// &
                         trim(analysis_names(loaded%scene%analysis)))
       end if
@@ -117,7 +117,7 @@ contains
       plan%life%is_concluded_later = .true.
       plan%life%goes_on = goes_on
       plan%life%stop_at = stop_at
-      if (options%accuracy > 0.0_wp) then
+      if (options%digits%accuracy > 0.0_wp) then
          call choose_tolerance(options, loaded, plan, error)
          if (.not. allocated(error)) then
             plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
@@ -129,16 +129,12 @@ contains
       end if
       call new_method(loaded%scene, method)
       call limits_of(loaded%scene, loaded%system, loaded%catalogue, limits, plan%warnings)
-      if (options%with_horizon) call look_ahead(options, loaded, plan%horizon)
+      if (options%digits%with_horizon) call look_ahead(options, loaded, plan%horizon)
       keeper%plan = plan
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")
       call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
       call check_schedule(options, loaded, method, size(subsystems), error)
-      if (goes_on .and. .not. allocated(error)) then
-         allocate (saved)
-         call read_checkpoint(plan, saved, error)
-         if (.not. allocated(error)) keeper%plan%life%resumed_from = saved%t
-      end if
+      if (goes_on .and. .not. allocated(error)) call take_up(keeper%plan, saved, error)
       if (allocated(error)) then
          call directory%close()
          return
@@ -152,6 +148,17 @@ contains
       if (present(member)) call keeper%result(member)
       call end_as_asked(summary, error)
    end subroutine run_motion
+
+   !> What an earlier run has saved.
+   subroutine take_up(plan, saved, error)
+      type(output_plan_t), intent(inout) :: plan                   !! of the run; learns where it goes on
+      type(saved_run_t), allocatable, intent(out) :: saved         !! what was saved
+      type(error_t), allocatable, intent(out) :: error             !! it cannot be read, or is of another run
+
+      allocate (saved)
+      call read_checkpoint(plan, saved, error)
+      if (.not. allocated(error)) plan%life%resumed_from = saved%t
+   end subroutine take_up
 
    !> After the motion: that of the ideal twin for the figures, the figures, the summary.
    subroutine conclude(loaded, ideal, keeper, summary, error)

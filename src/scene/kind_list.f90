@@ -161,6 +161,11 @@ contains
          call new_film_law(k, film)
          known(before_films + k) = film%info()
       end do
+      call ask_settings()
+   end subroutine ask_all
+
+   !> Ask the sections of settings.
+   subroutine ask_settings()
       known(before_settings + 1) = dynamic_info()
       known(before_settings + 2) = kinematic_info()
       known(before_settings + 3) = static_info()
@@ -174,6 +179,6 @@ contains
       known(before_settings + 11) = sweep_info()
       known(before_settings + 12) = ensemble_info()
       known(before_settings + 13) = precision_section()
-   end subroutine ask_all
+   end subroutine ask_settings
 
 end module kind_list
