@@ -28,7 +28,8 @@ contains
       call expect("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq", &
                   "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1", error)
       if (allocated(error)) return
-      call expect("abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmnoijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu", &
+      call expect("abcdefghbcdefghicdefghijdefghijkefghijklfghijklmghijklmnhijklmno"// &
+                  "ijklmnopjklmnopqklmnopqrlmnopqrsmnopqrstnopqrstu", &
                   "cf5b16a778af8380036ce59e7b0492370b249b11e8f07a51afac45037afee9d1", error)
       if (allocated(error)) return
       call expect(repeat("a", 1000000), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0", error)
