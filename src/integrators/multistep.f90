@@ -380,6 +380,10 @@ contains
       self%is_fresh = .true.
       self%first_step = 0.0_wp
       self%last%has_polynomial = .false.
+      ! a new library: one that was at work keeps matrices and pivots
+      deallocate (self%library)
+      call self%make_library()
+      call self%library%open(size(self%step%y1))
    end subroutine multistep_load
 
 end module multistep

@@ -128,13 +128,16 @@ module klu
       integer(c_int), allocatable :: column(:)         !! (n + 1) place of the first entry of each column, from 0
       integer(c_int), allocatable :: row(:)            !! (entries) rows, from 0
       real(wp), allocatable :: a(:)                    !! (entries) values [any]
+      real(wp), allocatable :: chosen_for(:)           !! (entries) values that the pivots in use were chosen for [any]
       type(klu_common_t), private :: common            !! KLU's parameters
       type(c_ptr), private :: symbolic = c_null_ptr    !! KLU's analysis
       type(c_ptr), private :: numeric = c_null_ptr     !! KLU's factors
    contains
       procedure :: analyse => lu_analyse
       procedure :: is_analysed => lu_is_analysed
+      procedure :: has_factors => lu_has_factors
       procedure :: factorise => lu_factorise
+      procedure :: forget => lu_forget
       procedure :: solve => lu_solve
       final :: lu_free
    end type sparse_lu_t
@@ -152,6 +155,7 @@ contains
       self%common%scale = no_scaling
       self%common%btf = 0_c_int
       self%symbolic = klu_analyze(int(self%n, c_int), self%column, self%row, self%common)
+      allocate (self%chosen_for(size(self%a)), source=0.0_wp)
    end subroutine lu_analyse
 
    !> Whether the matrix has been ordered.
@@ -160,6 +164,22 @@ contains
 
       is_analysed = c_associated(self%symbolic)
    end function lu_is_analysed
+
+   !> Whether there are factors, and with them pivots.
+   pure logical function lu_has_factors(self) result(has_factors)
+      class(sparse_lu_t), intent(in) :: self  !! the matrix
+
+      has_factors = c_associated(self%numeric)
+   end function lu_has_factors
+
+   !> Forget factors and pivots: the next factorisation chooses new ones.
+   subroutine lu_forget(self)
+      class(sparse_lu_t), intent(inout) :: self  !! the matrix
+
+      integer(c_int) :: unused
+
+      if (c_associated(self%numeric)) unused = klu_free_numeric(self%numeric, self%common)
+   end subroutine lu_forget
 
    !> Factorise the present values: with the pivots of before, or with new ones where these have become bad.
    subroutine lu_factorise(self, bad)
@@ -173,13 +193,14 @@ contains
          done = klu_refactor(self%column, self%row, self%a, self%symbolic, self%numeric, self%common)
          if (done /= 0_c_int) done = klu_rcond(self%symbolic, self%numeric, self%common)
          if (done /= 0_c_int .and. self%common%rcond > least_rcond) return
-         done = klu_free_numeric(self%numeric, self%common)
+         call self%forget()
       end if
+      self%chosen_for(:) = self%a
       self%numeric = klu_factor(self%column, self%row, self%a, self%symbolic, self%common)
       if (c_associated(self%numeric)) then
          done = klu_rcond(self%symbolic, self%numeric, self%common)
          if (self%common%rcond > least_rcond) return
-         done = klu_free_numeric(self%numeric, self%common)
+         call self%forget()
       end if
       bad = modulo(int(self%common%singular_col), self%n) + 1
    end subroutine lu_factorise
@@ -200,7 +221,7 @@ contains
 
       integer(c_int) :: unused
 
-      if (c_associated(self%numeric)) unused = klu_free_numeric(self%numeric, self%common)
+      call self%forget()
       if (c_associated(self%symbolic)) unused = klu_free_symbolic(self%symbolic, self%common)
    end subroutine lu_free
 

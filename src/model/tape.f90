@@ -180,7 +180,7 @@ contains
       integer :: n
 
       call get_integer(self, n)
-      self%is_good = self%is_good .and. n >= 0 .and. self%place + n <= self%n
+      self%is_good = self%is_good .and. n >= 0 .and. n <= self%n - self%place
       allocate (values(merge(n, 0, self%is_good)), source=0.0_wp)
       call get_reals(self, values)
    end subroutine tape_get_list

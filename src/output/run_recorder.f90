@@ -22,25 +22,22 @@ module run_recorder
    use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
    use motion_writer, only: motion_name, motion_writer_t
-   use output_plan, only: output_plan_t, show_json, show_nothing, show_summary
+   use output_plan, only: output_plan_t
    use plot_table, only: plot_table_t
-   use posix, only: write_error
    use progress, only: progress_t
-   use recorder, only: event_t, recorder_t, row_instant, status_complete, status_failed, status_stopped, summary_t
-   use report_page, only: report_name, report_text
+   use recorder, only: event_t, recorder_t, row_instant, status_complete, status_stopped, summary_t
    use saved_run, only: saved_run_t
    use scene_poses, only: pose_reader_t
-   use standard_output, only: print_text
    use statistics, only: number_t, statistics_t
    use statistics_plots, only: statistics_table
-   use summary_writer, only: complete_summary, outcome_t, summary_json, summary_lines
-   use text, only: append_text, printable, text_t, to_text
-   use text_file, only: replace_file, write_file
+   use summary_writer, only: complete_summary, outcome_t
+   use text, only: append_text, text_t, to_text
+   use text_file, only: write_file
    use text_table, only: file_heading
    use text_writer, only: text_writer_t
    implicit none (type, external)
    private
-   public :: run_recorder_t
+   public :: join_errors, run_recorder_t
 
    !> When a run was looked after, and how long it takes from one instant at which it can be saved to the next.
    type :: pace_t
@@ -121,6 +118,20 @@ module run_recorder
          implicit none (type, external)
          class(run_recorder_t), intent(inout) :: self       !! the recorder
       end subroutine forget_checkpoint
+
+      !> Write the summaries and show what is wanted of them.
+      module subroutine write_summary(self, error)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder, its run finished
+         type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+      end subroutine write_summary
+
+      !> The summaries of a run that ends while its figures are made: they are replaced when those are there.
+      module subroutine write_without_figures(self, error)
+         implicit none (type, external)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder, its run finished
+         type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
+      end subroutine write_without_figures
    end interface
 
 contains
@@ -393,8 +404,11 @@ contains
          if (self%plan%with%motion) call append_text(outcome%files, motion_name)
       end associate
       self%is_broken = self%is_broken .or. allocated(error)
-      if (self%plan%life%is_concluded_later) return
-      call self%conclude(second)
+      if (self%plan%life%is_concluded_later) then
+         call write_without_figures(self, second)
+      else
+         call self%conclude(second)
+      end if
       call join_errors(error, second)
    end subroutine finish_run
 
@@ -415,7 +429,7 @@ contains
       else if (self%plan%with%figures .and. .not. self%is_broken) then
          call draw_figures(self, error)
       end if
-      call write_summary(self, self%summary, self%outcome, second)
+      call write_summary(self, second)
       call join_errors(error, second)
       if (self%summary%status == status_complete .and. .not. allocated(error)) call self%forget()
       self%has_started = .false.
@@ -475,39 +489,5 @@ contains
          call append_text(list, more(k)%s)
       end do
    end subroutine append_all
-
-   !> Write the summaries and show what is wanted of them.
-   subroutine write_summary(self, summary, outcome, error)
-      class(run_recorder_t), intent(inout) :: self       !! the recorder
-      type(summary_t), intent(in) :: summary             !! cost and errors of the run
-      type(outcome_t), intent(in) :: outcome             !! what the run left behind
-      type(error_t), allocatable, intent(out) :: error   !! a file cannot be written
-
-      type(error_t), allocatable :: second
-      character(:), allocatable :: json, lines
-      integer :: k
-
-      if (.not. self%plan%with%summary .and. self%plan%show == show_nothing) return
-      lines = summary_lines(self%plan, summary, self%events, outcome, self%items)
-      json = summary_json(self%plan, summary, self%events, outcome, self%items)
-      if (self%plan%with%report) then
-         call replace_file(self%plan%directory//"/"//report_name, &
-                           report_text(self%plan, summary, self%events, outcome, self%items, self%figures, lines), error)
-      end if
-      if (self%plan%with%summary) then
-         call replace_file(self%plan%directory//"/summary.txt", lines, second)
-         call join_errors(error, second)
-         call replace_file(self%plan%directory//"/summary.json", json, second)
-         call join_errors(error, second)
-      end if
-      if (self%plan%show == show_summary .and. summary%status /= status_failed) call print_text(lines, second)
-      if (self%plan%show == show_json) call print_text(json, second)
-      call join_errors(error, second)
-      if (self%plan%show == show_summary .and. summary%status /= status_failed) return
-      if (.not. (self%plan%with%summary .and. self%plan%with%warnings)) return
-      do k = 1, size(outcome%warnings)
-         call write_error("warning: "//printable(outcome%warnings(k)%s)//new_line("a"))
-      end do
-   end subroutine write_summary
 
 end module run_recorder

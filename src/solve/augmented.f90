@@ -40,6 +40,9 @@ module augmented
       procedure(solve_damped_interface), deferred :: solve_damped
       procedure :: name => augmented_name
       procedure :: set_penalty => augmented_set_penalty
+      procedure :: memory_size => augmented_memory_size
+      procedure :: save => augmented_save
+      procedure :: load => augmented_load
    end type augmented_t
 
    !> A way that has factors: a damped solution is refined with them.
@@ -136,6 +139,27 @@ contains
       class(augmented_t), intent(inout) :: self   !! the solver
       real(wp), intent(in) :: penalty             !! of a violated row, of its inverse effective mass [1]
    end subroutine augmented_set_penalty
+
+   !> Numbers that a checkpoint needs: none, unless a solution leaves something behind that the next one uses.
+   integer function augmented_memory_size(self) result(n)
+      class(augmented_t), intent(in) :: self  !! the solver
+
+      n = 0
+   end function augmented_memory_size
+
+   !> Write what the solver remembers.
+   subroutine augmented_save(self, row, place)
+      class(augmented_t), intent(in) :: self  !! the solver
+      real(wp), intent(inout) :: row(:)       !! (any) checkpoint [any]
+      integer, intent(inout) :: place         !! last place used
+   end subroutine augmented_save
+
+   !> Read what the solver remembers.
+   subroutine augmented_load(self, row, place)
+      class(augmented_t), intent(inout) :: self  !! the solver
+      real(wp), intent(in) :: row(:)             !! (any) checkpoint [any]
+      integer, intent(inout) :: place            !! last place used
+   end subroutine augmented_load
 
    !> Accelerations and multipliers where rows may depend on one another.
    subroutine direct_solve_damped(self, inverse_mass, rows, g, b, damping, n_refinement, a, lambda, bad_row)

@@ -1,7 +1,8 @@
 !> Augmented equations as one sparse matrix, by KLU: for large scenes with bodies that carry many joints.
 !>
 !> Scaled as the full matrix of `augmented_dense`. The structure is analysed once; each evaluation refactorises with the
-!> pivots of before, and chooses new ones where these have become bad.
+!> pivots of before, and chooses new ones where these have become bad. A checkpoint holds the matrix that they were chosen for: a
+!> run that goes on chooses the same ones.
 !> Source: Flores et al. (2008), eq. (2.15). Cost: in proportion to the bodies and rows, unless loops fill the factors.
 module augmented_sparse
    use augmented, only: direct_t
@@ -9,6 +10,7 @@ module augmented_sparse
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use klu, only: sparse_lu_t
+   use memory, only: get, put
    use matrix_kernels_planar, only: planar_lower => lower_sides, planar_scaled => scaled_loads, planar_unscaled => unscaled, &
                                     planar_upper => upper_sides
    use matrix_kernels_spatial, only: spatial_lower => lower_sides, spatial_scaled => scaled_loads, spatial_unscaled => unscaled, &
@@ -33,6 +35,9 @@ module augmented_sparse
       procedure :: solve => sparse_solve
       procedure :: factorise => sparse_factorise
       procedure :: back_solve => sparse_back_solve
+      procedure :: memory_size => sparse_memory_size
+      procedure :: save => sparse_save
+      procedure :: load => sparse_load
    end type augmented_sparse_t
 
 contains
@@ -195,5 +200,44 @@ contains
          x(k) = self%x(self%n_coordinate + k)*self%row_scale(k)
       end do
    end subroutine sparse_back_solve
+
+   !> Numbers that a checkpoint needs: whether there are factors, the matrix that their pivots were chosen for, and the last one.
+   integer function sparse_memory_size(self) result(n)
+      class(augmented_sparse_t), intent(in) :: self  !! the solver
+
+      n = 1 + 2*size(self%matrix%a)
+   end function sparse_memory_size
+
+   !> Write what the solver remembers.
+   subroutine sparse_save(self, row, place)
+      class(augmented_sparse_t), intent(in) :: self  !! the solver
+      real(wp), intent(inout) :: row(:)              !! (any) checkpoint [any]
+      integer, intent(inout) :: place                !! last place used
+
+      call put(row, place, self%matrix%has_factors())
+      call put(row, place, self%matrix%chosen_for)
+      call put(row, place, self%matrix%a)
+   end subroutine sparse_save
+
+   !> Read what the solver remembers: the same pivots, the same factors.
+   subroutine sparse_load(self, row, place)
+      class(augmented_sparse_t), intent(inout) :: self  !! the solver
+      real(wp), intent(in) :: row(:)                    !! (any) checkpoint [any]
+      integer, intent(inout) :: place                   !! last place used
+
+      real(wp) :: last(size(self%matrix%a))
+      integer :: bad
+      logical :: has_factors
+
+      call get(row, place, has_factors)
+      call get(row, place, self%matrix%a)
+      call get(row, place, last)
+      call self%matrix%forget()
+      if (.not. has_factors) return
+      call self%matrix%factorise(bad)
+      if (all(self%matrix%a == last)) return
+      self%matrix%a = last
+      call self%matrix%factorise(bad)
+   end subroutine sparse_load
 
 end module augmented_sparse

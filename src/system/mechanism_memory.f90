@@ -10,12 +10,13 @@ submodule(mechanism) mechanism_memory
    integer, parameter :: equations_version = 1  !! of the counters, the pace and the stretch of smooth time
    integer, parameter :: joint_version = 1      !! of sets of joints and drivers
    integer, parameter :: contact_version = 2    !! of sets of joints with clearance
+   integer, parameter :: solver_version = 1     !! of solvers of the augmented equations
    integer, parameter :: n_equations = 9        !! numbers of the first of them
 
 contains
 
    !> List what the system saves: the counters, the pace and the stretch of smooth time; the way of holding the constraints; the
-   !> sets that remember something.
+   !> solver of the augmented equations and the sets that remember something.
    module procedure mechanism_list_memory
       type(kind_info_t) :: info
       integer :: k
@@ -23,6 +24,10 @@ contains
       call add_piece(pieces, "the equations", equations_version, n_equations)
       call add_piece(pieces, "stabilise = "//self%way%name(), self%way%memory_version(), self%way%memory_size(), &
                      self%way%is_memory_fixed())
+      associate (solver => self%linkage%solution%solver)
+         k = solver%memory_size()
+         if (k > 0) call add_piece(pieces, "solver = "//solver%name(), solver_version, k)
+      end associate
       do k = 1, size(self%linkage%joints)
          associate (set => self%linkage%joints(k)%set)
             info = set%info()
@@ -75,6 +80,7 @@ contains
       call put(row, place, self%linkage%piece%high)
       call put(row, place, self%linkage%piece%end)
       call self%way%save(row, place)
+      call self%linkage%solution%solver%save(row, place)
       do k = 1, size(self%linkage%joints)
          call self%linkage%joints(k)%set%save(row, place)
       end do
@@ -100,6 +106,7 @@ contains
       call get(row, place, self%linkage%piece%high)
       call get(row, place, self%linkage%piece%end)
       call self%way%load(row, place)
+      call self%linkage%solution%solver%load(row, place)
       do k = 1, size(self%linkage%joints)
          call self%linkage%joints(k)%set%load(row, place)
       end do

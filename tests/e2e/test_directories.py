@@ -260,11 +260,12 @@ def test_failed_runs_of_a_sweep_go_with_it(gudgeon, place):
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
 def test_the_files_of_a_killed_run_go_like_others(gudgeon, place, number):
-    """What a killed run left is named in its marker: it becomes NAME.1 and is removed after that."""
+    """What a killed or stopped run left is named in its marker: it becomes NAME.1 and is removed after that."""
     process = started(gudgeon, place, "out")
     process.send_signal(number)
-    process.wait()
-    assert "ended" not in (place / "out" / MARKER).read_text().splitlines()
+    stopped = process.wait() == 7
+    assert stopped == (number != signal.SIGKILL) == ((place / "out" / "checkpoint.h5").exists())
+    assert stopped == ("ended" in (place / "out" / MARKER).read_text().splitlines())
     run(gudgeon, place)
     assert (place / "out.1" / "run.h5").exists()
     run(gudgeon, place)

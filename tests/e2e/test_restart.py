@@ -1,11 +1,15 @@
 """Runs that are stopped and go on: the same bits, and refusals that name the difference."""
 
+import resource
+import shutil
 import signal
 import subprocess
 import time
 
 import h5py
-from support import ROOT, call, changed, plain_deck, written
+import pytest
+from support import ROOT, Run, call, changed, made, plain_deck, written
+from test_groups import balls
 
 
 def test_restarts_change_nothing(gudgeon, tmp_path):
@@ -18,20 +22,91 @@ def test_restarts_change_nothing(gudgeon, tmp_path):
         assert not (tmp_path / method / "checkpoint.h5").exists()
 
 
-def test_a_signal_saves_the_run(gudgeon, tmp_path):
-    """TERM: exit code 7, status stopped, and a run of another deck does not go on from there."""
-    deck = written(tmp_path, plain_deck((("analysis.dynamic", "end", "100 s"),)))
-    out = tmp_path / "out"
-    process = subprocess.Popen([gudgeon, "run", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True)
-    time.sleep(0.7)
-    process.send_signal(signal.SIGTERM)
+def test_large_scenes_and_groups(gudgeon, tmp_path):
+    """A solver that goes on with the pivots of before, by methods with and without a history; groups with steps of their own; the
+    file of the motion."""
+    chain = made("pendulum", 60, "--end", "0.2", "--every", "0.02", "--solver", "sparse")
+    falling = changed(balls(6)[0], "analysis.dynamic", checkpoint="20 ms")
+    decks = {"one_step": chain, "bdf": changed(chain, "analysis.dynamic", method="bdf", checkpoint="0.05 s"), "groups": falling,
+             "motion": plain_deck((("output", "motion", "vtkhdf"),))}
+    for name, text in decks.items():
+        deck = written(tmp_path, text, f"{name}.deck")
+        done = call(gudgeon, "run", deck, "--out", tmp_path / name, "--verify-restart")
+        assert "equal bit for bit after 3 restarts" in done.stdout, name
+
+
+LONG = (("analysis.dynamic", "end", "100 s"), ("analysis.dynamic", "checkpoint", "1 ms"))
+
+
+def begun(gudgeon, deck, out, number=None):
+    """A run in the background that has saved something, by default action of a signal."""
+    process = subprocess.Popen([gudgeon, "run", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True,
+                               preexec_fn=number and (lambda: signal.signal(number, signal.SIG_DFL)))
+    for _ in range(1000):
+        if (out / "checkpoint.h5").exists():
+            return process
+        assert process.poll() is None, process.communicate()[1]
+        time.sleep(0.01)
+    process.kill()
+    raise AssertionError("no checkpoint")
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1])
+def test_a_signal_saves_the_run(gudgeon, tmp_path, number):
+    """Exit code 7, status stopped, and a run of another deck does not go on from there."""
+    deck, out = written(tmp_path, plain_deck(LONG)), tmp_path / "out"
+    process = begun(gudgeon, deck, out, number)
+    process.send_signal(number)
     said = process.communicate(timeout=60)[1]
     assert process.returncode == 7 and "--resume goes on from there" in said
     with h5py.File(out / "run.h5") as file:
         assert file.attrs["status"].decode() == "stopped"
+    assert Run(out).summary["status"] == "stopped"
+    if number != signal.SIGTERM:
+        return
     done = call(gudgeon, "run", deck, "--out", out, "--resume", "--set", "friction=0.1", expect=2)
     assert "belongs to another run: deck" in done.stderr
     call(gudgeon, "run", deck, "--out", out, "--resume", "--walltime", "1s", "--quiet", expect=7)
+
+
+def test_a_killed_run_goes_on(gudgeon, tmp_path):
+    """SIGKILL, and --resume: the run that nobody disturbed, in every byte of the text files and every number of run.h5."""
+    deck = written(tmp_path, plain_deck((("analysis.dynamic", "checkpoint", "1 ms"), ("output", "every", "5 us"))))
+    call(gudgeon, "run", deck, "--out", tmp_path / "whole", "--quiet")
+    process = begun(gudgeon, deck, tmp_path / "out")
+    process.kill()
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL
+    call(gudgeon, "run", deck, "--out", tmp_path / "out", "--resume", "--quiet")
+    whole, other = Run(tmp_path / "whole"), Run(tmp_path / "out")
+    assert whole.rows("time").tobytes() == other.rows("time").tobytes()
+    assert whole.rows("bodies/velocity").tobytes() == other.rows("bodies/velocity").tobytes()
+    assert whole.contacts.tobytes() == other.contacts.tobytes()
+    for path in (tmp_path / "whole").glob("*.dat"):
+        assert path.read_bytes() == (tmp_path / "out" / path.name).read_bytes(), path.name
+    assert not (tmp_path / "out" / "checkpoint.h5").exists()
+
+
+def test_a_directory_that_vanishes(gudgeon, tmp_path):
+    """The next checkpoint cannot be written: exit code 9, which names it."""
+    deck = written(tmp_path, plain_deck(LONG))
+    process = begun(gudgeon, deck, tmp_path / "out")
+    shutil.rmtree(tmp_path / "out", ignore_errors=True)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 9 and str(tmp_path / "out") in said, said
+
+
+def test_checkpoints_that_find_no_room(gudgeon, tmp_path):
+    """Files that may not grow: exit code 9, rows that can be read, the last checkpoint is whole and goes on elsewhere."""
+    deck = written(tmp_path, plain_deck((("analysis.dynamic", "checkpoint", "1 ms"), ("output", "every", "5 us"))))
+    out, limit = tmp_path / "out", 768 << 10
+    done = subprocess.run([gudgeon, "run", deck, "--out", out, "--quiet"], capture_output=True, text=True, timeout=60,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    assert done.returncode == 9 and "error: cannot" in done.stderr, done
+    assert len(Run(out).rows("time")) > 100
+    call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet")
+    call(gudgeon, "run", deck, "--out", tmp_path / "whole", "--quiet")
+    assert Run(out).rows("bodies/velocity").tobytes() == Run(tmp_path / "whole").rows("bodies/velocity").tobytes()
 
 
 def test_what_cannot_be_saved_is_refused(gudgeon, tmp_path):

@@ -127,7 +127,9 @@ def test_gnuplot_ends_with_the_run(gudgeon, place, number):
     process.send_signal(number)
     assert process.wait(timeout=20) == -number
     assert gone(word)
-    assert Run(place / "out").time[-1] == pytest.approx(2e-4)
+    run = Run(place / "out")
+    assert run.time[-1] == pytest.approx(2e-4)
+    assert run.summary["status"] == "complete" and "ended before its figures were drawn" in " ".join(run.summary["warnings"])
     call(gudgeon, "run", place / "scene.deck", "--out", place / "out", "--quiet")
 
 
@@ -148,7 +150,8 @@ def test_signals_end_a_run_that_does_not_ignore_them(gudgeon, place, number, is_
             time.sleep(0.3)
             assert process.poll() is None
         else:
-            assert process.wait(timeout=20) == -number
+            assert process.wait(timeout=20) == 7
+            assert Run(place / "out").summary["status"] == "stopped"
     finally:
         process.kill()
         process.wait()
