@@ -9,6 +9,7 @@ module animation_page
    use drawing, only: drawing_t, in_files
    use frames, only: frame_t, track_t
    use html_text, only: escaped
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use scene_plot, only: new_symbols
    use scene_legends, only: long_legend
@@ -145,7 +146,7 @@ contains
          call page%add("loose:[")
          do k = 1, size(room%names)
             clearance = 0.0_wp
-            if (room%radius(k) > 0.0_wp) clearance = room%radius(k)
+            if (.not. ieee_is_nan(room%radius(k))) clearance = room%radius(k)
             unit = choose_unit("m", clearance)
             call page%add("{name:"""//escaped(room%names(k)%s, .false.)//""",c:"//number(clearance)//",cw:"""// &
                           real_text(unit%factor*clearance, 4)//" "//unit%symbol//"""},")
