@@ -70,6 +70,7 @@ contains
       real(wp), intent(out) :: cpu                         !! processor time used by then [s]
       type(error_t), allocatable, intent(out) :: error     !! it is another run's
 
+      type(smooth_piece_t) :: passed
       integer :: p, place
 
       cpu = 0.0_wp
@@ -91,7 +92,7 @@ contains
             place = 0
             call whole%system%load(saved%parts(n + 1)%row, place)
             do while (whole%instants%next%at < whole%system%linkage%piece%end)
-               call whole%instants%pass(whole%system%linkage%piece)
+               call whole%instants%pass(passed)
             end do
          end if
          call tape%get(whole%t)

@@ -27,7 +27,9 @@ def test_large_scenes_and_groups(gudgeon, tmp_path):
     file of the motion."""
     chain = made("pendulum", 60, "--end", "0.2", "--every", "0.02", "--solver", "sparse")
     falling = changed(balls(6)[0], "analysis.dynamic", checkpoint="20 ms")
-    decks = {"one_step": chain, "bdf": changed(chain, "analysis.dynamic", method="bdf", checkpoint="0.05 s"), "groups": falling,
+    side_by_side = changed((ROOT / "inputs" / "hard" / "side_by_side.deck").read_text(), "analysis.dynamic",
+                           end="210 ms", checkpoint="25 ms")  # functions of time with corners
+    decks = {"one_step": chain, "corners": side_by_side, "bdf": changed(chain, "analysis.dynamic", method="bdf", checkpoint="0.05 s"), "groups": falling,
              "motion": plain_deck((("output", "motion", "vtkhdf"),))}
     for name, text in decks.items():
         deck = written(tmp_path, text, f"{name}.deck")
