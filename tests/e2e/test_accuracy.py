@@ -91,6 +91,8 @@ def test_run_is_that_of_its_tolerance(gudgeon):
         b.visititems(lambda name, node: paths.append(name) if isinstance(node, h5py.Dataset) else None)
         assert "accuracy" in a and "accuracy" not in b and len(paths) > 20
         for path in paths:
+            if path.startswith("provenance/"):
+                continue
             assert np.asarray(plain(a[path][()])).tobytes() == np.asarray(plain(b[path][()])).tobytes(), path
 
 

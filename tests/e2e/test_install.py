@@ -98,7 +98,7 @@ def test_man_page(installed, gudgeon):
     text = page.read_text(encoding="utf-8").replace("\\-", "-")
     for section in ("NAME", "SYNOPSIS", "COMMANDS", "OPTIONS", "DECK", "EXIT STATUS", "ENVIRONMENT", "FILES", "EXAMPLES"):
         assert f".SH {section}\n" in text
-    for option in re.findall(r"^  (--\w+)", call([gudgeon, "help"]), re.M):
+    for option in re.findall(r"^  (--[\w-]+)", call([gudgeon, "help"]), re.M):
         assert f"\\fB{option}\\fR" in text, option
     for line in call([gudgeon, "list"]).splitlines():
         assert f".B {line.split()[0]}\n" in text
