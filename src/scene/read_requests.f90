@@ -135,20 +135,22 @@ contains
       type(name_table_t) :: table
       type(text_t), allocatable :: names(:)
       type(text_list_t) :: points
-      type(place_t) :: place
-      integer :: k
+      type(place_t), allocatable :: places(:)
+      integer :: k, n
 
       call names_of_items(scene, names)
       call table%list(names)
-      allocate (scene%requests%places(0))
+      n = 0
       associate (items => scene%tables%base(table_points)%items)
+         allocate (places(size(items)))
          do k = 1, size(items)
             if (table%find(items(k)%name) > 0 .or. index(taken_always, " "//items(k)%name//" ") > 0) cycle
             call points%add(items(k)%name)
-            call take_point(scene, k, place%body, place%s)
-            scene%requests%places = [scene%requests%places, place]
+            n = n + 1
+            call take_point(scene, k, places(n)%body, places(n)%s)
          end do
       end associate
+      scene%requests%places = places(:n)
       scene%requests%points = points%get()
    end subroutine list_points
 

@@ -116,7 +116,7 @@ def run_many(programs, scratch, batch, limit):
                 process.wait()
             said.seek(0)
             errors.seek(0)
-            ends = re.findall(r"(?m)^end (\d+) (-?\d+)$", said.read().decode("utf-8", "replace"))
+            ends = re.findall(r"(?m)^end (\d+) (-?\d+)\b", said.read().decode("utf-8", "replace"))
             text = errors.read().decode("utf-8", "replace")
         for number, code in ends:
             batch[first + int(number) - 1].code = int(code)

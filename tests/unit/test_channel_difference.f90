@@ -1,5 +1,6 @@
 !> Differences of runs by channels, their scales, and the first contact that is another one, on runs made by hand.
 module test_channel_difference
+   use catalogue, only: n_rooms
    use channel_difference, only: channel_scales, set_differences
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
@@ -46,14 +47,14 @@ contains
       run%series%high = run%series%x
       run%series%least = [0.0_wp, 0.0_wp]
       run%series%most = run%series%x(:, n_instant)
-      allocate (run%magnitude(n_sort + 7*n_class), source=0.0_wp)
+      allocate (run%magnitude(n_sort + n_rooms*n_class), source=0.0_wp)
    end subroutine new_run
 
    subroutine test_by_instant_and_channel(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(kept_channels_t) :: a, b
-      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + 7*n_class)
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + n_rooms*n_class)
       integer :: worst(n_instant)
 
       call new_run(a)
@@ -80,7 +81,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(kept_channels_t) :: a, b
-      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + 7*n_class)
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + n_rooms*n_class)
       integer :: worst(n_instant)
 
       call new_run(a)
