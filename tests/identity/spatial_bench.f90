@@ -96,7 +96,7 @@ contains
       call draw_state(random, bench)
       call evaluate_motion(bench, 0.0_wp)
       call bench%set%set_start(bench%motion)
-      call take_joints(random, bench)
+      call take_joints(bench)
       do k = 1, 1000  ! until no axis is nearly along one that an angle is measured about
          call draw_state(random, bench)
          call evaluate_after(bench, 0.0_wp)
@@ -120,13 +120,13 @@ contains
    end subroutine leave_open
 
    !> Revolute joints with the items' bodies, for kinds that name a joint.
-   subroutine take_joints(random, bench)
-      type(random_t), intent(inout) :: random  !! where numbers come from
+   subroutine take_joints(bench)
       type(bench_t), intent(inout) :: bench    !! the bodies stand where the deck puts them
 
       class(joint_set_t), allocatable :: joint
       type(item_t) :: items(1)
       type(kind_info_t) :: info
+      type(random_t) :: random
       real(wp), parameter :: angle(0:n_body) = 0.0_wp
       integer :: k, kind
 
@@ -137,6 +137,7 @@ contains
             info = joint%info()
             if (info%name == "joint.revolute" .and. is_of_space(info, .true.)) exit
          end do
+         random%state = seed_of(bench%name, k)
          call fill_item(info, k, random, items(1))
          call joint%new(items, bench%set%body(:, k:k), bench%set%s_i(:, k:k), bench%set%s_j(:, k:k))
          call joint%prepare(items, angle)

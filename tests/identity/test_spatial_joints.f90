@@ -225,7 +225,8 @@ contains
       kinds = spatial_kinds()
       do kind = 1, size(kinds)
          call make_bench(kinds(kind), 1, bench)
-         if (bench%set%is_driver .or. bench%info%name == "joint.universal" .or. bench%info%is_start_only) cycle
+         if (bench%set%is_driver .or. bench%info%is_start_only) cycle
+         if (bench%info%name == "joint.universal" .or. bench%info%name == "joint.perpendicular") cycle  ! both axes are given
          call bench%set%set_start(bench%motion)
          call bench%set%evaluate(now, bench%motion, bench%rows)
          do row = before + 1, bench%rows%n - 1

@@ -115,7 +115,7 @@ contains
       scale = channel_scales(a, 5.0_wp, 3.0_wp)
       call check_close(error, scale(:n_sort), [3.0_wp, 4.0_wp, 30.0_wp], 1.0e-14_wp, "range of positions, greatest of the others")
       call check_true(error, all(scale > 0.0_wp), "every kind has a scale")
-      call check_true(error, count(abs(scale - 7.0_wp) < 1.0e-12_wp) == 7, "energies by the largest energy, in every room")
+      call check_true(error, count(abs(scale - 7.0_wp) < 1.0e-12_wp) == n_rooms, "energies by the largest energy, in every room")
    end subroutine test_scales
 
    subroutine test_first_other_contact(error)
