@@ -164,9 +164,9 @@ class Worker:
         self.plain.stop()
 
     def chosen(self):
-        """A deck of the corpus: half of the time one of the latest."""
-        late = self.corpus[-50:] if self.dice.random() < 0.5 else self.corpus
-        return self.dice.choice(late)
+        """A deck of the corpus, half of the time one of the latest; one that was there before where none has been read to its end."""
+        decks = self.corpus or self.mutator.decks
+        return self.dice.choice(decks[-50:] if self.dice.random() < 0.5 else decks)
 
     def tell(self):
         """How far it has come."""

@@ -19,7 +19,7 @@ def options_for(tmp_path, script):
         path.write_text(f'#!/bin/sh\nn=0\nwhile read reader line; do n=$((n + 1)); echo "begin $n"; {script}; done\n')
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
     os.symlink(built(directory_of("release") / "gudgeon"), tmp_path / "gudgeon")
-    return argparse.Namespace(build=tmp_path, seconds=0.2, seed="1", jobs=1, corpus=tmp_path / "corpus", keep=tmp_path / "found",
+    return argparse.Namespace(build=tmp_path, seconds=0.5, seed="1", jobs=1, corpus=tmp_path / "corpus", keep=tmp_path / "found",
                               scratch=str(tmp_path), is_loud=False)
 
 
