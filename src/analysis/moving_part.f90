@@ -16,7 +16,7 @@ module moving_part
    use recorder, only: event_t, recorder_t
    use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended
    use run_tally, only: run_tally_t
-   use slip_watch, only: decide_next, note_jumps
+   use slip_watch, only: decide_next, find_reversal, note_jumps, sliding_way, unsettle
    use step_follower, only: follow_motion, must_follow
    use velocity_jumps, only: velocity_jumps_t
    implicit none (type, external)
@@ -148,6 +148,7 @@ contains
       type(event_t) :: row
       character(:), allocatable :: ended
       real(wp) :: cpu_0, cpu_1, hint, step_hint
+      real(wp) :: ways(3, part%method%events%n_happened)  ! of sliding before the events [1]
       integer :: k, status
       logical :: is_over
 
@@ -166,6 +167,9 @@ contains
          end if
          step_hint = 0.0_wp
          do k = 1, method%events%n_happened
+            ways(:, k) = sliding_way(system, method%events%happened(k))
+         end do
+         do k = 1, method%events%n_happened
             call part%watch%handle_event(system, method, method%events%happened(k), is_over, row, hint)
             if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
             tally%events = tally%events + 1
@@ -180,6 +184,7 @@ contains
             end if
          end do
          call decide_slips(part, method%t, method%step%y1, recorder, error)
+         if (.not. allocated(error)) call tell_reversals(part, ways, recorder, error)
          if (allocated(error)) return
          call method%restart(system, step_hint, status)
          if (status /= 0) then
@@ -290,7 +295,8 @@ contains
 
    end subroutine look_at_energy
 
-   !> Decide whether contacts that have just begun slip or stick.
+   !> Decide whether contacts that have just begun slip or stick. When one holds, those that it was too much for alone, and that slide
+   !> with no speed to speak of, are decided anew; this ends at the latest when every contact has held once.
    subroutine decide_slips(part, t, y, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, its motion that of the state
       real(wp), intent(in) :: t                           !! time [s]
@@ -299,16 +305,42 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
       type(event_t) :: row
-      logical :: has_row, is_found
+      integer :: pass
+      logical :: any_holds, has_row, is_found
 
       if (part%system%friction%grips%n_slip == 0) return
-      do
-         call decide_next(part%system, t, y, is_found, has_row, row)
-         if (.not. is_found) exit
-         if (.not. has_row) cycle
-         call recorder%event(row, error)
-         if (allocated(error)) return
+      do pass = 1, part%system%loose%n_contact
+         any_holds = .false.
+         do
+            call decide_next(part%system, t, y, is_found, has_row, row)
+            if (.not. is_found) exit
+            if (.not. has_row) cycle
+            any_holds = .true.
+            call recorder%event(row, error)
+            if (allocated(error)) return
+         end do
+         if (.not. any_holds) return
+         if (pass < part%system%loose%n_contact) call unsettle(part%system, is_found)
+         if (.not. is_found) return
       end do
    end subroutine decide_slips
+
+   !> Tell of contacts that slide the other way behind the events of the last step.
+   subroutine tell_reversals(part, ways, recorder, error)
+      type(moving_part_t), intent(in) :: part             !! the part, all its contacts decided
+      real(wp), intent(in) :: ways(:, :)                  !! (3, events) where they slid to before [1]
+      class(recorder_t), intent(inout) :: recorder        !! keeps the results
+      type(error_t), allocatable, intent(out) :: error    !! a file could not be written
+
+      type(event_t) :: row
+      integer :: k
+      logical :: has_row
+
+      do k = 1, size(ways, 2)
+         call find_reversal(part%system, part%method%t, part%method%events%happened(k), ways(:, k), has_row, row)
+         if (has_row) call recorder%event(row, error)
+         if (allocated(error)) return
+      end do
+   end subroutine tell_reversals
 
 end module moving_part

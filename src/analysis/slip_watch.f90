@@ -11,49 +11,88 @@ module slip_watch
    use recorder, only: event_t
    implicit none (type, external)
    private
-   public :: decide_next, handle_slip, note_jumps
+   public :: decide_next, find_reversal, handle_slip, note_jumps, sliding_way, unsettle
 
    character(*), parameter :: word_slip = "slip"    !! kind of event, and state of a contact
    character(*), parameter :: word_stick = "stick"  !! kind of event, and state of a contact
 
 contains
 
-   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; there is
-   !> nothing to tell of one that goes on as before.
+   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; that is told
+   !> by `find_reversal` when all contacts are decided. Others that slide with no speed to speak of are to be decided anew, since
+   !> they may have to hold their part of the load.
    subroutine handle_slip(system, t, y, slot, k, has_row, row)
       type(mechanism_t), intent(inout) :: system   !! the system; the contact's state is changed
       real(wp), intent(in) :: t                        !! time [s]
       real(wp), intent(in) :: y(:)                     !! (n) state [any]
       integer, intent(in) :: slot                      !! set of the contact
       integer, intent(in) :: k                         !! contact of the set
-      logical, intent(out) :: has_row                  !! something changed: `row` tells of it
+      logical, intent(out) :: has_row                  !! it sticks now, or does no more: `row` tells of it
       type(event_t), intent(out) :: row                !! what happened
 
-      real(wp) :: way(3)
-      integer :: before
+      integer :: slip
+      logical :: is_any, stuck
 
-      before = system%loose%sets(slot)%set%grip%slip(k)
-      way = system%loose%sets(slot)%set%grip%tangent(k)%way
+      stuck = system%loose%sets(slot)%set%grip%slip(k) == sticks
       call system%decide_slip(t, y, slot, k)
-      associate (grip => system%loose%sets(slot)%set%grip)
-         has_row = grip%slip(k) /= before .or. (before /= sticks .and. dot_product(way, grip%tangent(k)%way) < 0.0_wp)
-         if (grip%slip(k) == sticks) call unsettle(system)
-      end associate
-      if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", before == sticks), row)
+      slip = system%loose%sets(slot)%set%grip%slip(k)
+      has_row = (slip == sticks) .neqv. stuck
+      call unsettle(system, is_any)
+      call system%loose%sets(slot)%set%slip_as(k, slip)
+      if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", stuck), row)
    end subroutine handle_slip
 
-   !> A contact holds what it joins: others that slide with no speed to speak of may have to hold their part of the load, and
-   !> are not decided any more.
-   subroutine unsettle(system)
-      type(mechanism_t), intent(inout) :: system   !! the system; states of its contacts are changed
+   !> Where the contact of an event function slides to: a unit vector, in the plane its sign along x; zero if it does not slide, or
+   !> has no friction that may stick.
+   function sliding_way(system, number) result(way)
+      type(mechanism_t), intent(in) :: system   !! the system
+      integer, intent(in) :: number             !! number of the event function
+      real(wp) :: way(3)                        !! (3) where to, world frame [1]
 
       integer :: k, slot
 
+      way = 0.0_wp
+      if (system%loose%functions%kind_of(number) /= slip_function) return
+      call system%find_contact(number, slot, k)
+      associate (grip => system%loose%sets(slot)%set%grip)
+         if (abs(grip%slip(k)) /= 1) return
+         way(1) = real(grip%slip(k), wp)
+         if (grip%n_tangent > 1) way = grip%tangent(k)%way
+      end associate
+   end function sliding_way
+
+   !> Whether a contact that slid slides the other way now, all contacts being decided.
+   subroutine find_reversal(system, t, number, before, has_row, row)
+      type(mechanism_t), intent(in) :: system   !! the system
+      real(wp), intent(in) :: t                 !! time [s]
+      integer, intent(in) :: number             !! number of the contact's event function
+      real(wp), intent(in) :: before(3)         !! (3) its `sliding_way` before the event [1]
+      logical, intent(out) :: has_row           !! it does: `row` tells of it
+      type(event_t), intent(out) :: row         !! what happened
+
+      integer :: k, slot
+
+      has_row = dot_product(before, sliding_way(system, number)) < 0.0_wp
+      if (.not. has_row) return
+      call system%find_contact(number, slot, k)
+      call tell(system, t, slot, k, word_slip, row)
+   end subroutine find_reversal
+
+   !> Contacts that slide with no speed to speak of are not decided any more.
+   subroutine unsettle(system, is_any)
+      type(mechanism_t), intent(inout) :: system   !! the system; states of its contacts are changed
+      logical, intent(out) :: is_any               !! there were some
+
+      integer :: k, slot
+
+      is_any = .false.
       do slot = 1, size(system%loose%sets)
          associate (set => system%loose%sets(slot)%set)
             if (set%grip%memory /= memory_slip .or. set%n_touching == 0) cycle
             do k = 1, set%n_contact
-               if (slides_slowly(system, slot, k)) call set%slip_as(k, is_undecided)
+               if (.not. slides_slowly(system, slot, k)) cycle
+               is_any = .true.
+               call set%slip_as(k, is_undecided)
             end do
          end associate
       end do
