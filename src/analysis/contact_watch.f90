@@ -14,7 +14,6 @@ module contact_watch
    use integrator, only: integrator_t
    use integrator_controls, only: onset_located
    use kinds, only: not_a_number, pi, wp
-   use memory, only: get, put
    use mechanism, only: mechanism_t
    use recorder, only: event_t
    use slip_watch, only: handle_slip
@@ -50,6 +49,29 @@ module contact_watch
       procedure :: save => watch_save
       procedure :: load => watch_load
    end type contact_watch_t
+
+   interface
+
+      !> Numbers that a checkpoint needs.
+      module integer function watch_memory_size(self) result(n)
+         class(contact_watch_t), intent(in) :: self  !! the watch
+      end function watch_memory_size
+
+      !> Write what the watch remembers.
+      module subroutine watch_save(self, row, place)
+         class(contact_watch_t), intent(in) :: self  !! the watch
+         real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
+         integer, intent(inout) :: place             !! last place used
+      end subroutine watch_save
+
+      !> Read what the watch remembers.
+      module subroutine watch_load(self, row, place)
+         class(contact_watch_t), intent(inout) :: self  !! the watch
+         real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
+         integer, intent(inout) :: place                !! last place used
+      end subroutine watch_load
+
+   end interface
 
 contains
 
@@ -348,46 +370,6 @@ contains
          end associate
       end do
    end subroutine close_open
-
-   !> Numbers that a checkpoint needs.
-   integer function watch_memory_size(self) result(n)
-      class(contact_watch_t), intent(in) :: self  !! the watch
-
-      n = n_remembered*size(self%force)
-   end function watch_memory_size
-
-   !> Write what the watch remembers.
-   subroutine watch_save(self, row, place)
-      class(contact_watch_t), intent(in) :: self  !! the watch
-      real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
-
-      integer :: k
-
-      do k = 1, size(self%force)
-         call put(row, place, [self%force(k)%value, self%force(k)%rate, self%penetration(k)%value, self%penetration(k)%rate])
-         call put(row, place, self%owes_row(k))
-         call put(row, place, self%told(k))
-      end do
-   end subroutine watch_save
-
-   !> Read what the watch remembers.
-   subroutine watch_load(self, row, place)
-      class(contact_watch_t), intent(inout) :: self  !! the watch
-      real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
-      integer, intent(inout) :: place                !! last place used
-
-      integer :: k
-
-      do k = 1, size(self%force)
-         call get(row, place, self%force(k)%value)
-         call get(row, place, self%force(k)%rate)
-         call get(row, place, self%penetration(k)%value)
-         call get(row, place, self%penetration(k)%rate)
-         call get(row, place, self%owes_row(k))
-         call get(row, place, self%told(k))
-      end do
-   end subroutine watch_load
 
    !> What the ledger has lost in a contact at the present motion; NaN without a ledger.
    real(wp) function loss_of(system, y, slot, item) result(loss)

@@ -13,7 +13,7 @@ module dynamic
    use moving_part, only: advance_part, begin_part, handle_part_events, pass_part_instant
    use recorder, only: event_t, recorder_t, status_stopped, summary_t
    use run_audit, only: limits_t
-   use run_failure, only: describe_failure, guard_reached, time_used_up
+   use run_failure, only: describe_failure, guard_reached, stopped_words, time_used_up
    use run_memory, only: load_run, save_run
    use run_summary, only: sum_up
    use run_tally, only: run_tally_t
@@ -22,7 +22,6 @@ module dynamic
    use stop_condition, only: stop_t
    use subsystems, only: subsystem_t
    use time_plan, only: time_plan_t
-   use text, only: real_text
    use whole_motion, only: new_whole_motion, whole_motion_t
    implicit none (type, external)
    private
@@ -87,7 +86,7 @@ contains
       call sum_up(run%whole, run%sampler, run%tally, run%stop, method, limits, summary, error)
       if (run%is_stopped .and. .not. allocated(error)) then
          summary%status = status_stopped
-         summary%message = stopped_words(run)
+         summary%message = stopped_words(run%whole%t, run%saved_at, size(run%whole%parts))
       end if
       summary%cpu_seconds = run%cpu_before + cpu_1 - cpu_0 - run%tally%aside - run%sampler%aside
       summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
@@ -384,21 +383,5 @@ contains
          end do
       end do
    end subroutine close_contacts
-
-   !> That a run was ended from outside, and whether it can go on.
-   function stopped_words(run) result(words)
-      type(run_t), intent(in) :: run              !! state of the run
-      character(:), allocatable :: words          !! one line or several
-
-      words = "stopped from outside at t = "//real_text(run%whole%t, 9)//" s"
-      if (run%saved_at >= 0.0_wp) then
-         words = words//"; it was saved at t = "//real_text(run%saved_at, 9)//" s, and --resume goes on from there"
-      else
-         words = words//"; it was not saved: "//trim(merge("groups of bodies with steps of their own", &
-                                                                 "a method that keeps a history           ", &
-                                                                 size(run%whole%parts) > 1))// &
-                 " can be at the instants only that the key 'checkpoint' of [analysis.dynamic] sets"
-      end if
-   end function stopped_words
 
 end module dynamic

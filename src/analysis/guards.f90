@@ -11,8 +11,6 @@ module guards
    use clearance_set, only: clearance_set_t
    use contact_pressure, only: force_at_pressure
    use film_watch, only: film_watch_t
-   use item, only: item_t
-   use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use normal_law, only: parameter_deepest
    use mechanism, only: mechanism_t
@@ -20,7 +18,7 @@ module guards
    use scene_size, only: extent_of_scene
    use surfaces, only: shape_plane
    use tape, only: tape_t
-   use text, only: append_text, real_text, text_t
+   use text, only: real_text, text_t
    implicit none (type, external)
    private
    public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
@@ -73,6 +71,33 @@ module guards
       procedure :: save => guards_save
       procedure :: load => guards_load
    end type guards_t
+
+   interface
+
+      !> Append a warning for each joint whose contacts passed a limit without ending the run, one for each limit, and one for the
+      !> body that went farthest.
+      module subroutine guards_warn(self, system, warnings)
+         class(guards_t), intent(in) :: self                        !! the guards
+         type(mechanism_t), intent(in) :: system                !! the system
+         type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+      end subroutine guards_warn
+
+      !> A contact in words.
+      module function joint_words(set, c) result(words)
+         class(clearance_set_t), intent(in) :: set       !! set of the contact
+         integer, intent(in) :: c                        !! contact of the set
+         character(:), allocatable :: words              !! joint, contact and law
+      end function joint_words
+
+      !> What was passed, in words.
+      module function breach_words(self, g, m) result(words)
+         class(guards_t), intent(in) :: self     !! the guards
+         integer, intent(in) :: g                !! guard
+         integer, intent(in) :: m                !! contact
+         character(:), allocatable :: words      !! value, limit and times
+      end function breach_words
+
+   end interface
 
 contains
 
@@ -287,111 +312,6 @@ contains
          if (self%stops(g)) call end_run(self, joint_words(set, c)//": "//breach_words(self, g, m))
       end do
    end subroutine note
-
-   !> A contact in words.
-   function joint_words(set, c) result(words)
-      class(clearance_set_t), intent(in) :: set       !! set of the contact
-      integer, intent(in) :: c                        !! contact of the set
-      character(:), allocatable :: words              !! joint, contact and law
-
-      words = "joint '"//set%names(set%item_of(c))%s//"'"
-      if (set%label_of(c) /= "") words = words//", contact "//set%label_of(c)
-      words = words//", law '"//set%laws%normal%name//"'"
-   end function joint_words
-
-   !> What was passed, in words.
-   function breach_words(self, g, m) result(words)
-      class(guards_t), intent(in) :: self     !! the guards
-      integer, intent(in) :: g                !! guard
-      integer, intent(in) :: m                !! contact
-      character(:), allocatable :: words      !! value, limit and times
-
-      associate (breach => self%breach(g, m), limit => self%limit(g, m))
-         select case (g)
-         case (guard_penetration)
-            words = "a penetration of "//millimetres(breach%value)//", beyond "//real_text(self%penetration, 3)// &
-                    " of the size of the surfaces, "//millimetres(limit)//" (guard 'penetration')"
-         case (guard_clearance)
-            words = "penetrations of up to "//millimetres(breach%value)//", beyond the clearance itself, "//millimetres(limit)
-         case (guard_law_range)
-            words = "penetrations of up to "//millimetres(breach%value)//", but the law ends at "//millimetres(limit)// &
-                    " and was continued along its tangent"
-         case (guard_impact_speed)
-            words = "impacts of up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: strictly below "// &
-                    real_text(limit, 3)//" m/s (1e-5 sqrt(E/rho))"
-         case default
-            words = "normal forces of up to "//real_text(breach%value, 3)//" N, but the strength of the material is reached at "// &
-                    real_text(limit, 3)//" N"
-         end select
-         words = words//", at t = "//real_text(breach%time, 6)//" s"
-         if (breach%first < breach%time) words = words//", first at "//real_text(breach%first, 6)//" s"
-      end associate
-   end function breach_words
-
-   !> A length in words.
-   function millimetres(length) result(words)
-      real(wp), intent(in) :: length        !! [m]
-      character(:), allocatable :: words    !! in mm
-
-      words = real_text(1.0e3_wp*length, 3)//" mm"
-   end function millimetres
-
-   !> Append a warning for each joint whose contacts passed a limit without ending the run, one for each limit, and one for the
-   !> body that went farthest.
-   subroutine guards_warn(self, system, warnings)
-      class(guards_t), intent(in) :: self                        !! the guards
-      type(mechanism_t), intent(in) :: system                !! the system
-      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
-
-      character(:), allocatable :: words
-      integer :: c, g, i, k
-
-      if (.not. allocated(self%breach)) return
-      call self%films%warn(system, warnings)
-      do k = 1, size(system%loose%sets)
-         associate (set => system%loose%sets(k)%set)
-            do i = 1, set%n
-               words = ""
-               do g = 1, n_contact_guard
-                  if (self%stops(g)) cycle
-                  c = greatest_of(self%breach(g, set%before%contacts + (i - 1)*set%n_contact_item + 1: &
-                                              set%before%contacts + i*set%n_contact_item))
-                  if (c == 0) cycle
-                  c = (i - 1)*set%n_contact_item + c
-                  if (words == "") then
-                     words = joint_words(set, c)//": "
-                  else
-                     words = words//"; "
-                  end if
-                  words = words//breach_words(self, g, set%before%contacts + c)
-               end do
-               if (words /= "") call append_text(warnings, words)
-            end do
-         end associate
-      end do
-      k = greatest_of(self%travel)
-      if (k == 0) return
-      call append_text(warnings, "body '"//system%linkage%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
-                       " m from its start at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
-                       real_text(self%travel(k)%value/self%size, 3)// &
-                       " times the size of the scene: does a driver or load go on too long, or did it miss a surface?")
-   end subroutine guards_warn
-
-   !> The breach with the greatest value, 0: none.
-   pure integer function greatest_of(breaches) result(k)
-      type(breach_t), intent(in) :: breaches(:)   !! (any) breaches
-
-      integer :: i
-
-      k = 0
-      do i = 1, size(breaches)
-         if (.not. breaches(i)%is_there) cycle
-         if (k > 0) then
-            if (breaches(i)%value <= breaches(k)%value) cycle
-         end if
-         k = i
-      end do
-   end function greatest_of
 
    !> Write what was seen.
    subroutine guards_save(self, tape)

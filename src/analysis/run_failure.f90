@@ -9,7 +9,7 @@ module run_failure
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: constraints_lost, describe_failure, events_without_end, film_ended, guard_reached, time_used_up
+   public :: constraints_lost, describe_failure, events_without_end, film_ended, guard_reached, stopped_words, time_used_up
 
    ! failures beside those of `advance`
    integer, parameter :: constraints_lost = -100    !! a violation beyond all measure
@@ -173,5 +173,22 @@ contains
          words = "try a larger tolerance or a smaller minimum_step, or look for a dead point or a jump in a load or driver"
       end select
    end function advice
+
+   !> That a run was ended from outside, and whether it can go on.
+   function stopped_words(t, saved_at, n_part) result(words)
+      real(wp), intent(in) :: t              !! where it was stopped [s]
+      real(wp), intent(in) :: saved_at       !! time of its last checkpoint, negative: none [s]
+      integer, intent(in) :: n_part          !! parts with steps of their own
+      character(:), allocatable :: words     !! one line
+
+      words = "stopped from outside at t = "//real_text(t, 9)//" s"
+      if (saved_at >= 0.0_wp) then
+         words = words//"; it was saved at t = "//real_text(saved_at, 9)//" s, and --resume goes on from there"
+      else
+         words = words//"; it was not saved: "//trim(merge("groups of bodies with steps of their own", &
+                                                           "a method that keeps a history           ", n_part > 1))// &
+                 " can be at the instants only that the key 'checkpoint' of [analysis.dynamic] sets"
+      end if
+   end function stopped_words
 
 end module run_failure

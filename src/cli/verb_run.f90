@@ -5,20 +5,17 @@ module verb_run
    use checkpoint_file, only: read_checkpoint
    use consistent_start, only: assembly_t
    use dynamic, only: run_dynamic
-   use errors, only: error_t, exit_file, exit_integration, exit_stopped, exit_usage, set_error
+   use errors, only: error_t, exit_file, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t
    use exponent_runs, only: find_horizon, plan_horizon
    use integrator, only: integrator_t
    use integrator_controls, only: read_controls
    use integrator_registry, only: find_integrator
    use kinds, only: wp
-   use kinematic, only: run_kinematic
-   use kinematic_start, only: find_kinematic_start
    use load, only: load_deck, loaded_t
    use mechanism, only: mechanism_t
    use member_result, only: member_result_t
    use memory_purpose, only: memory_is_for
-   use mobility, only: mobility_t
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_size, only: check_size
@@ -26,7 +23,6 @@ module verb_run
    use output_plan, only: lifetime_t, output_plan_t, show_nothing
    use perturbation, only: new_shift
    use posix, only: write_error
-   use prescribed_motion, only: newton_t
    use processes, only: asked_by, end_by, listen
    use recorder, only: status_stopped, summary_t
    use run_audit, only: limits_t
@@ -39,12 +35,29 @@ module verb_run
    use scene_echo, only: echo_scene
    use setting_run, only: first_line, job_t
    use start_state, only: find_start, ideal_start_t
-   use static, only: equilibrium_t, find_equilibrium, record_equilibrium
    use subsystems, only: new_subsystems, subsystem_t
-   use text, only: append_text, starts_with, text_t, to_text
+   use text, only: starts_with, to_text
    implicit none (type, external)
    private
-   public :: directory_of, new_method, run_deck, run_loaded
+   public :: directory_of, end_as_asked, new_method, run_deck, run_loaded
+
+   interface
+
+      !> Motion prescribed by drivers.
+      module subroutine run_prescribed(options, loaded, error)
+         type(options_t), intent(in) :: options               !! the command line
+         type(loaded_t), intent(inout) :: loaded              !! the deck
+         type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+      end subroutine run_prescribed
+
+      !> Equilibrium at rest.
+      module subroutine run_equilibrium(options, loaded, error)
+         type(options_t), intent(in) :: options               !! the command line
+         type(loaded_t), intent(inout) :: loaded              !! the deck
+         type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
+      end subroutine run_equilibrium
+
+   end interface
 
 contains
 
@@ -302,81 +315,6 @@ contains
          call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%change%member))
       end if
    end subroutine check_member
-
-   !> Motion prescribed by drivers.
-   subroutine run_prescribed(options, loaded, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(inout) :: loaded              !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
-
-      type(assembly_t) :: assembly
-      type(mobility_t) :: mobility
-      type(newton_t) :: newton
-      type(output_directory_t) :: directory
-      type(run_recorder_t) :: keeper
-      type(summary_t) :: summary
-      real(wp), allocatable :: q(:)
-      real(wp) :: limit_cpu
-
-      associate (settings => loaded%scene%settings%kinematic)
-         newton%tolerance = settings%number("tolerance")
-         newton%most = nint(settings%number("maximum_iterations"))
-      end associate
-      call find_kinematic_start(loaded%scene, loaded%system, q, assembly, mobility, error)
-      if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
-      if (allocated(error)) return
-      call make_plan(options, loaded, directory, assembly, keeper%plan)
-      limit_cpu = loaded%scene%settings%kinematic%number("limit_cpu")
-      keeper%plan%life%is_saved = .true.
-      call listen(.true.)
-      call run_kinematic(loaded%system, q, loaded%plan, newton, limit_cpu, keeper, summary, error)
-      call listen(.false.)
-      call directory%close()
-      call end_as_asked(summary, error)
-   end subroutine run_prescribed
-
-   !> Equilibrium at rest.
-   subroutine run_equilibrium(options, loaded, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(inout) :: loaded              !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
-
-      type(assembly_t) :: assembly
-      type(equilibrium_t) :: equilibrium
-      type(output_directory_t) :: directory
-      type(run_recorder_t) :: keeper
-      type(summary_t) :: summary
-      real(wp), allocatable :: q(:), v(:)
-
-      call loaded%system%linkage%deck_state(q, v)
-      call find_equilibrium(loaded%scene, loaded%system, q, assembly, equilibrium, error)
-      if (allocated(error)) return
-      call directory%open(directory_of(options, loaded), error)
-      if (allocated(error)) return
-      call make_plan(options, loaded, directory, assembly, keeper%plan)
-      call keep_films(keeper%plan)
-      call record_equilibrium(loaded%system, equilibrium, keeper, summary, error)
-      call directory%close()
-   end subroutine run_equilibrium
-
-   !> Of an equilibrium there are figures of films only; a warning for the others.
-   subroutine keep_films(plan)
-      type(output_plan_t), intent(inout) :: plan  !! plan of the run
-
-      type(text_t), allocatable :: films(:)
-      integer :: k
-
-      allocate (films(0))
-      do k = 1, size(plan%figures)
-         if (starts_with(plan%figures(k)%s, "film(")) call append_text(films, plan%figures(k)%s)
-      end do
-      if (size(films) < size(plan%figures)) then
-         call append_text(plan%warnings, "figures left out: an equilibrium is one instant")
-      end if
-      plan%with%figures = plan%with%figures .and. size(films) > 0
-      call move_alloc(films, plan%figures)
-   end subroutine keep_films
 
    !> The integrator that a scene asks for, with its controls.
    subroutine new_method(scene, method)

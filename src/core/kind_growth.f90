@@ -1,4 +1,5 @@
-!> How the lists of a kind grow: what is there already is handed over to the longer list, its texts not copied.
+!> How the lists of a kind grow, and what dimensions are the same. What a list holds already is handed over to the
+!> longer one, its texts not copied.
 submodule(kind_info) kind_growth
    implicit none (type, external)
 
@@ -74,5 +75,13 @@ contains
       call move_alloc(from%frame, to%frame)
       call move_alloc(from%help, to%help)
    end subroutine hand_over_channel
+
+   !> Whether two dimensions are the same.
+   module procedure same_dimension
+      real(wp), parameter :: close = 1.0e-9_wp  !! exponents nearer than this are the same [1]
+
+      same_dimension = abs(a%kg - b%kg) < close .and. abs(a%m - b%m) < close .and. abs(a%s - b%s) < close &
+                     & .and. abs(a%rad - b%rad) < close .and. abs(a%k - b%k) < close
+   end procedure same_dimension
 
 end submodule kind_growth

@@ -143,6 +143,12 @@ module kind_info
    end type kind_info_t
 
    interface
+      !> Whether two dimensions are the same.
+      pure module logical function same_dimension(a, b)
+         type(dim_t), intent(in) :: a  !! one dimension
+         type(dim_t), intent(in) :: b  !! the other
+      end function same_dimension
+
       !> Append a column to a kind.
       module subroutine add_column(info, column)
          implicit none (type, external)
@@ -387,16 +393,5 @@ contains
       if (present(open_lower)) column%bounds%open_lower = open_lower
       call add_column(info, column)
    end subroutine add_duration
-
-   !> Whether two dimensions are the same.
-   pure logical function same_dimension(a, b)
-      type(dim_t), intent(in) :: a  !! one dimension
-      type(dim_t), intent(in) :: b  !! the other
-
-      real(wp), parameter :: close = 1.0e-9_wp  !! exponents nearer than this are the same [1]
-
-      same_dimension = abs(a%kg - b%kg) < close .and. abs(a%m - b%m) < close .and. abs(a%s - b%s) < close &
-                     & .and. abs(a%rad - b%rad) < close .and. abs(a%k - b%k) < close
-   end function same_dimension
 
 end module kind_info

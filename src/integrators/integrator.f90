@@ -4,12 +4,11 @@
 !> then `step` holds both ends of it. After a change of the system (an event handled) `restart`
 !> must be called before the next step.
 module integrator
-   use checkpoint, only: add_piece, piece_t
+   use checkpoint, only: piece_t
    use integrator_controls, only: controls_t, norm_absolute, norm_euclidean, norm_mixed, norm_relative, onset_located
    use interpolation, only: inner_places, interpolate, step_t
    use kind_info, only: kind_info_t
    use kinds, only: i8, wp
-   use memory, only: get, put
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
@@ -151,6 +150,54 @@ module integrator
          real(wp), intent(out) :: y(:)                 !! (n) state [any]
          integer, intent(out) :: status                !! advance_step, or a failure
       end subroutine refine_interface
+   end interface
+
+   interface
+
+      !> List what the integrator saves: what every one keeps, then what the method adds.
+      module subroutine integrator_list_memory(self, pieces)
+         class(integrator_t), intent(in) :: self                 !! the integrator
+         type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
+      end subroutine integrator_list_memory
+
+      !> Numbers that a checkpoint needs; a method that remembers more adds to it.
+      module integer function integrator_memory_size(self) result(n)
+         class(integrator_t), intent(in) :: self  !! the integrator
+      end function integrator_memory_size
+
+      !> Write what the integrator remembers.
+      module subroutine integrator_save(self, row, place)
+         class(integrator_t), intent(in) :: self  !! the integrator
+         real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
+         integer, intent(inout) :: place          !! last place used
+      end subroutine integrator_save
+
+      !> Read what the integrator remembers.
+      module subroutine integrator_load(self, row, place)
+         class(integrator_t), intent(inout) :: self  !! the integrator
+         real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
+         integer, intent(inout) :: place             !! last place used
+      end subroutine integrator_load
+
+      !> Numbers that every integrator keeps: time, state, derivative, event functions and counters.
+      module integer function base_memory_size(self) result(n)
+         class(integrator_t), intent(in) :: self  !! the integrator
+      end function base_memory_size
+
+      !> Write what every integrator keeps.
+      module subroutine save_base(self, row, place)
+         class(integrator_t), intent(in) :: self  !! the integrator
+         real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
+         integer, intent(inout) :: place          !! last place used
+      end subroutine save_base
+
+      !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
+      module subroutine load_base(self, row, place)
+         class(integrator_t), intent(inout) :: self  !! the integrator
+         real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
+         integer, intent(inout) :: place             !! last place used
+      end subroutine load_base
+
    end interface
 
 contains
@@ -302,105 +349,9 @@ contains
       end select
    end subroutine set_scales
 
-   !> List what the integrator saves: what every one keeps, then what the method adds.
-   subroutine integrator_list_memory(self, pieces)
-      class(integrator_t), intent(in) :: self                 !! the integrator
-      type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
-
-      type(kind_info_t) :: info
-
-      info = self%info()
-      call add_piece(pieces, "the state", base_version, self%base_memory_size())
-      call add_piece(pieces, "method = "//info%name, self%memory_version(), self%memory_size() - self%base_memory_size())
-   end subroutine integrator_list_memory
-
    !> Version of the form of what the method adds; one that changes what it saves says so.
    pure integer function integrator_memory_version() result(version)
       version = 1
    end function integrator_memory_version
-
-   !> Numbers that a checkpoint needs; a method that remembers more adds to it.
-   integer function integrator_memory_size(self) result(n)
-      class(integrator_t), intent(in) :: self  !! the integrator
-
-      n = self%base_memory_size()
-   end function integrator_memory_size
-
-   !> Write what the integrator remembers.
-   subroutine integrator_save(self, row, place)
-      class(integrator_t), intent(in) :: self  !! the integrator
-      real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
-      integer, intent(inout) :: place          !! last place used
-
-      call self%save_base(row, place)
-   end subroutine integrator_save
-
-   !> Read what the integrator remembers.
-   subroutine integrator_load(self, row, place)
-      class(integrator_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
-
-      call self%load_base(row, place)
-   end subroutine integrator_load
-
-   !> Numbers that every integrator keeps: time, state, derivative, event functions and counters.
-   integer function base_memory_size(self) result(n)
-      class(integrator_t), intent(in) :: self  !! the integrator
-
-      n = 5 + 2*size(self%step%y1) + 5*size(self%events%g1)
-   end function base_memory_size
-
-   !> Write what every integrator keeps.
-   subroutine save_base(self, row, place)
-      class(integrator_t), intent(in) :: self  !! the integrator
-      real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
-      integer, intent(inout) :: place          !! last place used
-
-      integer :: k
-
-      call put(row, place, self%t)
-      call put(row, place, self%count%n_steps)
-      call put(row, place, self%count%n_rejected)
-      call put(row, place, self%count%n_evaluations)
-      call put(row, place, self%count%n_output_evaluations)
-      call put(row, place, self%step%y1)
-      call put(row, place, self%step%f1)
-      call put(row, place, self%events%g1)
-      call put(row, place, self%events%rate1)
-      call put(row, place, self%onset%gap)
-      do k = 1, size(self%events%g1)
-         call put(row, place, self%events%is_hidden(k))
-         call put(row, place, self%onset%is_waiting(k))
-      end do
-   end subroutine save_base
-
-   !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
-   subroutine load_base(self, row, place)
-      class(integrator_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
-      integer, intent(inout) :: place             !! last place used
-
-      integer :: k
-
-      call get(row, place, self%t)
-      call get(row, place, self%count%n_steps)
-      call get(row, place, self%count%n_rejected)
-      call get(row, place, self%count%n_evaluations)
-      call get(row, place, self%count%n_output_evaluations)
-      call get(row, place, self%step%y1)
-      call get(row, place, self%step%f1)
-      call get(row, place, self%events%g1)
-      call get(row, place, self%events%rate1)
-      call get(row, place, self%onset%gap)
-      do k = 1, size(self%events%g1)
-         call get(row, place, self%events%is_hidden(k))
-         call get(row, place, self%onset%is_waiting(k))
-      end do
-      self%step%t0 = self%t
-      self%step%h = 0.0_wp
-      self%step%has_inner = .false.
-      self%events%n_happened = 0
-   end subroutine load_base
 
 end module integrator

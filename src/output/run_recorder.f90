@@ -5,14 +5,13 @@
 !> after a failed write nothing more is written to that file, and what it holds stays readable.
 module run_recorder
    use catalogue, only: catalogue_t
-   use channel_names, only: scalar_name, scalar_t
+   use channel_names, only: scalar_name
    use csv_files, only: write_csv_files
-   use channels, only: list_scalars, select_channels, selection_t
-   use errors, only: error_t, exit_deck, exit_file, set_error
+   use channels, only: selection_t
+   use errors, only: error_t, exit_file, set_error
    use event_list, only: event_list_t
    use extremes, only: extremes_t, joints_at_extremes
-   use figure_needs, only: add_figure_channels, extra_tables, film_requests, spectral_scalars, stroboscopic_scalars
-   use figure_words, only: append_figure, figure_film, figure_t, is_of_run, new_figure
+   use figure_words, only: figure_t
    use figures, only: make_figures
    use film_fields, only: append_field, film_field_t
    use film_words, only: missing_films
@@ -28,11 +27,10 @@ module run_recorder
    use recorder, only: event_t, recorder_t, row_instant, status_complete, status_stopped, summary_t
    use saved_run, only: saved_run_t
    use scene_poses, only: pose_reader_t
-   use statistics, only: number_t, statistics_t
+   use statistics, only: statistics_t
    use statistics_plots, only: statistics_table
    use summary_writer, only: complete_summary, outcome_t
    use text, only: append_text, text_t, to_text
-   use text_file, only: write_file
    use text_table, only: file_heading
    use text_writer, only: text_writer_t
    implicit none (type, external)
@@ -134,134 +132,26 @@ module run_recorder
       end subroutine write_without_figures
    end interface
 
+   interface
+
+      !> Make the files.
+      module subroutine start_run(self, catalogue, error)
+         class(run_recorder_t), intent(inout) :: self       !! the recorder
+         type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
+         type(error_t), allocatable, intent(out) :: error   !! a file cannot be made
+      end subroutine start_run
+
+      !> Whether files, figures or statistics read the value of a quantity of an item. A dataset of run.h5 holds all items
+      !> of its room that appear.
+      module pure logical function run_wants(self, group, item) result(wants)
+         class(run_recorder_t), intent(in) :: self          !! the recorder, started
+         integer, intent(in) :: group                       !! its group in the catalogue
+         integer, intent(in) :: item                        !! number of the item in the group's room
+      end function run_wants
+
+   end interface
+
 contains
-
-   !> Make the files.
-   subroutine start_run(self, catalogue, error)
-      class(run_recorder_t), intent(inout) :: self       !! the recorder
-      type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
-      type(error_t), allocatable, intent(out) :: error   !! a file cannot be made
-
-      call memory_is_for("the rows of the time histories that wait to be written")
-      call self%plan%complete()
-      self%items = catalogue
-      call choose(self, catalogue, error)
-      if (allocated(error)) return
-      if (allocated(self%plan%origin%deck_echo)) then
-         call write_file(self%plan%directory//"/deck.echo", self%plan%origin%deck_echo, error)
-         if (allocated(error)) return
-      end if
-      if (self%plan%is_twin()) self%plan%statistics%is_wanted = .false.
-      call self%statistics%start(self%plan%statistics, catalogue, [stroboscopic_scalars(self%figures), &
-                                 stroboscopic_scalars(self%of_sweep)], &
-                                 spectral_scalars(self%figures))
-      allocate (self%fields(0))
-      if (self%plan%with%hdf5 .and. self%plan%with%histories .or. self%plan%with%figures) then
-         if (any(self%figures%kind == figure_film)) self%wants_fields = film_requests(self%figures)
-      end if
-      if (.not. self%plan%with%histories) call self%selection%clear(catalogue)
-      call self%extremes%start(list_scalars(self%selection))
-      if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
-      if (allocated(error)) return
-      if (.not. self%plan%is_twin()) call self%keeper%start(self%plan%looks%frames, catalogue)
-      if (self%plan%with%motion) then
-         call self%reader%bind(catalogue)
-         call self%motion%start(self%plan, catalogue, error)
-         if (allocated(error)) return
-      end if
-      if (self%plan%with%texts) then
-         call self%texts%start(self%plan, catalogue, self%selection, extra_tables(self%figures, catalogue), error)
-         if (allocated(error)) return
-      end if
-      ! histories want them, and the extremes of the statistics
-      self%wants_contact_rows = self%plan%with%contact_rows .and. (self%plan%with%histories .or. self%statistics%plan%is_wanted)
-      self%has_started = .true.
-      call self%display%start(self%plan%with%progress)
-      call memory_is_for("the motion")
-   end subroutine start_run
-
-   !> Understand the words for channels and figures. The twin skips what it does not have.
-   subroutine choose(self, catalogue, error)
-      class(run_recorder_t), intent(inout) :: self       !! the recorder
-      type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
-      type(error_t), allocatable, intent(out) :: error   !! a word is wrong
-
-      type(text_t), allocatable :: words(:)
-      type(figure_t) :: figure
-      character(:), allocatable :: hint, message
-      integer :: bad, k
-
-      words = self%plan%channels
-      do
-         call select_channels(words, catalogue, self%selection, bad, message, hint)
-         if (bad == 0) exit
-         if (.not. self%plan%is_twin()) then
-            call set_error(error, exit_deck, message//"; "//hint)
-            return
-         end if
-         words = without(words, bad)
-         if (size(words) > 0) cycle
-         call self%selection%clear(catalogue)
-         exit
-      end do
-      allocate (self%figures(0), self%of_sweep(0))
-      do k = 1, size(self%plan%figures)
-         call new_figure(self%plan%figures(k)%s, catalogue, figure, message, hint)
-         if (len(message) == 0 .and. .not. is_of_run(figure) .and. .not. self%plan%is_twin()) then
-            ! figures of a sweep ask a run for their channels only
-            call append_figure(self%of_sweep, figure)
-         else if (len(message) == 0) then
-            call append_figure(self%figures, figure)
-         else if (.not. self%plan%is_twin()) then
-            call set_error(error, exit_deck, message//"; "//hint)
-            return
-         end if
-      end do
-      call add_figure_channels(self%figures, self%selection)
-   end subroutine choose
-
-   !> A list without one of its words.
-   function without(words, number) result(rest)
-      type(text_t), intent(in) :: words(:)     !! (n) words
-      integer, intent(in) :: number            !! of the word to leave out
-      type(text_t), allocatable :: rest(:)     !! (n - 1) the others
-
-      integer :: k
-
-      allocate (rest(0))
-      do k = 1, size(words)
-         if (k /= number) call append_text(rest, words(k)%s)
-      end do
-   end function without
-
-   !> Whether files, figures or statistics read the value of a quantity of an item. A dataset of run.h5 holds all items of its room
-   !> that appear.
-   pure logical function run_wants(self, group, item) result(wants)
-      class(run_recorder_t), intent(in) :: self          !! the recorder, started
-      integer, intent(in) :: group                       !! its group in the catalogue
-      integer, intent(in) :: item                        !! number of the item in the group's room
-
-      integer :: k
-
-      wants = self%selection%has_group(group)
-      if (wants) wants = self%selection%has_item(self%items, self%items%groups(group)%room, item)
-      wants = wants .or. self%reader%reads(group) .or. self%keeper%reads(group)
-      if (allocated(self%statistics%channels)) wants = wants .or. reads(self%statistics%channels)
-      if (allocated(self%statistics%spectra)) wants = wants .or. reads(self%statistics%spectra)
-      do k = 1, size(self%figures)
-         if (allocated(self%figures(k)%scalars)) wants = wants .or. reads(self%figures(k)%scalars)
-      end do
-
-   contains
-
-      !> Whether it is among some numbers.
-      pure logical function reads(scalars)
-         type(scalar_t), intent(in) :: scalars(:)  !! (n) the numbers
-
-         reads = any(scalars%group == group .and. scalars%item == item)
-      end function reads
-
-   end function run_wants
 
    !> Keep the current values.
    subroutine sample_run(self, t, catalogue, error)

@@ -8,17 +8,15 @@
 !> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
 !> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
 module figure_words
-   use catalogue, only: catalogue_t, room_clearances, room_contacts
+   use catalogue, only: catalogue_t, room_clearances
    use channel_names, only: scalar_t
-   use channels, only: list_scalars, match_word, selection_t
    use curve_words, only: bind_curves, curves_t
    use figure_phrase, only: phrase_hint, phrase_t, read_phrase
    use film_fields, only: field_request_t
-   use film_words, only: film_hint, take_film
    use kinds, only: i8, wp
-   use motion_words, only: motion_hint, motion_request_t, take_motion
+   use motion_words, only: motion_request_t
    use spelling, only: nearest_word
-   use text, only: append_text, join, piece, starts_with, text_t, to_text
+   use text, only: join, piece, starts_with, text_t, to_text
    implicit none (type, external)
    private
    public :: append_figure, check_figures, figure_t, new_figure
@@ -61,6 +59,19 @@ module figure_words
       type(motion_request_t) :: motion              !! of what draws the mechanism: when, and which point
       type(text_t), allocatable :: numbers(:)       !! (n) of statistics: their names; of a histogram: joint, quantity
    end type figure_t
+
+   interface
+
+      !> A figure with arguments.
+      module subroutine new_call(word, catalogue, figure, message, hint)
+         character(*), intent(in) :: word                       !! a word of the deck
+         type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
+         type(figure_t), intent(inout) :: figure                !! the figure, its kind is known
+         character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
+         character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
+      end subroutine new_call
+
+   end interface
 
 contains
 
@@ -268,115 +279,6 @@ contains
          if (word//"(" == trim(call_words(kind)) .and. kind /= figure_coupler) call = word//"()"
       end do
    end function called
-
-   !> A figure with arguments.
-   subroutine new_call(word, catalogue, figure, message, hint)
-      character(*), intent(in) :: word                       !! a word of the deck
-      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-      type(figure_t), intent(inout) :: figure                !! the figure, its kind is known
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
-
-      type(text_t), allocatable :: arguments(:)
-      integer :: k, least, most
-
-      allocate (figure%scalars(0), figure%numbers(0))
-      least = merge(2, 1, figure%kind == figure_portrait .or. figure%kind == figure_section)
-      most = merge(most_panels, least, figure%kind == figure_statistics)
-      if (figure%kind == figure_film) most = 2
-      arguments = arguments_of(word(len_trim(call_words(figure%kind)) + 1:))
-      if (draws_mechanism(figure) .and. word(len(word):) == ")" .and. &
-          (figure%kind /= figure_coupler .or. size(arguments) > 0)) then
-         call take_motion(arguments, figure%kind == figure_coupler, figure%motion, message)
-         if (len(message) > 0) hint = motion_hint
-         return
-      end if
-      if (size(arguments) < least .or. size(arguments) > most .or. word(len(word):) /= ")") then
-         message = "cannot read '"//word//"'"
-         hint = "write "//trim(call_words(figure%kind))//trim(merge("x_channel,y_channel", "channel            ", least == 2))// &
-                ") without blanks"
-         if (figure%kind == figure_statistics) hint = "write statistics(NUMBER,NUMBER) with one to four numbers, without blanks"
-         if (figure%kind == figure_film) hint = film_hint
-         if (draws_mechanism(figure)) hint = motion_hint
-         return
-      end if
-      select case (figure%kind)
-      case (figure_histogram)
-         call take_histogram(arguments(1)%s, catalogue, figure, message, hint)
-      case (figure_statistics)
-         figure%numbers = arguments
-      case (figure_film)
-         figure%film%name = figure%name
-         call take_film(arguments, catalogue, figure%film, message, hint)
-      case default
-         do k = 1, size(arguments)
-            call take_scalar(arguments(k)%s, catalogue, figure, message, hint)
-            if (len(message) > 0) return
-         end do
-      end select
-   end subroutine new_call
-
-   !> What stands between commas before a closing parenthesis.
-   pure function arguments_of(text) result(list)
-      character(*), intent(in) :: text           !! as `a,b)`
-      type(text_t), allocatable :: list(:)       !! (n) arguments
-
-      integer :: first, length
-
-      allocate (list(0))
-      first = 1
-      do while (first <= len(text))
-         length = scan(text(first:), ",)") - 1
-         if (length < 1) exit
-         call append_text(list, text(first:first + length - 1))
-         first = first + length + 1
-      end do
-   end function arguments_of
-
-   !> Add a channel that is one number to a figure.
-   subroutine take_scalar(word, catalogue, figure, message, hint)
-      character(*), intent(in) :: word                       !! name of the channel
-      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-      type(figure_t), intent(inout) :: figure                !! the figure
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
-
-      type(selection_t) :: named
-      type(scalar_t), allocatable :: scalars(:)
-
-      call match_word(word, catalogue, named, message, hint)
-      if (len(message) > 0) return
-      scalars = list_scalars(named)
-      if (size(scalars) == 1) then
-         figure%scalars = [figure%scalars, scalars]
-      else
-         message = "'"//word//"' is not one number"
-         hint = "this figure needs single components, as in "//word//".x"
-      end if
-   end subroutine take_scalar
-
-   !> A histogram of what the contacts of a joint do.
-   subroutine take_histogram(word, catalogue, figure, message, hint)
-      character(*), intent(in) :: word                       !! as `gudgeon.impact_speed`
-      type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
-      type(figure_t), intent(inout) :: figure                !! the figure
-      character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
-      character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
-
-      integer :: dot, k
-
-      dot = index(word, ".")
-      do k = 1, size(catalogue%rooms(room_contacts)%names)
-         if (dot == 0) exit
-         if (catalogue%rooms(room_contacts)%names(k)%s /= word(1:dot - 1)) cycle
-         if (index(" "//histogram_words//" ", " "//word(dot + 1:)//" ") == 0) cycle
-         call append_text(figure%numbers, word(1:dot - 1))
-         call append_text(figure%numbers, word(dot + 1:))
-         return
-      end do
-      message = "no histogram of '"//word//"'"
-      hint = "write histogram(JOINT.impact_speed) or histogram(JOINT.peak_force) for a joint with clearance"
-   end subroutine take_histogram
 
    !> Whether a figure is one of a single run, not of a sweep.
    pure logical function is_of_run(figure)

@@ -1,0 +1,38 @@
+!> What the watch over contacts remembers in a checkpoint.
+submodule(contact_watch) contact_watch_memory
+   use memory, only: get, put
+   implicit none (type, external)
+
+contains
+
+   !> Numbers that a checkpoint needs.
+   module procedure watch_memory_size
+      n = n_remembered*size(self%force)
+   end procedure watch_memory_size
+
+   !> Write what the watch remembers.
+   module procedure watch_save
+      integer :: k
+
+      do k = 1, size(self%force)
+         call put(row, place, [self%force(k)%value, self%force(k)%rate, self%penetration(k)%value, self%penetration(k)%rate])
+         call put(row, place, self%owes_row(k))
+         call put(row, place, self%told(k))
+      end do
+   end procedure watch_save
+
+   !> Read what the watch remembers.
+   module procedure watch_load
+      integer :: k
+
+      do k = 1, size(self%force)
+         call get(row, place, self%force(k)%value)
+         call get(row, place, self%force(k)%rate)
+         call get(row, place, self%penetration(k)%value)
+         call get(row, place, self%penetration(k)%rate)
+         call get(row, place, self%owes_row(k))
+         call get(row, place, self%told(k))
+      end do
+   end procedure watch_load
+
+end submodule contact_watch_memory

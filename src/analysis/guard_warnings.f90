@@ -1,0 +1,100 @@
+!> What guards have to say: of a run that they end, and at the end of one.
+submodule(guards) guard_warnings
+   use text, only: append_text
+   implicit none (type, external)
+
+contains
+
+   !> A contact in words.
+   module procedure joint_words
+      words = "joint '"//set%names(set%item_of(c))%s//"'"
+      if (set%label_of(c) /= "") words = words//", contact "//set%label_of(c)
+      words = words//", law '"//set%laws%normal%name//"'"
+   end procedure joint_words
+
+   !> What was passed, in words.
+   module procedure breach_words
+      associate (breach => self%breach(g, m), limit => self%limit(g, m))
+         select case (g)
+         case (guard_penetration)
+            words = "a penetration of "//millimetres(breach%value)//", beyond "//real_text(self%penetration, 3)// &
+                    " of the size of the surfaces, "//millimetres(limit)//" (guard 'penetration')"
+         case (guard_clearance)
+            words = "penetrations of up to "//millimetres(breach%value)//", beyond the clearance itself, "//millimetres(limit)
+         case (guard_law_range)
+            words = "penetrations of up to "//millimetres(breach%value)//", but the law ends at "//millimetres(limit)// &
+                    " and was continued along its tangent"
+         case (guard_impact_speed)
+            words = "impacts of up to "//real_text(breach%value, 3)//" m/s, but the law is quasi-static: strictly below "// &
+                    real_text(limit, 3)//" m/s (1e-5 sqrt(E/rho))"
+         case default
+            words = "normal forces of up to "//real_text(breach%value, 3)//" N, but the strength of the material is reached at "// &
+                    real_text(limit, 3)//" N"
+         end select
+         words = words//", at t = "//real_text(breach%time, 6)//" s"
+         if (breach%first < breach%time) words = words//", first at "//real_text(breach%first, 6)//" s"
+      end associate
+   end procedure breach_words
+
+   !> A length in words.
+   function millimetres(length) result(words)
+      real(wp), intent(in) :: length        !! [m]
+      character(:), allocatable :: words    !! in mm
+
+      words = real_text(1.0e3_wp*length, 3)//" mm"
+   end function millimetres
+
+   !> Append a warning for each joint whose contacts passed a limit without ending the run, one for each limit, and one for the
+   !> body that went farthest.
+   module procedure guards_warn
+      character(:), allocatable :: words
+      integer :: c, g, i, k
+
+      if (.not. allocated(self%breach)) return
+      call self%films%warn(system, warnings)
+      do k = 1, size(system%loose%sets)
+         associate (set => system%loose%sets(k)%set)
+            do i = 1, set%n
+               words = ""
+               do g = 1, n_contact_guard
+                  if (self%stops(g)) cycle
+                  c = greatest_of(self%breach(g, set%before%contacts + (i - 1)*set%n_contact_item + 1: &
+                                              set%before%contacts + i*set%n_contact_item))
+                  if (c == 0) cycle
+                  c = (i - 1)*set%n_contact_item + c
+                  if (words == "") then
+                     words = joint_words(set, c)//": "
+                  else
+                     words = words//"; "
+                  end if
+                  words = words//breach_words(self, g, set%before%contacts + c)
+               end do
+               if (words /= "") call append_text(warnings, words)
+            end do
+         end associate
+      end do
+      k = greatest_of(self%travel)
+      if (k == 0) return
+      call append_text(warnings, "body '"//system%linkage%bodies%names(k)%s//"' is "//real_text(self%travel(k)%value, 3)// &
+                       " m from its start at t = "//real_text(self%travel(k)%time, 6)//" s, "// &
+                       real_text(self%travel(k)%value/self%size, 3)// &
+                       " times the size of the scene: does a driver or load go on too long, or did it miss a surface?")
+   end procedure guards_warn
+
+   !> The breach with the greatest value, 0: none.
+   pure integer function greatest_of(breaches) result(k)
+      type(breach_t), intent(in) :: breaches(:)   !! (any) breaches
+
+      integer :: i
+
+      k = 0
+      do i = 1, size(breaches)
+         if (.not. breaches(i)%is_there) cycle
+         if (k > 0) then
+            if (breaches(i)%value <= breaches(k)%value) cycle
+         end if
+         k = i
+      end do
+   end function greatest_of
+
+end submodule guard_warnings

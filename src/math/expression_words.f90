@@ -1,0 +1,246 @@
+!> Words in an expression: names, channels and calls.
+submodule(expression_parser) expression_words
+   use expression, only: most_seen
+   use expression_dimension, only: dimension_agrees
+   use expression_functions, only: apply_function, function_names, function_operation, most_arguments, n_argument
+   use expression_leaves, only: parse_name
+   use expression_state, only: call_function, digits, find_function, function_list
+   use expression_symbols, only: symbol_broken
+   use rise_laws, only: number_of_rise
+   use text, only: split_blank, to_text
+   implicit none (type, external)
+
+contains
+
+   !> A name, or a function with its arguments.
+   module procedure parse_word
+      type(term_t) :: arguments(most_arguments)
+      character(:), allocatable :: message, name
+      integer :: k, n, operation
+
+      n = channel_length(parser%source(parser%at:))
+      if (n > 0) then
+         name = parser%source(parser%at:parser%at + n - 1)
+         call parse_channel(parser, name, term)
+         return
+      end if
+      n = name_length(parser%source(parser%at:))
+      name = parser%source(parser%at:parser%at + n - 1)
+      call advance(parser, n)
+      if (peek(parser) /= "(") then
+         call parse_name(parser, name, term)
+         return
+      end if
+      operation = function_operation(name)
+      if (operation == 0) then
+         call parse_call(parser, name, term)
+         return
+      end if
+      n = n_argument(operation)
+      call descend(parser)
+      do k = 1, n
+         if (allocated(parser%fault)) return
+         call advance(parser, 1)
+         call parse_sum(parser, arguments(k))
+         if (allocated(parser%fault)) return
+         if (k < n .and. peek(parser) /= ",") then
+            if (n == 2) then
+               call fail(parser, term%first, parser%last, "'"//name//"' takes two arguments, separated by a comma")
+            else
+               call fail(parser, term%first, parser%last, "'"//name//"' takes five arguments, separated by commas", &
+                       & "from h0 at x0 to h1 at x1: "//name//"(x, x0, h0, x1, h1)")
+            end if
+         else if (k == n .and. peek(parser) == ",") then
+            message = ""
+            if (name == "step") message = "step(x) is 0 for negative x, else 1; smooth ones are step3 and step5(x, x0, h0, x1, h1)"
+            call fail(parser, parser%at, parser%at, "too many arguments for '"//name//"'", message)
+         end if
+      end do
+      call close_parenthesis(parser, term%first)
+      if (allocated(parser%fault)) return
+      call apply_function(name, operation, arguments, term, message, k)
+      if (len(message) > 0) call fail(parser, arguments(k)%first, arguments(k)%last, message)
+      if (operation == op_rise) then
+         call check_places(parser, name, arguments)
+         call emit_rise(parser, number_of_rise(name), arguments%start)
+      else
+         call emit(parser, operation)
+      end if
+   end procedure parse_word
+
+   !> A law that rises takes its way between two places: constant ones must differ.
+   subroutine check_places(parser, name, arguments)
+      type(parser_t), intent(inout) :: parser   !! the reader, its program ends with the arguments
+      character(*), intent(in) :: name          !! of the law
+      type(term_t), intent(in) :: arguments(:)  !! (5) x, x0, h0, x1, h1
+
+      real(wp) :: jet(3), place(2)
+      integer :: first, k, last
+
+      if (allocated(parser%fault) .or. .not. (arguments(2)%is_constant .and. arguments(4)%is_constant)) return
+      do k = 1, 2
+         first = arguments(2*k)%start
+         last = arguments(2*k + 1)%start - 1
+         call evaluate_code(last - first + 1, parser%code(first:last), parser%operand(first:last), parser%curves, &
+                          & spread(0.0_wp, 1, n_variable), 1, jet)
+         place(k) = jet(1)
+      end do
+      if (abs(place(2) - place(1)) > 0.0_wp) return
+      call fail(parser, arguments(4)%first, arguments(4)%last, "'"//name//"' has no way to rise: x0 and x1 are one place", &
+              & name//"(x, x0, h0, x1, h1) goes from h0 at x0 to h1 at x1")
+   end subroutine check_places
+
+   !> A law that rises: h0 + (h1 - h0) s((x - x0)/(x1 - x0)), in the place of its arguments x, x0, h0, x1, h1.
+   subroutine emit_rise(parser, law, start)
+      type(parser_t), intent(inout) :: parser  !! the reader, its program ends with the arguments
+      integer, intent(in) :: law               !! number of the law
+      integer, intent(in) :: start(:)          !! (5) first operation of each argument
+
+      integer, allocatable :: code(:)
+      real(wp), allocatable :: operand(:)
+      integer :: first
+
+      if (allocated(parser%fault)) return
+      first = start(1)
+      code = parser%code(first:parser%n_code)
+      operand = parser%operand(first:parser%n_code)
+      parser%n_code = first - 1
+      call emit_argument(3)
+      call emit_argument(5)
+      call emit_argument(3)
+      call emit(parser, op_subtract)
+      call emit_argument(1)
+      call emit_argument(2)
+      call emit(parser, op_subtract)
+      call emit_argument(4)
+      call emit_argument(2)
+      call emit(parser, op_subtract)
+      call emit(parser, op_divide)
+      call emit(parser, op_rise, real(law, wp))
+      call emit(parser, op_multiply)
+      call emit(parser, op_add)
+
+   contains
+
+      !> Append the program of an argument.
+      subroutine emit_argument(number)
+         integer, intent(in) :: number   !! of the argument
+
+         integer :: k, last
+
+         last = size(code)
+         if (number < 5) last = start(number + 1) - first
+         do k = start(number) - first + 1, last
+            call emit(parser, code(k), operand(k))
+         end do
+      end subroutine emit_argument
+
+   end subroutine emit_rise
+
+   !> Length of the channel with which a string begins, names with dots between them; 0 if it begins otherwise.
+   pure integer function channel_length(string) result(length)
+      character(*), intent(in) :: string  !! any string
+
+      integer :: n
+
+      length = name_length(string)
+      n = 0
+      do while (length > 0 .and. length + 2 <= len(string))
+         if (string(length + 1:length + 1) /= "." .or. scan(string(length + 2:length + 2), letters) == 0) exit
+         n = verify(string(length + 2:), letters//digits//"_") - 1
+         if (n < 0) n = len(string) - length - 1
+         length = length + 1 + n
+      end do
+      if (n == 0) length = 0
+   end function channel_length
+
+   !> A channel, which is a variable behind those that have names.
+   subroutine parse_channel(parser, word, term)
+      type(parser_t), intent(inout) :: parser  !! the reader, at the channel
+      character(*), intent(in) :: word         !! the channel
+      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+
+      character(:), allocatable :: help, message
+      integer :: k
+
+      call advance(parser, len(word))
+      if (.not. associated(parser%finder)) then
+         call fail(parser, term%first, parser%last, "the channel '"//word//"' has no place here", &
+                 & "only loads and requests use channels")
+         return
+      end if
+      do k = 1, parser%n_seen
+         if (parser%sights(k)%word == word) exit
+      end do
+      if (k > parser%n_seen) then
+         if (k > most_seen) then
+            call fail(parser, term%first, parser%last, "more than "//to_text(most_seen)//" channels in one expression", &
+                    & "make requests of its parts")
+            return
+         end if
+         call parser%finder%find(word, parser%seen_dimensions(k), message, help)
+         if (.not. allocated(message)) then
+            call fail(parser, term%first, parser%last, "")
+         else if (len(message) > 0) then
+            call fail(parser, term%first, parser%last, message, help)
+         end if
+         parser%sights(k)%word = word
+         parser%sights(k)%first = term%first
+         parser%n_seen = k
+      end if
+      term%dimension = parser%seen_dimensions(k)
+      term%is_constant = .false.
+      call emit(parser, op_time, real(1 + k, wp))
+   end subroutine parse_channel
+
+   !> A named function of the deck with its argument.
+   recursive subroutine parse_call(parser, name, term)
+      type(parser_t), intent(inout) :: parser  !! the reader, at the parenthesis
+      character(*), intent(in) :: name         !! of the function
+      type(term_t), intent(inout) :: term      !! in: where it begins; out: what was read
+
+      type(term_t) :: argument
+      character(:), allocatable :: known
+      integer :: i
+
+      i = find_function(parser, name)
+      if (i == 0) then
+         if (is_broken(parser, name)) then
+            call fail(parser, term%first, parser%last, "")
+         else
+            known = function_names//function_list(parser)
+            call fail(parser, term%first, parser%last, "there is no function '"//name//"'", &
+                    & suggestion(name, split_blank(known), "functions: "//known))
+         end if
+         return
+      end if
+      call descend(parser)
+      if (allocated(parser%fault)) return
+      call advance(parser, 1)
+      call parse_sum(parser, argument)
+      if (allocated(parser%fault)) return
+      if (peek(parser) == ",") call fail(parser, parser%at, parser%at, "too many arguments for '"//name//"'")
+      call close_parenthesis(parser, term%first)
+      if (allocated(parser%fault)) return
+      associate (symbol => parser%symbols%list(i))
+         if (.not. dimension_agrees(argument%dimension, argument%is_soft, symbol%argument)) then
+            call fail(parser, argument%first, argument%last, "'"//name//"' takes "//dimension_name(symbol%argument) &
+                    & //", this is "//dimension_name(argument%dimension))
+         end if
+         term%dimension = symbol%dimension
+      end associate
+      term%is_soft = .false.
+      term%is_constant = argument%is_constant
+      call call_function(parser, i)
+   end subroutine parse_call
+
+   !> Whether a name is that of a function or parameter whose mistake was reported already.
+   pure logical function is_broken(parser, name)
+      type(parser_t), intent(in) :: parser  !! the reader
+      character(*), intent(in) :: name      !! the name
+
+      is_broken = .false.
+      if (parser%symbols%find(name) > 0) is_broken = parser%symbols%list(parser%symbols%find(name))%kind == symbol_broken
+   end function is_broken
+
+end submodule expression_words
