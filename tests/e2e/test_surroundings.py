@@ -4,6 +4,7 @@ import json
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -93,6 +94,22 @@ def test_no_more_figures_once_gnuplot_hangs(gudgeon, place):
     assert time.monotonic() - begin < 8
     warnings = Run(place / "out").summary["warnings"]
     assert any("5 further figures" in warning for warning in warnings), warnings
+
+
+def test_one_gnuplot_draws_several_pictures(gudgeon, place):
+    """It is started once for both; where it brings about only the first, the second is drawn by one of its own."""
+    real = shutil.which("gnuplot")
+    for script, starts in ((f'echo "$@" >> {place}/calls\nexec {real} "$@"\n', 1),
+                           (f'echo "$@" >> {place}/calls\nexec {real} "$1" "$2"\n', 2)):
+        shutil.rmtree(place / "bin", ignore_errors=True)
+        (place / "calls").unlink(missing_ok=True)
+        env = gnuplot(place, script)
+        execute(gudgeon, "run", place / "figures.deck", "--out", place / "out", env=env)
+        summary = Run(place / "out").summary
+        assert summary["figures"] == ["figures/slider.velocity.png", "figures/gudgeon.orbit.png"] and summary["warnings"] == []
+        calls = (place / "calls").read_text().splitlines()
+        assert len(calls) == starts and calls[0].split()[1:] == ["./slider.velocity.gp", "./gudgeon.orbit.gp"]
+        assert not list((place / "out").rglob("*.log"))
 
 
 @pytest.mark.parametrize("script, words", [
