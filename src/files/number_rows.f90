@@ -17,7 +17,7 @@ module number_rows
       procedure :: close => close_rows
    end type number_rows_t
 
-   ! allow(assumed-size, assumed-size-character-intent)
+   ! allow(assumed-size)
    interface
       type(c_ptr) function c_open_rows(path) bind(c, name="gudgeon_open_rows")
          import :: c_char, c_ptr

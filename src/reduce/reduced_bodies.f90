@@ -90,8 +90,7 @@ module reduced_bodies
       subroutine fixing_interface(matrix, x)
          import :: most_rates, wp
          implicit none (type, external)
-         real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (n_v, n_v) first: gradients of the rows as columns,
-                                                                    !! destroyed [1 or m]
+         real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (n_v, n_v) first: gradients as columns, destroyed [1 or m]
          real(wp), intent(inout) :: x(most_rates)  !! (n_v) first: what they have to carry, then the multipliers [N or N.m]
       end subroutine fixing_interface
 
