@@ -166,8 +166,8 @@ contains
          character(*), intent(in) :: joint     !! row of the joint between both bodies, or nothing
 
          class(augmented_t), allocatable :: solver
+         type(mechanism_t) :: one, two
          type(wanted_rows_t) :: wanted
-      type(mechanism_t) :: one, two
          real(wp), allocatable :: a(:), start(:), y(:), ydot_one(:), ydot_two(:)
          character(:), allocatable :: deck
          integer :: status
