@@ -63,7 +63,7 @@ contains
 
       type(error_t), allocatable :: late_error
       type(run_t) :: run
-      real(wp) :: cpu_0, cpu_1
+      real(wp) :: aside, cpu_0, cpu_1
       integer(i8) :: clock_0, clock_1, ticks
 
       call system_clock(clock_0, ticks)
@@ -73,11 +73,13 @@ contains
       call new_sampler(system, plan, run%sampler)
       call recorder%start(run%sampler%catalogue, error)
       if (.not. allocated(error)) call run%sampler%ask(system, recorder, run%stop)
+      call run%tally%aside%begin(0.0_wp)
       call cpu_time(cpu_0)
       run%cpu_begin = cpu_0
       run%is_scheduled = size(run%whole%parts) > 1 .or. method%begins_anew()
       if (.not. allocated(error)) call integrate(run, y, plan, limits%cpu, recorder, saved, error)
       call cpu_time(cpu_1)
+      aside = run%tally%aside%seconds() + run%sampler%aside%seconds()
       call run%sampler%finish(run%whole, plan, run%tally%residual, recorder, late_error)
       if (allocated(error) .and. allocated(late_error)) deallocate (late_error)  ! told already
       if (.not. allocated(late_error)) call close_contacts(run, recorder, late_error)
@@ -88,7 +90,7 @@ contains
          summary%status = status_stopped
          summary%message = stopped_words(run%whole%t, run%saved_at, size(run%whole%parts))
       end if
-      summary%cpu_seconds = run%cpu_before + cpu_1 - cpu_0 - run%tally%aside - run%sampler%aside
+      summary%cpu_seconds = run%cpu_before + cpu_1 - cpu_0 - aside
       summary%wall_seconds = real(clock_1 - clock_0, wp)/real(ticks, wp)
       call recorder%finish(summary, late_error)
       if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
@@ -175,7 +177,7 @@ contains
       type(saved_run_t) :: saved
       integer :: wish
       logical :: can_save, is_due
-      real(wp) :: cpu_0, cpu_1
+      real(wp) :: aside, cpu_0, cpu_1
 
       is_due = run%whole%t >= run%next_checkpoint .and. run%whole%is_together()
       can_save = is_due .or. .not. run%is_scheduled
@@ -183,6 +185,7 @@ contains
       if (wish == wish_stop .and. run%is_scheduled .and. run%next_checkpoint < plan%end) wish = merge(wish, wish_nothing, can_save)
       run%is_stopped = wish == wish_stop
       if (.not. (is_due .or. (wish /= wish_nothing .and. can_save))) return
+      aside = run%tally%aside%seconds()
       call cpu_time(cpu_0)
       call save_run(run%whole, run%sampler, run%tally, run%stop, run%cpu_before + cpu_0 - run%cpu_begin, saved)
       call recorder%save(saved, error)
@@ -193,7 +196,7 @@ contains
       end if
       call next_checkpoint(run, plan)
       call cpu_time(cpu_1)
-      run%tally%aside = run%tally%aside + (cpu_1 - cpu_0)
+      call run%tally%aside%begin(aside + cpu_1 - cpu_0)
    end subroutine heed
 
    !> All parts begin.
@@ -274,18 +277,16 @@ contains
       type(run_t), intent(inout) :: run                   !! state of the run
       type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
 
-      real(wp) :: cpu_0, cpu_1
       integer :: status
 
       if (run%stop%n == 0) return
-      call cpu_time(cpu_0)
+      call run%tally%aside%leave()
       associate (part => run%whole%parts(1))
          call run%stop%look(part%system, part%method, run%tally%residual, run%sampler%catalogue, status)
          if (run%stop%met > 0) run%sampler%until = run%stop%t
          if (status /= 0) call describe_failure(part%system, part%method, advance_failed_evaluation, error)
       end associate
-      call cpu_time(cpu_1)
-      run%tally%aside = run%tally%aside + (cpu_1 - cpu_0)
+      call run%tally%aside%come_back()
    end subroutine look_for_stop
 
    !> Handle the events at the ends of the last steps of the parts at the front, and go on from there.

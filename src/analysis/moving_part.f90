@@ -147,7 +147,7 @@ contains
 
       type(event_t) :: row
       character(:), allocatable :: ended
-      real(wp) :: cpu_0, cpu_1, hint, step_hint
+      real(wp) :: hint, step_hint
       real(wp) :: ways(3, part%method%events%n_happened)  ! of sliding before the events [1]
       integer :: k, status
       logical :: is_over
@@ -174,11 +174,10 @@ contains
             if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
             tally%events = tally%events + 1
             if (is_over) then
-               call cpu_time(cpu_0)
+               call tally%aside%leave()
                call recorder%event(row, error)
                if (allocated(error)) return
-               call cpu_time(cpu_1)
-               tally%aside = tally%aside + (cpu_1 - cpu_0)
+               call tally%aside%come_back()
             else if (system%loose%functions%kind_of(method%events%happened(k)) == touch_function) then
                tally%contacts = tally%contacts + 1
             end if

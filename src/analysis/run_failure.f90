@@ -6,6 +6,7 @@ module run_failure
       advance_too_many_steps, integrator_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
+   use readings, only: wanted_rows_t
    use text, only: real_text, to_text
    implicit none (type, external)
    private
@@ -28,6 +29,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! the message
       character(*), intent(in), optional :: reason        !! of a guard: what it says
 
+      type(wanted_rows_t) :: wanted
       real(wp), allocatable :: ydot(:)
       character(:), allocatable :: message, where_singular
       integer :: code, row
@@ -35,7 +37,10 @@ contains
       where_singular = ""
       associate (linkage => system%linkage, bad_row => system%linkage%solution%bad_row)
          if (bad_row > 0) where_singular = ": they are singular at joint or driver '"//linkage%row_name(bad_row)//"'"
-         if (linkage%rows%n > linkage%rows%n_solve) call linkage%find_reactions(linkage%reduced%known%t, system%loading%g)
+         if (linkage%rows%n > linkage%rows%n_solve) then
+            call linkage%list_wanted(spread(.true., 1, linkage%rows%n), wanted)
+            call linkage%find_reactions(linkage%reduced%known%t, system%loading%g, wanted)
+         end if
          if (bad_row == 0) where_singular = not_finite(system)
       end associate
       select case (status)

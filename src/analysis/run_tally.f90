@@ -2,6 +2,7 @@
 module run_tally
    use kinds, only: wp
    use tape, only: tape_t
+   use time_aside, only: time_aside_t
    implicit none (type, external)
    private
    public :: run_tally_t
@@ -10,7 +11,7 @@ module run_tally
    type :: run_tally_t
       integer :: events = 0                       !! located events
       integer :: contacts = 0                     !! contacts that began
-      real(wp) :: aside = 0.0_wp                  !! CPU time spent on writing events [s]
+      type(time_aside_t) :: aside                 !! CPU time spent on writing events
       real(wp) :: residual = 0.0_wp               !! of the ledger at the last steps [J]
       real(wp) :: level = 0.0_wp                  !! kinetic + elastic energy + |change of potential| there [J]
       real(wp) :: magnitude = 0.0_wp              !! of what the ledger adds up there [J]
@@ -33,8 +34,8 @@ contains
       type(tape_t), intent(inout) :: tape     !! receives it
 
       call tape%put([self%events, self%contacts])
-      call tape%put([self%aside, self%residual, self%level, self%magnitude, self%lost, self%least_lost, self%residual_max, &
-                     self%energy_max, self%violation_max, self%violation_rate_max])
+      call tape%put([self%aside%seconds(), self%residual, self%level, self%magnitude, self%lost, self%least_lost, &
+                     self%residual_max, self%energy_max, self%violation_max, self%violation_rate_max])
    end subroutine save_tally
 
    !> Take it back.
@@ -42,9 +43,12 @@ contains
       class(run_tally_t), intent(inout) :: self  !! the tally
       type(tape_t), intent(inout) :: tape        !! holds it
 
+      real(wp) :: aside  ! [s]
+
       call tape%get(self%events)
       call tape%get(self%contacts)
-      call tape%get(self%aside)
+      call tape%get(aside)
+      call self%aside%begin(aside)
       call tape%get(self%residual)
       call tape%get(self%level)
       call tape%get(self%magnitude)

@@ -15,6 +15,7 @@ module sampling
    use run_failure, only: describe_failure
    use stop_condition, only: stop_t
    use tape, only: tape_t
+   use time_aside, only: time_aside_t
    use time_plan, only: instant, last_instant, time_plan_t
    use whole_motion, only: whole_motion_t
    implicit none (type, external)
@@ -28,7 +29,7 @@ module sampling
       integer :: n_strobe = 0                    !! stroboscopic instants done
       integer :: n_row(n_row_kind) = 0           !! rows beside those of output instants, by kind
       integer(i8) :: n_reports = 0               !! evaluations made for all these
-      real(wp) :: aside = 0.0_wp                 !! CPU time spent [s]
+      type(time_aside_t) :: aside                !! CPU time spent
       real(wp) :: until = huge(1.0_wp)           !! no later instant is reported [s]
       type(film_moments_t) :: films              !! films that are asked for
       integer(i8), private :: n_last_sample = 0  !! number of the last output instant, from 0
@@ -60,6 +61,7 @@ contains
       call build_catalogue(system, sampler%catalogue)
       allocate (sampler%y(system%n), sampler%ydot(system%n), source=0.0_wp)
       sampler%n_last_sample = last_instant(plan)
+      call sampler%aside%begin(0.0_wp)
    end subroutine new_sampler
 
    !> Learn what is read of a report: nothing else is found.
@@ -90,7 +92,7 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written, or the equations not be solved
 
-      real(wp) :: cpu_0, cpu_1, reached, t, t_peak
+      real(wp) :: reached, t, t_peak
 
       reached = min(whole%t, self%until)
       if (self%n_strobe < size(plan%strobes)) then
@@ -107,7 +109,7 @@ contains
          if (self%t_row >= whole%t) call whole%note_row()
          return
       end if
-      call cpu_time(cpu_0)
+      call self%aside%leave()
       do while (min(t, t_peak) <= reached)
          if (t_peak < t) then
             call put_row(self, whole, plan, t_peak, row_peak, residual, recorder, error, at_peak=.true.)
@@ -124,8 +126,7 @@ contains
          if (allocated(error)) return
       end do
       if (self%t_row >= whole%t) call whole%note_row()
-      call cpu_time(cpu_1)
-      self%aside = self%aside + (cpu_1 - cpu_0)
+      call self%aside%come_back()
    end subroutine take_samples
 
    !> The row at which a condition ends the run, unless there is a row at that instant.
@@ -245,13 +246,10 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! a file could not be written
 
-      real(wp) :: cpu_0, cpu_1
-
       if (.not. wants_row(recorder, plan, kind, whole%t)) return
-      call cpu_time(cpu_0)
+      call self%aside%leave()
       call put_row(self, whole, plan, whole%t, kind, residual, recorder, error, shift=shift)
-      call cpu_time(cpu_1)
-      self%aside = self%aside + (cpu_1 - cpu_0)
+      call self%aside%come_back()
    end subroutine put_row_here
 
    !> A row beside those of output instants, if it is wanted and within what is written.
@@ -302,10 +300,10 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
 
-      real(wp) :: cpu_0, cpu_1, reached, t
+      real(wp) :: reached, t
 
       reached = min(whole%t, self%until)
-      call cpu_time(cpu_0)
+      call self%aside%leave()
       do while (self%n_strobe < size(plan%strobes))
          t = plan%strobes(self%n_strobe + 1)
          if (t > reached .or. t >= whole%system%linkage%piece%end) exit
@@ -314,8 +312,7 @@ contains
          call recorder%strobe(t, self%catalogue)
          self%n_strobe = self%n_strobe + 1
       end do
-      call cpu_time(cpu_1)
-      self%aside = self%aside + (cpu_1 - cpu_0)
+      call self%aside%come_back()
    end subroutine take_strobes
 
    !> Films of all times up to that which all have reached.
@@ -326,9 +323,9 @@ contains
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(error_t), allocatable, intent(out) :: error    !! the equations cannot be solved there
 
-      real(wp) :: cpu_0, cpu_1, t
+      real(wp) :: t
 
-      call cpu_time(cpu_0)
+      call self%aside%leave()
       do
          t = self%films%next()
          if (t > min(whole%t, self%until)) exit
@@ -336,8 +333,7 @@ contains
          if (allocated(error)) return
          call self%films%tell_at(whole%system, t, recorder)
       end do
-      call cpu_time(cpu_1)
-      self%aside = self%aside + (cpu_1 - cpu_0)
+      call self%aside%come_back()
    end subroutine take_fields
 
    !> Fill the catalogue with the values at a time that the last steps hold.
@@ -372,7 +368,7 @@ contains
       call tape%put(self%n_strobe)
       call tape%put(self%n_row)
       call tape%put(self%n_reports)
-      call tape%put([self%t_row, self%aside])
+      call tape%put([self%t_row, self%aside%seconds()])
       call self%films%save(tape)
    end subroutine save_samples
 
@@ -381,12 +377,15 @@ contains
       class(sampler_t), intent(inout) :: self  !! what is reported, at the start
       type(tape_t), intent(inout) :: tape      !! what was remembered
 
+      real(wp) :: aside
+
       call tape%get(self%n_sample)
       call tape%get(self%n_strobe)
       call tape%get(self%n_row)
       call tape%get(self%n_reports)
       call tape%get(self%t_row)
-      call tape%get(self%aside)
+      call tape%get(aside)
+      call self%aside%begin(aside)
       call self%films%load(tape)
    end subroutine load_samples
 

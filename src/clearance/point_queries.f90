@@ -59,26 +59,73 @@ contains
 
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
-      type(point_contact_t) :: contacts(most_of_item)
-      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
-      integer :: first, item, m, n
-      logical :: has_contacts
+      if (self%n_contact_item == 1) then
+         call report_single(self, readings, motion, groups)
+      else
+         call report_several(self, readings, motion, groups)
+      end if
+   end procedure point_report
 
-      n = self%n_contact_item
-      has_contacts = readings%has(of_force, of_contact_point) .or. readings%has(of_moment, of_moment) &
-                     .or. readings%has(of_contact_angle, of_p_v)
+   !> Items of one contact: nothing is made ready for sixteen.
+   subroutine report_single(self, readings, motion, groups)
+      class(point_contacts_t), intent(in) :: self  !! the set
+      type(readings_t), intent(in) :: readings     !! channels that are read
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
+
+      type(point_contact_t) :: contacts(1)
+
+      call report_items(self, readings, motion, 1, contacts, groups)
+   end subroutine report_single
+
+   !> Items of several contacts.
+   subroutine report_several(self, readings, motion, groups)
+      class(point_contacts_t), intent(in) :: self  !! the set
+      type(readings_t), intent(in) :: readings     !! channels that are read
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
+
+      type(point_contact_t) :: contacts(most_of_item)
+
+      call report_items(self, readings, motion, self%n_contact_item, contacts, groups)
+   end subroutine report_several
+
+   !> Values of all items.
+   subroutine report_items(self, readings, motion, n, contacts, groups)
+      class(point_contacts_t), intent(in) :: self           !! the set
+      type(readings_t), intent(in) :: readings              !! channels that are read
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      integer, intent(in) :: n                              !! contacts of an item
+      type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
+      type(group_t), intent(inout) :: groups(:)             !! (groups) values of all items and contacts
+
+      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
+      integer :: c, first, item, m
+      logical :: has_contacts, has_sliding
+
+      has_contacts = .false.
+      has_sliding = .false.
+      do m = 1, readings%n
+         select case (readings%code(m))
+         case (of_force:of_contact_point, of_moment, of_contact_angle:of_p_v)
+            has_contacts = .true.
+            has_sliding = has_sliding .or. (readings%code(m) >= of_sliding_speed .and. readings%code(m) <= of_p_v)
+         end select
+      end do
       do item = 1, self%n
          first = (item - 1)*n
-         if (has_contacts) call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n), f_elastic(:n), &
-                                            readings%has(of_sliding_speed, of_p_v))
+         if (has_contacts) call find_forces(self, item, motion, contacts, f_n(:n), f_t(:n), f_elastic(:n), has_sliding)
          do m = 1, readings%n
             associate (values => groups(readings%group(m))%data)
                if (readings%code(m) == of_contact_point) then
                   call report_points(motion%r(:, self%items%body(2, item)), n, contacts, &
                                      values(:, self%before%contacts + first + 1:self%before%contacts + first + n))
                else if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
-                  call report_contacts(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, &
-                                       values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
+                  do c = 1, n
+                     values(1, self%before%contacts + first + c) = &
+                        value_of_contact(readings%code(m), self%contact(first + c)%is_touching, contacts(c)%delta, &
+                                         contacts(c)%rate, f_n(c), f_t(c))
+                  end do
                else if (readings%code(m) >= of_contact_angle .and. readings%code(m) <= of_p_v) then
                   call report_rubbing(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, f_elastic, &
                                       self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), &
@@ -86,13 +133,13 @@ contains
                else if (readings%code(m) == of_force) then
                   call report_force(self, n, contacts, f_n, f_t, values(:, self%before%items + item))
                else
-                  call self%report_item(readings%code(m), item, motion, contacts(:n), f_n(:n), f_t(:n), &
+                  call self%report_item(readings%code(m), item, motion, contacts, f_n(:n), f_t(:n), &
                                         values(:, self%before%items + item))
                end if
             end associate
          end do
       end do
-   end procedure point_report
+   end subroutine report_items
 
    !> Force of the contacts of an item on its body j, and their moment about its centre of mass.
    module procedure point_load_on_j
@@ -140,33 +187,28 @@ contains
       end associate
    end subroutine add_film
 
-   !> Values of a channel of the contacts of an item.
-   pure subroutine report_contacts(code, n, memory, contacts, f_n, f_t, values)
-      integer, intent(in) :: code                           !! the channel
-      integer, intent(in) :: n                              !! contacts
-      type(contact_memory_t), intent(in) :: memory(n)       !! (n) their states
-      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
-      real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
-      real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
-      real(wp), intent(inout) :: values(:)                  !! (n) values [any]
+   !> Value of a channel of a contact.
+   pure real(wp) function value_of_contact(code, is_touching, delta, rate, f_n, f_t) result(value)
+      integer, intent(in) :: code           !! the channel
+      logical, intent(in) :: is_touching    !! its state
+      real(wp), intent(in) :: delta         !! penetration, negative: apart [m]
+      real(wp), intent(in) :: rate          !! its rate [m/s]
+      real(wp), intent(in) :: f_n           !! normal force [N]
+      real(wp), intent(in) :: f_t           !! friction force on j along t [N]
 
-      integer :: c
-
-      do c = 1, n
-         select case (code)
-         case (of_penetration)
-            values(c) = max(contacts(c)%delta, 0.0_wp)
-         case (of_penetration_rate)
-            values(c) = merge(contacts(c)%rate, 0.0_wp, memory(c)%is_touching)
-         case (of_normal_force)
-            values(c) = f_n(c)
-         case (of_friction_force)
-            values(c) = f_t(c)
-         case (of_state)
-            values(c) = real(merge(state_contact, state_free, memory(c)%is_touching), wp)
-         end select
-      end do
-   end subroutine report_contacts
+      select case (code)
+      case (of_penetration)
+         value = max(delta, 0.0_wp)
+      case (of_penetration_rate)
+         value = merge(rate, 0.0_wp, is_touching)
+      case (of_normal_force)
+         value = f_n
+      case (of_friction_force)
+         value = f_t
+      case default  ! its state
+         value = real(merge(state_contact, state_free, is_touching), wp)
+      end select
+   end function value_of_contact
 
    !> How the contacts of an item rub: values of a channel.
    pure subroutine report_rubbing(code, n, memory, contacts, f_n, f_t, f_elastic, pair, rot, values)

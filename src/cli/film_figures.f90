@@ -1,8 +1,7 @@
 !> What figures of films ask for, against the scene: films that have pressures, and times within the run.
 module film_figures
-   use catalogue, only: catalogue_t
    use columns, only: cell_index
-   use figure_words, only: figure_film, figure_t, new_figure
+   use figure_words, only: figure_film, figure_t
    use film_fields, only: moment_at
    use kinds, only: wp
    use scene, only: scene_t
@@ -14,35 +13,33 @@ module film_figures
 contains
 
    !> Look for the first figure of a film that there cannot be.
-   subroutine check_film_figures(words, scene, end, catalogue, bad, message, hint)
-      type(text_t), intent(in) :: words(:)                 !! (n) words for figures, each of which can be read
+   subroutine check_film_figures(words, figures, scene, end, bad, message, hint)
+      type(text_t), intent(in) :: words(:)                 !! (n) words for figures
+      type(figure_t), intent(in) :: figures(:)             !! (n) the figures
       type(scene_t), intent(in) :: scene                   !! the scene
       real(wp), intent(in) :: end                          !! of the run; 0: it has none [s]
-      type(catalogue_t), intent(in) :: catalogue           !! what it can report
       integer, intent(out) :: bad                          !! number of the first wrong word, 0: none
       character(:), allocatable, intent(out) :: message    !! what is wrong with it
       character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
 
-      type(figure_t) :: figure
       integer :: film
 
       do bad = 1, size(words)
-         call new_figure(words(bad)%s, catalogue, figure, message, hint)
-         if (figure%kind /= figure_film .or. len(message) > 0) cycle
-         film = film_of(scene, figure%film%joint)
+         if (figures(bad)%kind /= figure_film) cycle
+         film = film_of(scene, figures(bad)%film%joint)
          if (film > 0) then
             associate (law => scene%lubrication%films(film)%law)
                if (.not. law%has_field()) then
-                  message = "film '"//law%name//"' of joint '"//figure%film%joint// &
+                  message = "film '"//law%name//"' of joint '"//figures(bad)%film%joint// &
                             "' is a force without pressures: there is no '"//words(bad)%s//"'"
                   hint = "take a row of [film.grid] for it, or one of the short and long films that have pressures of their own"
                   return
                end if
             end associate
          end if
-         if (figure%film%moment == moment_at .and. end > 0.0_wp .and. figure%film%t > end) then
+         if (figures(bad)%film%moment == moment_at .and. end > 0.0_wp .and. figures(bad)%film%t > end) then
             message = "'"//words(bad)%s//"' is after the end of the run at "//real_text(end, 6)//" s"
-            hint = "film("//figure%film%joint//") is the film at the end"
+            hint = "film("//figures(bad)%film%joint//") is the film at the end"
             return
          end if
       end do

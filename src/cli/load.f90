@@ -11,7 +11,7 @@ module load
    use errors, only: error_t, exit_usage, set_error
    use drawn_figures, only: check_drawn_figures
    use figure_words, only: check_figures, draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, &
-      figure_statistics, figure_t, new_figure
+      figure_statistics, figure_t
    use film_figures, only: check_film_figures
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
@@ -97,7 +97,9 @@ contains
       call new_time_plan(loaded%scene, loaded%system, loaded%plan, mistakes)
       if (mistakes%count() == 0) call check_function_ranges(loaded%scene, loaded%plan%end, mistakes)
       if (has_all_words) then
-         call check_words(loaded%deck, loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
+         if (.not. options%runs%has_known_words) then
+            call check_words(loaded%deck, loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
+         end if
          call check_conditions(loaded%scene, loaded%catalogue, mistakes)
       else
          call check_words(loaded%deck, loaded%scene, loaded%plan%end, catalogue, mistakes)
@@ -263,6 +265,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue      !! what it can report
       type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
 
+      type(figure_t), allocatable :: figures(:)
       type(selection_t) :: selection
       character(:), allocatable :: hint, message, part
       integer :: bad, k
@@ -272,9 +275,9 @@ contains
          if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
       end associate
       associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
-         call check_figures(value%words, catalogue, bad, message, hint, part)
-         if (bad == 0) call check_statistics_figures(scene, catalogue, bad, message, hint)
-         if (bad == 0) call check_film_figures(value%words, scene, end, catalogue, bad, message, hint)
+         call check_figures(value%words, catalogue, bad, message, hint, part, figures)
+         if (bad == 0) call check_statistics_figures(value%words, figures, scene, catalogue, bad, message, hint)
+         if (bad == 0) call check_film_figures(value%words, figures, scene, end, bad, message, hint)
          if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, bad), part), message, "no figure of this deck", hint)
       end associate
       if (.not. scene%settings%statistics%is_present) return
@@ -288,22 +291,22 @@ contains
    end subroutine check_words
 
    !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
-   subroutine check_statistics_figures(scene, catalogue, bad, message, hint)
+   subroutine check_statistics_figures(words, figures, scene, catalogue, bad, message, hint)
+      type(text_t), intent(in) :: words(:)                 !! (n) words for figures
+      type(figure_t), intent(in) :: figures(:)             !! (n) the figures
       type(scene_t), intent(in) :: scene                   !! the scene
       type(catalogue_t), intent(in) :: catalogue           !! what it can report
       integer, intent(out) :: bad                          !! number of the first wrong word, 0: none
       character(:), allocatable, intent(out) :: message    !! what is wrong with it
       character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
 
-      type(figure_t) :: figure
       type(text_t), allocatable :: known(:)
       integer :: i, k
 
       message = ""
       hint = ""
-      associate (words => scene%settings%output%values(place_of(scene%settings%output, "figures"))%words)
-         do bad = 1, size(words)
-            call new_figure(words(bad)%s, catalogue, figure, message, hint)
+      do bad = 1, size(words)
+         associate (figure => figures(bad))
             if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) cycle
             if (.not. scene%settings%statistics%is_present) then
                message = "'"//words(bad)%s//"' needs a section [statistics]"
@@ -326,8 +329,8 @@ contains
                hint = hint//"numbers of this deck's statistics: "//join(known, " ")
                return
             end do
-         end do
-      end associate
+         end associate
+      end do
       bad = 0
    end subroutine check_statistics_figures
 

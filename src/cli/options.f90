@@ -29,6 +29,7 @@ module options
       integer :: shard = 0                           !! `--shard I/N`: the I; 0: all runs
       integer :: n_shards = 1                        !! the N
       logical :: is_member = .false.                 !! one run of a sweep, whose cases need not be known
+      logical :: has_known_words = .false.           !! of a deck whose words for channels and figures were checked
    end type runs_options_t
 
    !> Help in other forms.

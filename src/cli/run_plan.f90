@@ -7,7 +7,7 @@ module run_plan
    use consistent_start, only: assembly_t
    use deck_texts, only: deck_text, get_includes
    use drawn_figures, only: plan_drawn_figures
-   use figure_words, only: check_figures
+   use figure_words, only: check_figures, figure_t
    use item, only: place_of
    use kinds, only: wp
    use libraries, only: library_versions
@@ -156,6 +156,7 @@ contains
          character(*), intent(in) :: key                        !! key of [output]
          type(text_t), allocatable, intent(out) :: kept(:)      !! (any) words
 
+         type(figure_t), allocatable :: figures(:)
          type(scalar_t), allocatable :: scalars(:)
          character(:), allocatable :: hint, message, part
          type(text_list_t) :: list
@@ -164,7 +165,7 @@ contains
          associate (words => loaded%scene%settings%output%values(place_of(loaded%scene%settings%output, key))%words)
             do k = 1, size(words)
                if (one == "figure") then
-                  call check_figures(words(k:k), loaded%catalogue, bad, message, hint, part)
+                  call check_figures(words(k:k), loaded%catalogue, bad, message, hint, part, figures)
                else
                   call find_scalars(words(k)%s, loaded%catalogue, finder, scalars, message, hint)
                   bad = merge(1, 0, len(message) > 0)

@@ -272,6 +272,10 @@ contains
       case%is_quiet = .true.
       case%is_json = .false.
       case%runs%is_member = .true.
+      case%runs%has_known_words = .true.  ! numbers alone are swept: what there is to report is what the deck has
+      do k = 1, size(sweep%parameters)
+         if (sweep%parameters(k)%unit == "") case%runs%has_known_words = .false.
+      end do
       case%write = trim(merge("channels", "nothing ", sweep%keeps_channels))
       do k = 1, size(sweep%parameters)
          associate (parameter => sweep%parameters(k))

@@ -26,7 +26,7 @@ contains
       last = 0
       message = ""
       note = ""
-      if (verify(line, ascii()) == 0) return
+      if (is_ascii(line)) return
       is_quoted = .false.
       do while (last < len(line))
          first = last + 1
@@ -81,16 +81,18 @@ contains
       is_comment = scan(rest(1:1), "!%;") == 1 .or. starts_with(rest, "//") .or. starts_with(rest, "/*")
    end function find_foreign_comment
 
-   !> All characters of ASCII.
-   pure function ascii() result(all)
-      character(128) :: all  !! in their order
+   !> Whether all characters are those of ASCII.
+   pure logical function is_ascii(line)
+      character(*), intent(in) :: line  !! the text
 
-      integer :: k
+      integer :: k, most
 
-      do k = 0, 127
-         all(k + 1:k + 1) = achar(k)
+      most = 0
+      do k = 1, len(line)
+         most = ior(most, iachar(line(k:k)))
       end do
-   end function ascii
+      is_ascii = most < 128
+   end function is_ascii
 
    !> A character of UTF-8; bytes that are none count as one character each.
    pure subroutine decode(line, first, last, code)

@@ -57,11 +57,15 @@ contains
       subroutine read_lines(of_deck)
          logical, intent(in) :: of_deck  !! which of the two
 
+         logical :: is_meant(deck%n_section)
          integer :: i
 
+         do i = 1, deck%n_section
+            is_meant(i) = deck%sections(i)%name == info%name .and. (deck%sections(i)%location%file == 1 .eqv. of_deck)
+         end do
          do i = 1, deck%n_line
-            associate (line => deck%lines(i), head => deck%sections(deck%lines(i)%section))
-               if (head%name /= info%name .or. (head%location%file == 1 .neqv. of_deck)) cycle
+            associate (line => deck%lines(i))
+               if (.not. is_meant(line%section)) cycle
                if (is_own_key(deck, info, deck%tokens%t(line%first), is_own)) cycle
                call read_line(deck, info, deck%tokens%t(line%first:line%last), item, is_set, mistakes)
             end associate

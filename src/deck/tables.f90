@@ -81,12 +81,16 @@ contains
       integer, allocatable, intent(out) :: line(:)      !! (n) numbers of the lines
       integer, allocatable, intent(out) :: section(:)   !! (n) numbers of their sections
 
+      logical :: is_named(deck%n_section)
       integer :: k, n, pass
 
+      do k = 1, deck%n_section
+         is_named(k) = deck%sections(k)%name == name
+      end do
       do pass = 1, 2
          n = 0
          do k = 1, deck%n_line
-            if (deck%sections(deck%lines(k)%section)%name /= name) cycle
+            if (.not. is_named(deck%lines(k)%section)) cycle
             n = n + 1
             if (pass == 1) cycle
             line(n) = k

@@ -22,7 +22,7 @@ contains
 
    !> Value of a channel of an item.
    module procedure report_shared
-      real(wp) :: force(3), moment(3), rate
+      real(wp) :: force(3), load(most_rates), moment(3), rate
       integer :: first, i, last
 
       first = self%first_row + (k - 1)*self%n_row_item + 1
@@ -33,9 +33,14 @@ contains
             value(1) = -lambda(first)
             return
          end if
-         call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-         value = force(:size(value))
-         if (code == of_moment) value = moment(merge(3, 1, size(value) == 1):)
+         if (code == of_force) then
+            call find_load(self, k, 0, coordinates%n_v, rows%jac, lambda, load)
+            call coordinates%split_load(load(:coordinates%n_v), motion, self%body(1, k), force, moment)
+            value = force(:size(value))
+         else
+            call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+            value = moment(merge(3, 1, size(value) == 1):)
+         end if
       case (of_violation)
          value(1) = norm2(rows%phi(first:last))
       case (of_violation_rate)
@@ -56,21 +61,36 @@ contains
    !> Reaction of an item on body i, or j.
    module procedure joint_reaction
       real(wp) :: load(most_rates)
-      integer :: before, body, i, k, n, row
+      integer :: before, body
 
-      n = coordinates%n_v
-      load = 0.0_wp
       before = 0
-      if (present(side)) before = (side - 1)*n
+      if (present(side)) before = (side - 1)*coordinates%n_v
       body = self%body(merge(2, 1, before > 0), item)
-      do k = 1, self%n_row_item
-         row = self%first_row + (item - 1)*self%n_row_item + k
-         do i = 1, n
-            load(i) = load(i) - rows%jac(before + i, row)*lambda(row)
-         end do
-      end do
-      call coordinates%split_load(load(:n), motion, body, force, moment)
+      call find_load(self, item, before, coordinates%n_v, rows%jac, lambda, load)
+      call coordinates%split_load(load(:coordinates%n_v), motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)
    end procedure joint_reaction
+
+   !> Load of the rows of an item on the rates of a body.
+   pure subroutine find_load(self, item, before, n, jac, lambda, load)
+      class(joint_set_t), intent(in) :: self          !! the set
+      integer, intent(in) :: item                     !! item of the set
+      integer, intent(in) :: before                   !! places before the body's in the rows
+      integer, intent(in) :: n                        !! rates of a body
+      real(wp), intent(in), contiguous :: jac(:, :)   !! (2 n, rows) Phi_q [1 or m]
+      real(wp), intent(in) :: lambda(:)               !! (rows) multipliers [N or N.m]
+      real(wp), intent(inout) :: load(most_rates)     !! (n) first: the load [N or N.m]
+
+      integer :: i, k, row
+
+      load(1:n) = 0.0_wp
+      do k = 1, self%n_row_item
+         row = self%first_row + (item - 1)*self%n_row_item + k
+         !GCC$ novector
+         do i = 1, n
+            load(i) = load(i) - jac(before + i, row)*lambda(row)
+         end do
+      end do
+   end subroutine find_load
 
 end submodule joint_channels

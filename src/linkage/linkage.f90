@@ -11,6 +11,7 @@ module linkage
    use rows, only: rows_t
    use kinds, only: wp
    use motion, only: motion_t
+   use readings, only: wanted_rows_t
    use reduced, only: reduced_t
    use row_kernels, only: right_hand_side, take_known
    use smooth_piece, only: smooth_piece_t
@@ -52,7 +53,8 @@ module linkage
       procedure :: set_acceleration => linkage_set_acceleration, set_state => linkage_set_state
       procedure :: evaluate_rows => linkage_evaluate_rows, find_accelerations => linkage_find_accelerations
       procedure :: solve_rows => linkage_solve_rows, add_change => linkage_add_change
-      procedure :: find_reactions => linkage_find_reactions, greatest_violation => linkage_greatest_violation
+      procedure :: list_wanted => linkage_list_wanted, find_reactions => linkage_find_reactions
+      procedure :: greatest_violation => linkage_greatest_violation
       procedure :: row_name => linkage_row_name
    end type linkage_t
 
@@ -242,26 +244,88 @@ contains
       end associate
    end function linkage_greatest_violation
 
-   !> Multipliers of the rows that fix the bodies that are not solved for, at the motion and the accelerations that are set.
+   !> What the reports of some rows need of those that are not solved for. The multipliers of known bodies are found together; they
+   !> have those of the guided bodies in them that known ones carry.
+   subroutine linkage_list_wanted(self, is_read, wanted)
+      class(linkage_t), intent(in) :: self           !! the linkage
+      logical, intent(in) :: is_read(:)              !! (rows) which are reported
+      type(wanted_rows_t), intent(out) :: wanted     !! the list
+
+      logical :: is_wanted(size(is_read)), takes(self%reduced%guided%n)
+      integer :: k
+
+      is_wanted = is_read
+      associate (known => self%reduced%known, guided => self%reduced%guided, n_v => self%coordinates%n_v)
+         do k = 1, known%n
+            wanted%has_known = wanted%has_known .or. is_one_read(known%held(k)%row(:n_v))
+         end do
+         do k = 1, known%n
+            if (wanted%has_known) call want(known%held(k)%row(:n_v))
+         end do
+         do k = 1, guided%n
+            takes(k) = is_one_read(guided%held(k)%row(:n_v - 1)) .or. (wanted%has_known .and. guided%held(k)%base > 0)
+            if (takes(k)) call want(guided%held(k)%row(:n_v - 1))
+         end do
+         wanted%guided = pack([(k, k=1, guided%n)], takes)
+      end associate
+      allocate (wanted%sets(0))
+      do k = self%n_solved_set + 1, size(self%joints)
+         associate (set => self%joints(k)%set)
+            if (any(is_wanted(set%first_row + 1:set%first_row + set%n*set%n_row_item))) wanted%sets = [wanted%sets, k]
+         end associate
+      end do
+
+   contains
+
+      !> Whether one of some rows is reported.
+      pure logical function is_one_read(rows)
+         integer, intent(in) :: rows(:)    !! (any) their numbers
+
+         integer :: i
+
+         is_one_read = .false.
+         do i = 1, size(rows)
+            is_one_read = is_one_read .or. is_read(rows(i))
+         end do
+      end function is_one_read
+
+      !> Some rows are wanted.
+      subroutine want(rows)
+         integer, intent(in) :: rows(:)    !! (any) their numbers
+
+         integer :: i
+
+         do i = 1, size(rows)
+            is_wanted(rows(i)) = .true.
+         end do
+      end subroutine want
+
+   end subroutine linkage_list_wanted
+
+   !> Multipliers of rows that fix bodies that are not solved for, at the motion and the accelerations that are set.
    !> Reports want them.
-   subroutine linkage_find_reactions(self, t, g)
+   subroutine linkage_find_reactions(self, t, g, wanted)
       class(linkage_t), intent(inout) :: self        !! the linkage
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
+      type(wanted_rows_t), intent(in) :: wanted      !! which of them
 
+      real(wp) :: inside
       integer :: k
 
-      do k = self%n_solved_set + 1, size(self%joints)
-         call self%joints(k)%set%evaluate(self%piece%inside(t), self%motion, self%rows)
+      inside = self%piece%inside(t)
+      do k = 1, size(wanted%sets)
+         call self%joints(wanted%sets(k))%set%evaluate(inside, self%motion, self%rows)
       end do
       associate (known => self%reduced%known, guided => self%reduced%guided, solution => self%solution)
+         do k = 1, size(wanted%guided)
+            call copy(guided%held(wanted%guided(k))%body)
+         end do
+         call guided%find_multipliers(wanted%guided, self%rows, self%mass, g, solution%a, solution%lambda)
+         if (.not. wanted%has_known) return
          do k = 1, known%n
             call copy(known%held(k)%body)
          end do
-         do k = 1, guided%n
-            call copy(guided%held(k)%body)
-         end do
-         call guided%find_multipliers(self%rows, self%mass, g, solution%a, solution%lambda)
          call known%find_multipliers(self%rows, self%reduced%carried, self%mass, g, solution%a, self%rest, solution%lambda)
       end associate
 

@@ -113,13 +113,30 @@ contains
       if (allocated(self%groups)) n = size(self%groups)
       allocate (grown(n + 1))
       do k = 1, n
-         grown(k) = self%groups(k)
+         call take_over(self%groups(k), grown(k))
       end do
       grown(n + 1)%room = room
       grown(n + 1)%channel = channel
       if (channel%components == 2) grown(n + 1)%channel%components = self%n_coordinates
       call move_alloc(grown, self%groups)
    end subroutine catalogue_add_group
+
+   !> A quantity to another place.
+   subroutine take_over(from, to)
+      type(group_t), intent(inout) :: from  !! the quantity; afterwards without texts and values
+      type(group_t), intent(inout) :: to    !! the same
+
+      to%room = from%room
+      to%channel%components = from%channel%components
+      to%channel%code = from%channel%code
+      call move_alloc(from%channel%name, to%channel%name)
+      call move_alloc(from%channel%unit, to%channel%unit)
+      call move_alloc(from%channel%frame, to%channel%frame)
+      call move_alloc(from%channel%help, to%channel%help)
+      call move_alloc(from%has, to%has)
+      call move_alloc(from%is_wanted, to%is_wanted)
+      call move_alloc(from%data, to%data)
+   end subroutine take_over
 
    !> Add all the channels that a kind announces to a room.
    subroutine catalogue_add_kind(self, room, info)

@@ -5,7 +5,7 @@
 module readings
    implicit none (type, external)
    private
-   public :: reading_plan_t, readings_t
+   public :: reading_plan_t, readings_t, wanted_rows_t
 
    !> Channels that are read of one set.
    type :: readings_t
@@ -19,6 +19,13 @@ module readings
       procedure :: has => readings_has
    end type readings_t
 
+   !> Of the rows that are not solved for: those that reports want, and what these hang on.
+   type :: wanted_rows_t
+      integer, allocatable :: sets(:)      !! (any) sets of joints and drivers whose rows are evaluated
+      integer, allocatable :: guided(:)    !! (any) guided bodies whose multipliers are found
+      logical :: has_known = .false.       !! whether those of the known bodies are
+   end type wanted_rows_t
+
    !> Channels that are read of all sets of a system.
    type :: reading_plan_t
       type(readings_t) :: bodies                   !! of the bodies
@@ -30,7 +37,7 @@ module readings
       type(readings_t) :: points                   !! of points, point by point
       type(readings_t) :: motions                  !! of points as seen from elsewhere, one by one
       type(readings_t) :: reactions                !! of reactions at points, one by one
-      logical :: needs_reactions = .true.          !! something is read of joints or drivers: all multipliers must be there
+      type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
    end type reading_plan_t
 
 contains

@@ -6,6 +6,7 @@ module envelope_data
    use figure_data, only: curve_t, open_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: not_a_number, wp
+   use number_rows, only: number_rows_t
    use script_parts, only: axes_t, scaled
    use text, only: append_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -117,10 +118,12 @@ contains
       real(wp), intent(out) :: table(:, :)            !! (4, columns) middle, least, greatest value, mean; NaN: empty, SI [any]
       integer, intent(out) :: n_turn                  !! turns
 
+      type(number_rows_t) :: rows
       type(text_t), allocatable :: labels(:)
       real(wp), allocatable :: row(:)
       real(wp) :: before(2), extreme, length(size(table, 2)), swing
-      integer :: k, n, status, unit, way
+      integer :: k, n, way
+      logical :: is_open
 
       n = size(table, 2)
       table(1, :) = [(window(1) + (window(2) - window(1))*(k - 0.5_wp)/n, k=1, n)]
@@ -133,12 +136,10 @@ contains
       before = not_a_number()
       extreme = 0.0_wp
       swing = least_swing*(curve%y_range(2) - curve%y_range(1))
-      call open_columns(path, unit, labels, status)
-      if (status /= 0) return
+      call open_columns(path, rows, labels, is_open)
+      if (.not. is_open) return
       allocate (row(size(labels)))
-      do
-         read (unit, *, iostat=status) row
-         if (status /= 0) exit
+      do while (rows%next(row))
          associate (x => row(curve%x), y => row(curve%y))
             if (ieee_is_nan(x) .or. ieee_is_nan(y)) cycle
             if (x < window(1) .or. x > window(2)) cycle
@@ -155,7 +156,7 @@ contains
             call turn(y)
          end associate
       end do
-      close (unit)
+      call rows%close()
       call smooth_mean(table(4, :), length)
       where (table(2, :) > table(3, :))
          table(2, :) = not_a_number()

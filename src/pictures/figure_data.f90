@@ -5,6 +5,7 @@ module figure_data
    use channel_names, only: item_name, scalar_name, scalar_t
    use figure_words, only: figure_portrait, figure_t
    use kinds, only: wp
+   use number_rows, only: number_rows_t
    use posix, only: path_exists
    use text, only: piece, split_blank, text_t
    use text_table, only: column_label
@@ -77,21 +78,21 @@ contains
       type(data_file_t), intent(out) :: file     !! what is known of it
 
       real(wp), allocatable :: before(:), row(:), way(:)
-      integer :: k, n, status, unit
+      type(number_rows_t) :: rows
+      integer :: k, n
+      logical :: is_open
 
       file%path = path
-      call open_columns(path, unit, file%labels, status)
+      call open_columns(path, rows, file%labels, is_open)
       n = size(file%labels)
       allocate (file%lowest(n), source=huge(1.0_wp))
       allocate (file%highest(n), source=-huge(1.0_wp))
       allocate (file%turns(n), source=0)
       allocate (file%falls(n), source=.false.)
       allocate (row(n), way(n), before(n), source=0.0_wp)
-      if (status /= 0) return
+      if (.not. is_open) return
       before = huge(1.0_wp)  ! nothing came before
-      do
-         read (unit, *, iostat=status) row
-         if (status /= 0) exit
+      do while (rows%next(row))
          do k = 1, n
             if (ieee_is_nan(row(k))) cycle
             file%lowest(k) = min(file%lowest(k), row(k))
@@ -104,34 +105,28 @@ contains
             before(k) = row(k)
          end do
       end do
-      close (unit)
+      call rows%close()
    end subroutine read_data_file
 
-   !> Open a file of columns, whose names are its first line, and read up to the first row of numbers.
-   subroutine open_columns(path, unit, labels, status)
+   !> Open a file of columns, whose names are its first line.
+   subroutine open_columns(path, rows, labels, is_open)
       character(*), intent(in) :: path                        !! the file
-      integer, intent(out) :: unit                            !! the open file
+      type(number_rows_t), intent(inout) :: rows              !! the open file
       type(text_t), allocatable, intent(out) :: labels(:)     !! (n) what stands over its columns
-      integer, intent(out) :: status                          !! 0: it is open
+      logical, intent(out) :: is_open                         !! it is open
 
       character(:), allocatable :: line
+      integer :: status, unit
 
       allocate (labels(0))
+      is_open = .false.
       open (newunit=unit, file=path, status="old", action="read", iostat=status)
       if (status /= 0) return
       call read_line(unit, line, status)
-      if (status == 0) labels = split_blank(piece(line, 2))
-      do while (status == 0)
-         call read_line(unit, line, status)
-         if (len(line) > 0) then
-            if (line(1:1) /= "#") exit
-         end if
-      end do
-      if (status == 0) then
-         backspace (unit)
-      else
-         close (unit)
-      end if
+      close (unit)
+      if (status /= 0) return
+      labels = split_blank(piece(line, 2))
+      is_open = rows%open(path)
    end subroutine open_columns
 
    !> Read a line of any length.

@@ -76,23 +76,24 @@ module figure_words
 contains
 
    !> Look for mistakes in a list of figures.
-   subroutine check_figures(words, catalogue, bad_word, bad_message, hint, bad_part)
+   subroutine check_figures(words, catalogue, bad_word, bad_message, hint, bad_part, figures)
       type(text_t), intent(in) :: words(:)                    !! (n) words of the deck
       type(catalogue_t), intent(in) :: catalogue              !! what can be recorded
       integer, intent(out) :: bad_word                        !! number of the first wrong word, 0: none
       character(:), allocatable, intent(out) :: bad_message   !! what is wrong with it
       character(:), allocatable, intent(out) :: hint          !! what may have been meant, may be blank
       character(:), allocatable, intent(out) :: bad_part      !! the part of it that is wrong; blank: all of it
+      type(figure_t), allocatable, intent(out) :: figures(:)  !! (n) the figures, if none is wrong
 
-      type(figure_t) :: figure
       integer :: k
 
+      allocate (figures(size(words)))
       bad_word = 0
       bad_message = ""
       hint = ""
       bad_part = ""
       do k = 1, size(words)
-         call new_figure(words(k)%s, catalogue, figure, bad_message, hint, bad_part)
+         call new_figure(words(k)%s, catalogue, figures(k), bad_message, hint, bad_part)
          if (len(bad_message) == 0) cycle
          bad_word = k
          return

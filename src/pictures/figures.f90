@@ -30,6 +30,7 @@ module figures
    public :: draw_figures, make_figures
 
    integer, parameter :: most_at_once = 4           !! gnuplots running side by side
+   integer, parameter :: most_together = 6          !! pictures that one gnuplot draws
    integer, parameter :: patience = 300             !! that a figure may take, unless the environment says otherwise [s]
    character(*), parameter :: patience_variable = "GUDGEON_GNUPLOT_SECONDS"  !! what says so
    integer(i8), parameter :: largest_picture = 1000000000_i8  !! bytes
@@ -176,43 +177,105 @@ contains
       end do
    end function is_named
 
-   !> Run gnuplot on every script, some of them side by side.
+   !> Run gnuplot on every script: on some pictures that stand still one after the other, since to start it takes as long as to draw
+   !> one, then alone on each that this did not bring about, and on those that move. Several of them run side by side.
    subroutine draw_figures(folder, names, pictures, warnings)
       character(*), intent(in) :: folder                            !! of the figures
       type(text_t), intent(in) :: names(:)                          !! (n) figures
       type(text_t), allocatable, intent(inout) :: pictures(:)       !! (m) pictures made
       type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) what was not made, and why
 
-      integer(i8) :: until
-      integer :: code, first, k, last, n_late, process(size(names)), seconds
+      logical :: is_drawn(size(names))
+      integer :: k, seconds
 
       if (size(names) == 0) return
       call read_patience(seconds, warnings)
-      do first = 1, size(names), most_at_once
-         last = min(first + most_at_once - 1, size(names))
+      is_drawn = .false.
+      call draw_together(folder, names, seconds, is_drawn)
+      call draw_alone(folder, names, pack([(k, k=1, size(names))], .not. is_drawn), seconds, is_drawn, warnings)
+      do k = 1, size(names)
+         if (is_drawn(k)) call append_text(pictures, "figures/"//picture_of(names(k)%s))
+      end do
+   end subroutine draw_figures
+
+   !> Pictures that stand still, several by each gnuplot. One that is not whole in the end, for whatever reason, is not drawn.
+   subroutine draw_together(folder, names, seconds, is_drawn)
+      character(*), intent(in) :: folder        !! of the figures
+      type(text_t), intent(in) :: names(:)      !! (n) figures
+      integer, intent(in) :: seconds            !! that each gnuplot may take
+      logical, intent(inout) :: is_drawn(:)     !! (n) which were
+
+      integer(i8) :: until
+      integer, allocatable :: still(:)
+      integer :: code, first, k, last, n_group, number, process(most_at_once), share
+      logical :: is_late, is_none
+
+      still = pack([(k, k=1, size(names))], [(.not. is_moving(names(k)%s), k=1, size(names))])
+      if (size(still) < 2) return
+      n_group = (size(still) + most_together - 1)/most_together
+      share = (size(still) + n_group - 1)/n_group
+      do first = 1, size(still), share*most_at_once
+         last = min(first + share*most_at_once - 1, size(still))
+         process = 0
+         do k = first, last, share
+            number = (k - first)/share + 1
+            call start_drawing(folder, names(still(k:min(k + share - 1, last))), process(number), code)
+            if (is_missing(code)) return
+         end do
+         until = clock_ms() + 1000_i8*seconds
+         is_none = .true.
          do k = first, last
-            call start_drawing(folder, names(k)%s, process(k), code)
+            number = (k - first)/share + 1
+            if (process(number) > 0) then
+               code = wait_group(process(number), until, is_late)
+               process(number) = 0
+               code = remove_file(folder//"/"//stem(names(still(k))%s)//".log")
+            end if
+            is_drawn(still(k)) = is_whole_picture(folder//"/"//picture_of(names(still(k))%s))
+            is_none = is_none .and. .not. is_drawn(still(k))
+         end do
+         if (is_none) return
+      end do
+   end subroutine draw_together
+
+   !> Each picture by a gnuplot of its own, with a warning if it fails.
+   subroutine draw_alone(folder, names, which, seconds, is_drawn, warnings)
+      character(*), intent(in) :: folder                            !! of the figures
+      type(text_t), intent(in) :: names(:)                          !! (n) figures
+      integer, intent(in) :: which(:)                               !! (any) numbers of those that are meant
+      integer, intent(in) :: seconds                                !! that each may take
+      logical, intent(inout) :: is_drawn(:)                         !! (n) which were
+      type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) what was not made, and why
+
+      integer(i8) :: until
+      integer :: code, first, k, last, n_late, process(size(which))
+
+      do first = 1, size(which), most_at_once
+         last = min(first + most_at_once - 1, size(which))
+         do k = first, last
+            call start_drawing(folder, names(which(k):which(k)), process(k), code)
             if (code == 0) cycle
             if (is_missing(code)) then
                call append_text(warnings, "gnuplot is not installed: the figures are left as scripts in "//folder)
                last = k - 1
                exit
             end if
-            call append_text(warnings, "figure "//names(k)%s//": gnuplot cannot be started: "//system_message(code))
+            call append_text(warnings, "figure "//names(which(k))%s//": gnuplot cannot be started: "//system_message(code))
          end do
          until = clock_ms() + 1000_i8*seconds
          n_late = 0
          do k = first, last
-            if (process(k) > 0) call end_drawing(folder, names(k)%s, process(k), until, seconds, n_late, pictures, warnings)
+            if (process(k) > 0) call end_drawing(folder, names(which(k))%s, process(k), until, seconds, n_late, &
+                                                 is_drawn(which(k)), warnings)
          end do
-         if (last < min(first + most_at_once - 1, size(names))) return
-         if (n_late == last - first + 1 .and. last < size(names)) then
-            call append_text(warnings, to_text(size(names) - last)//" further figures were left as scripts in "//folder// &
+         if (last < min(first + most_at_once - 1, size(which))) return
+         if (n_late == last - first + 1 .and. last < size(which)) then
+            call append_text(warnings, to_text(size(which) - last)//" further figures were left as scripts in "//folder// &
                              ", because gnuplot does not end")
             return
          end if
       end do
-   end subroutine draw_figures
+   end subroutine draw_alone
 
    !> How long a figure may take.
    subroutine read_patience(seconds, warnings)
@@ -231,30 +294,38 @@ contains
       call append_text(warnings, patience_variable//" is not a number of seconds from 1 on; "//to_text(patience)//" s are taken")
    end subroutine read_patience
 
-   !> Start gnuplot on a script.
-   subroutine start_drawing(folder, name, process, code)
-      character(*), intent(in) :: folder  !! of the figures
-      character(*), intent(in) :: name    !! of the figure
-      integer, intent(out) :: process     !! the running gnuplot, 0 if it could not be started
-      integer, intent(out) :: code        !! 0, or the system's error number
+   !> Start gnuplot on scripts. Pictures that lie there are removed.
+   subroutine start_drawing(folder, names, process, code)
+      character(*), intent(in) :: folder     !! of the figures
+      type(text_t), intent(in) :: names(:)   !! (n) figures
+      integer, intent(out) :: process        !! the running gnuplot, 0 if it could not be started
+      integer, intent(out) :: code           !! 0, or the system's error number
+
+      type(text_t), allocatable :: arguments(:)
+      integer :: ignored, k
 
       process = 0
-      code = enter_file(folder//"/"//stem(name)//".log")
-      if (code == 0) code = enter_file(folder//"/"//picture_of(name))
+      arguments = [text_t("-d")]
+      code = enter_file(folder//"/"//stem(names(1)%s)//".log")
+      do k = 1, size(names)
+         if (code == 0) code = enter_file(folder//"/"//picture_of(names(k)%s))
+         if (code == 0) ignored = remove_file(folder//"/"//picture_of(names(k)%s))
+         call append_text(arguments, "./"//stem(names(k)%s)//".gp")
+      end do
       if (code /= 0) return
-      code = start_program(folder, "gnuplot", [text_t("-d"), text_t("./"//stem(name)//".gp")], stem(name)//".log", .true., process)
+      code = start_program(folder, "gnuplot", arguments, stem(names(1)%s)//".log", .true., process)
       if (code /= 0) process = 0
    end subroutine start_drawing
 
    !> Wait for one gnuplot and see what came of it.
-   subroutine end_drawing(folder, name, process, until, seconds, n_late, pictures, warnings)
+   subroutine end_drawing(folder, name, process, until, seconds, n_late, is_drawn, warnings)
       character(*), intent(in) :: folder                            !! of the figures
       character(*), intent(in) :: name                              !! of the figure
       integer, intent(in) :: process                                !! the running gnuplot
       integer(i8), intent(in) :: until                              !! instant at which it is ended, see `clock_ms` [ms]
       integer, intent(in) :: seconds                                !! that it had [s]
       integer, intent(inout) :: n_late                              !! figures that were not ready
-      type(text_t), allocatable, intent(inout) :: pictures(:)       !! (m) pictures made
+      logical, intent(inout) :: is_drawn                            !! whether there is a picture
       type(text_t), allocatable, intent(inout) :: warnings(:)       !! (k) what was not made, and why
 
       character(:), allocatable :: path
@@ -275,7 +346,7 @@ contains
                           "message is in "//path//".log")
       else
          ignored = remove_file(path//".log")
-         call append_text(pictures, "figures/"//picture_of(name))
+         is_drawn = .true.
          return
       end if
       ignored = remove_file(folder//"/"//picture_of(name))

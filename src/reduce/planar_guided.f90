@@ -309,9 +309,10 @@ contains
       end do
    end subroutine planar_read_coordinates
 
-   !> Multipliers of the rows of the guided bodies' joints. All rows are evaluated.
-   subroutine planar_find_multipliers(self, rows, mass, g, a, lambda)
+   !> Multipliers of the rows of guided bodies' joints, which are evaluated.
+   subroutine planar_find_multipliers(self, which, rows, mass, g, a, lambda)
       class(planar_guided_t), intent(in) :: self          !! the bodies
+      integer, intent(in) :: which(:)                     !! (any) numbers of those that are meant
       type(rows_t), intent(in) :: rows                    !! all rows
       real(wp), intent(in), contiguous :: mass(:, :)      !! (3, bodies) masses [kg, kg, kg.m^2]
       real(wp), intent(in), contiguous :: g(:, 0:)        !! (3, 0:bodies) applied loads [N, N, N.m]
@@ -321,8 +322,8 @@ contains
       real(wp) :: determinant, p(3), q(3), rest(3), s(3), x(2)
       integer :: b, k, place
 
-      do k = 1, self%n
-         associate (held => self%held(k))
+      do k = 1, size(which)
+         associate (held => self%held(which(k)))
             b = held%body
             place = 3*(held%side - 1)
             p = rows%jac(place + 1:place + 3, held%row(1))

@@ -5,9 +5,10 @@
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14). Limits: drivers of angles.
 module planar_known
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use coordinates, only: most_rates
    use joint_set, only: joint_slot_t
    use kinds, only: wp
-   use motion, only: cross, motion_t
+   use motion, only: motion_t
    use reduced_bodies, only: held_t, known_bodies_t
    use rows, only: rows_t
    implicit none (type, external)
@@ -175,15 +176,41 @@ contains
    !> Solution of three equations by Cramer's rule: columns are two unit forces with their moments and a unit moment,
    !> so that the determinant is one or minus one.
    subroutine solve_three(matrix, x)
-      real(wp), intent(inout) :: matrix(:, :)  !! (3, 3) matrix [1 or m]
-      real(wp), intent(inout) :: x(:)          !! (3) right-hand side, then the solution [N, N, N.m]
+      real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (3, 3) first: matrix [1 or m]
+      real(wp), intent(inout) :: x(most_rates)                   !! (3) first: right-hand side, then the solution [N, N, N.m]
 
-      real(wp) :: c23(3), c31(3), c12(3)
+      real(wp) :: b(3), c(3), first(3)
 
-      c23 = cross(matrix(:, 2), matrix(:, 3))
-      c31 = cross(matrix(:, 3), matrix(:, 1))
-      c12 = cross(matrix(:, 1), matrix(:, 2))
-      x = [dot_product(c23, x), dot_product(c31, x), dot_product(c12, x)]/dot_product(c23, matrix(:, 1))
+      b = x(1:3)
+      first = turned(matrix(1:3, 2), matrix(1:3, 3))
+      x(1) = along(first, b)
+      c = turned(matrix(1:3, 3), matrix(1:3, 1))
+      x(2) = along(c, b)
+      c = turned(matrix(1:3, 1), matrix(1:3, 2))
+      x(3) = along(c, b)
+      x(1:3) = x(1:3)/along(first, matrix(1:3, 1))
+
+   contains
+
+      !> Vector product, inlined.
+      pure function turned(u, v) result(w)
+         real(wp), intent(in) :: u(3)  !! (3) first factor [any]
+         real(wp), intent(in) :: v(3)  !! (3) second factor [any]
+         real(wp) :: w(3)              !! (3) the product [any]
+
+         w(1) = u(2)*v(3) - u(3)*v(2)
+         w(2) = u(3)*v(1) - u(1)*v(3)
+         w(3) = u(1)*v(2) - u(2)*v(1)
+      end function turned
+
+      !> Scalar product, inlined.
+      pure real(wp) function along(u, v)
+         real(wp), intent(in) :: u(3)  !! (3) first factor [any]
+         real(wp), intent(in) :: v(3)  !! (3) second factor [any]
+
+         along = u(1)*v(1) + u(2)*v(2) + u(3)*v(3)
+      end function along
+
    end subroutine solve_three
 
 end module planar_known

@@ -88,10 +88,10 @@ module reduced_bodies
 
       !> Solution of the equations of the multipliers that fix a body.
       subroutine fixing_interface(matrix, x)
-         import :: wp
+         import :: most_rates, wp
          implicit none (type, external)
-         real(wp), intent(inout) :: matrix(:, :)   !! (n_v, n_v) gradients of the rows as columns, destroyed [1 or m]
-         real(wp), intent(inout) :: x(:)           !! (n_v) what they have to carry, then the multipliers [N or N.m]
+         real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (n_v, n_v) first: gradients as columns, destroyed [1 or m]
+         real(wp), intent(inout) :: x(most_rates)  !! (n_v) first: what they have to carry, then the multipliers [N or N.m]
       end subroutine fixing_interface
 
       !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too. No allocation.
@@ -149,11 +149,12 @@ module reduced_bodies
          real(wp), intent(out) :: x_dot(self%n)          !! (n) their rates [rad/s or m/s]
       end subroutine guided_coordinates_interface
 
-      !> Multipliers of the rows of the guided bodies' joints. All rows are evaluated.
-      subroutine guided_multipliers_interface(self, rows, mass, g, a, lambda)
+      !> Multipliers of the rows of guided bodies' joints, which are evaluated.
+      subroutine guided_multipliers_interface(self, which, rows, mass, g, a, lambda)
          import :: guided_bodies_t, rows_t, wp
          implicit none (type, external)
          class(guided_bodies_t), intent(in) :: self          !! the bodies
+         integer, intent(in) :: which(:)                     !! (any) numbers of those that are meant
          type(rows_t), intent(in) :: rows                    !! all rows
          real(wp), intent(in), contiguous :: mass(:, :)      !! (n_v, bodies) masses [kg or kg.m^2]
          real(wp), intent(in), contiguous :: g(:, 0:)        !! (n_v, 0:bodies) applied loads [N or N.m]
@@ -164,7 +165,8 @@ module reduced_bodies
 
 contains
 
-   !> Multipliers of the rows that fix the known bodies. Those of all other rows are there; all rows are evaluated.
+   !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
+   !> evaluated.
    subroutine known_find_multipliers(self, rows, carried, mass, g, a, rest, lambda)
       class(known_bodies_t), intent(in) :: self             !! the bodies
       type(rows_t), intent(in) :: rows                      !! all rows
@@ -176,35 +178,99 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
 
       real(wp) :: matrix(most_rates, most_rates), x(most_rates)
-      integer :: b, i, k, n, place, row
+      integer :: k
 
-      n = rows%n_v
-      do k = 1, self%n
-         b = self%held(k)%body
-         rest(:, b) = g(:, b) - mass(:, b)*a(:, b)
-      end do
-      do k = 1, size(carried, 2)
-         row = carried(1, k)
-         place = place_in_row(n, row, carried(2, k))
-         b = carried(3, k)
-         rest(:, b) = rest(:, b) - rows%jac(place + 1:place + n, row)*lambda(row)
-      end do
-      do k = self%n, 1, -1
-         associate (held => self%held(k))
-            place = coordinate_place(n, held%side)
-            do i = 1, n
-               matrix(:n, i) = rows%jac(place + 1:place + n, held%row(i))
-            end do
-            x(:n) = rest(:, held%body)
-            call self%solve_fixing(matrix(:n, :n), x(:n))
-            place = coordinate_place(n, 3 - held%side)
-            do i = 1, n
-               row = held%row(i)
-               lambda(row) = x(i)
-               rest(:, held%base) = rest(:, held%base) - rows%jac(place + 1:place + n, row)*x(i)
-            end do
-         end associate
-      end do
+      associate (n_v => rows%n_v, n_body => ubound(g, 2), n_row => rows%n)
+         call find_rest(self%n, self%held, size(carried, 2), carried, n_v, n_body, n_row, rows%jac, mass, g, a, lambda, rest)
+         do k = self%n, 1, -1
+            call take_equations(self%held(k), n_v, n_body, n_row, rows%jac, rest, matrix, x)
+            call self%solve_fixing(matrix, x)
+            call hand_down(self%held(k), n_v, n_body, n_row, rows%jac, x, rest, lambda)
+         end do
+      end associate
    end subroutine known_find_multipliers
+
+   !> What the fixing rows of the known bodies carry, but for those of other known bodies.
+   pure subroutine find_rest(n, held, n_carried, carried, n_v, n_body, n_row, jac, mass, g, a, lambda, rest)
+      integer, intent(in) :: n                         !! number of known bodies
+      type(held_t), intent(in) :: held(n)              !! (n) how they are held
+      integer, intent(in) :: n_carried                 !! sides that are known bodies in other rows
+      integer, intent(in) :: carried(3, n_carried)     !! (3, sides) these: row, place, body
+      integer, intent(in) :: n_v                       !! rates of a body
+      integer, intent(in) :: n_body                    !! number of bodies
+      integer, intent(in) :: n_row                     !! number of rows
+      real(wp), intent(in) :: jac(2*n_v, n_row)        !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in) :: mass(n_v, n_body)        !! (n_v, bodies) masses [kg or kg.m^2]
+      real(wp), intent(in) :: g(n_v, 0:n_body)         !! (n_v, 0:bodies) applied loads [N or N.m]
+      real(wp), intent(in) :: a(n_v, 0:n_body)         !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+      real(wp), intent(in) :: lambda(n_row)            !! (rows) multipliers of the other rows [N or N.m]
+      real(wp), intent(inout) :: rest(n_v, 0:n_body)   !! (n_v, 0:bodies) what is to be carried, of known bodies [N or N.m]
+
+      integer :: b, i, k, place, row
+
+      do k = 1, n
+         b = held(k)%body
+         !GCC$ novector
+         do i = 1, n_v
+            rest(i, b) = g(i, b) - mass(i, b)*a(i, b)
+         end do
+      end do
+      do k = 1, n_carried
+         row = carried(1, k)
+         place = place_in_row(n_v, row, carried(2, k))
+         b = carried(3, k)
+         !GCC$ novector
+         do i = 1, n_v
+            rest(i, b) = rest(i, b) - jac(place + i, row)*lambda(row)
+         end do
+      end do
+   end subroutine find_rest
+
+   !> The equations of the multipliers that fix a body.
+   pure subroutine take_equations(held, n_v, n_body, n_row, jac, rest, matrix, x)
+      type(held_t), intent(in) :: held                 !! how it is held
+      integer, intent(in) :: n_v                       !! rates of a body
+      integer, intent(in) :: n_body                    !! number of bodies
+      integer, intent(in) :: n_row                     !! number of rows
+      real(wp), intent(in) :: jac(2*n_v, n_row)        !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in) :: rest(n_v, 0:n_body)      !! (n_v, 0:bodies) what is to be carried [N or N.m]
+      real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (n_v, n_v) first: gradients as columns [1 or m]
+      real(wp), intent(inout) :: x(most_rates)         !! (n_v) first: what they have to carry [N or N.m]
+
+      integer :: i, j, place
+
+      place = coordinate_place(n_v, held%side)
+      do i = 1, n_v
+         !GCC$ novector
+         do j = 1, n_v
+            matrix(j, i) = jac(place + j, held%row(i))
+         end do
+         x(i) = rest(i, held%body)
+      end do
+   end subroutine take_equations
+
+   !> The multipliers that fix a body, and what they put upon its base.
+   pure subroutine hand_down(held, n_v, n_body, n_row, jac, x, rest, lambda)
+      type(held_t), intent(in) :: held                 !! how it is held
+      integer, intent(in) :: n_v                       !! rates of a body
+      integer, intent(in) :: n_body                    !! number of bodies
+      integer, intent(in) :: n_row                     !! number of rows
+      real(wp), intent(in) :: jac(2*n_v, n_row)        !! (2 n_v, rows) Phi_q [1 or m]
+      real(wp), intent(in) :: x(most_rates)            !! (n_v) first: the multipliers [N or N.m]
+      real(wp), intent(inout) :: rest(n_v, 0:n_body)   !! (n_v, 0:bodies) what is to be carried, of known bodies [N or N.m]
+      real(wp), intent(inout) :: lambda(n_row)         !! (rows) multipliers; these are set [N or N.m]
+
+      integer :: i, j, place
+
+      place = coordinate_place(n_v, 3 - held%side)
+      do i = 1, n_v
+         lambda(held%row(i)) = x(i)
+         if (held%base == 0) cycle
+         !GCC$ novector
+         do j = 1, n_v
+            rest(j, held%base) = rest(j, held%base) - jac(place + j, held%row(i))*x(i)
+         end do
+      end do
+   end subroutine hand_down
 
 end module reduced_bodies

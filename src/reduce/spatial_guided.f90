@@ -296,9 +296,10 @@ contains
       end do
    end subroutine spatial_read_coordinates
 
-   !> Multipliers of the rows of the guided bodies' joints. All rows are evaluated.
-   subroutine spatial_find_multipliers(self, rows, mass, g, a, lambda)
+   !> Multipliers of the rows of guided bodies' joints, which are evaluated.
+   subroutine spatial_find_multipliers(self, which, rows, mass, g, a, lambda)
       class(spatial_guided_t), intent(in) :: self         !! the bodies
+      integer, intent(in) :: which(:)                     !! (any) numbers of those that are meant
       type(rows_t), intent(in) :: rows                    !! all rows
       real(wp), intent(in), contiguous :: mass(:, :)      !! (6, bodies) masses [kg and kg.m^2]
       real(wp), intent(in), contiguous :: g(:, 0:)        !! (6, 0:bodies) applied loads [N and N.m]
@@ -306,9 +307,10 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints' rows are set [N or N.m]
 
       real(wp) :: columns(6, n_held), matrix(n_held, n_held), rest(6), x(n_held)
-      integer :: b, i, info, k, pivots(n_held), place
+      integer :: b, i, info, k, m, pivots(n_held), place
 
-      do k = 1, self%n
+      do m = 1, size(which)
+         k = which(m)
          b = self%held(k)%body
          place = 6*(self%held(k)%side - 1)
          rest = g(:, b)/mass(:, b) - a(:, b)

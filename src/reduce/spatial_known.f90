@@ -7,6 +7,7 @@
 !> Source: Flores et al. (2008), eqs. (6.1) to (6.5). Limits: drivers of angles.
 module spatial_known
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use coordinates, only: most_rates
    use joint_set, only: joint_slot_t
    use kinds, only: wp
    use lapack, only: dgetrf, dgetrs
@@ -135,15 +136,13 @@ contains
    !> Solution of the equations of the multipliers that fix a body, by factors with pivots. The rows of a joint and its driver are
    !> independent wherever the joint is whole, so that there is one.
    subroutine solve_pivoted(matrix, x)
-      real(wp), intent(inout) :: matrix(:, :)   !! (6, 6) gradients of the rows as columns, destroyed [1 or m]
-      real(wp), intent(inout) :: x(:)           !! (6) what they have to carry, then the multipliers [N or N.m]
+      real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (6, 6) gradients of the rows as columns, destroyed [1 or m]
+      real(wp), intent(inout) :: x(most_rates)  !! (6) what they have to carry, then the multipliers [N or N.m]
 
-      real(wp) :: factors(6, 6)
       integer :: info, pivots(6)
 
-      factors = matrix
-      call dgetrf(6, 6, factors, 6, pivots, info)
-      call dgetrs("N", 6, 1, factors, 6, pivots, x, 6, info)
+      call dgetrf(6, 6, matrix, 6, pivots, info)
+      call dgetrs("N", 6, 1, matrix, 6, pivots, x, 6, info)
    end subroutine solve_pivoted
 
 end module spatial_known

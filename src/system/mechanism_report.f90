@@ -4,14 +4,15 @@ module mechanism_report
       room_joints
    use clearance_set, only: clearance_set_t
    use joint_friction, only: friction_channels
-   use joint_set, only: joint_set_t
+   use joint_set, only: joint_set_t, of_coordinate
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: not_a_number, wp
    use linkage, only: linkage_t
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
    use point_contacts, only: named_channels, of_eccentricity, of_force
-   use readings, only: readings_t
+   use readings, only: reading_plan_t, readings_t
+   use requests, only: source_joint
    use request_report, only: add_requests, bind_requests, report_requests
    use revolute_level, only: film_channels, pressure_channels
    implicit none (type, external)
@@ -150,7 +151,7 @@ contains
          do k = 1, size(plan%ideal)
             call catalogue%bind(room_clearances, info, plan%ideal(k))
          end do
-         plan%needs_reactions = any(plan%joints%n > 0) .or. any(plan%ideal%n > 0) .or. plan%reactions%n > 0
+         call list_rows(system, plan)
          do k = 1, size(plan%loose)
             call catalogue%bind(room_clearances, loose_info(system%loose%sets(k)%set), plan%loose(k))
          end do
@@ -159,6 +160,43 @@ contains
          end do
       end associate
    end subroutine bind_channels
+
+   !> The rows of joints and drivers that something is read of, and what they need of those that are not solved for.
+   subroutine list_rows(system, plan)
+      class(mechanism_t), intent(in) :: system         !! the system
+      type(reading_plan_t), intent(inout) :: plan      !! what is read of its sets; their rows are listed
+
+      logical :: is_read(system%linkage%rows%n)
+      integer :: k, m
+
+      is_read = .false.
+      associate (joints => system%linkage%joints)
+         do k = 1, size(joints)
+            do m = 1, plan%joints(k)%n
+               if (plan%joints(k)%code(m) /= of_coordinate) call mark(joints(k)%set, plan%joints(k)%item(m))
+            end do
+         end do
+         do m = 1, plan%reactions%n
+            associate (reaction => system%requests%reactions(plan%reactions%item(m)))
+               if (reaction%source == source_joint) call mark(joints(reaction%slot)%set, reaction%item)
+            end associate
+         end do
+      end associate
+      call system%linkage%list_wanted(is_read, plan%rows)
+
+   contains
+
+      !> The rows of an item are read.
+      subroutine mark(set, item)
+         class(joint_set_t), intent(in) :: set   !! the set
+         integer, intent(in) :: item             !! the item
+
+         associate (first => set%first_row + (item - 1)*set%n_row_item)
+            is_read(first + 1:first + set%n_row_item) = .true.
+         end associate
+      end subroutine mark
+
+   end subroutine list_rows
 
    !> Joints, or drivers, in the order of their columns.
    subroutine add_joint_items(system, is_driver, catalogue)
@@ -265,8 +303,8 @@ contains
       else
          call system%linkage%set_acceleration(ydot)
       end if
-      if (catalogue%readings%needs_reactions .and. system%linkage%rows%n > system%linkage%rows%n_solve) then
-         call system%linkage%find_reactions(t, system%loading%g)
+      if (size(catalogue%readings%rows%sets) > 0) then
+         call system%linkage%find_reactions(t, system%loading%g, catalogue%readings%rows)
       end if
       call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state

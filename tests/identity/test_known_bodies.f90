@@ -6,6 +6,7 @@ module test_known_bodies
    use errors, only: error_t
    use kinds, only: two_pi, wp
    use mechanism, only: mechanism_t
+   use readings, only: wanted_rows_t
    use reduction_comparison, only: both_systems, compare_at, compare_often, compare_works, complete_state, with_word
    use scene_fixture, only: nl, slider_crank, start_text, system_of_text
    use solver_registry, only: n_solver_kinds, new_solver
@@ -166,6 +167,7 @@ contains
 
          class(augmented_t), allocatable :: solver
          type(mechanism_t) :: one, two
+         type(wanted_rows_t) :: wanted
          real(wp), allocatable :: a(:), start(:), y(:), ydot_one(:), ydot_two(:)
          character(:), allocatable :: deck
          integer :: status
@@ -196,7 +198,8 @@ contains
          a = [one%linkage%motion%a(1:2, 1), one%linkage%motion%alpha(3, 1), one%linkage%motion%a(1:2, 2), &
              one%linkage%motion%alpha(3, 2)]
          call check_close(error, ydot_two(7:12), a, 1.0e-9_wp, "accelerations with two drivers, "//solver%name(), relative=.true.)
-         call one%linkage%find_reactions(0.3_wp, one%loading%g)
+         call one%linkage%list_wanted(spread(.true., 1, one%linkage%rows%n), wanted)
+         call one%linkage%find_reactions(0.3_wp, one%loading%g, wanted)
          associate (moment => one%linkage%solution%lambda(one%linkage%reduced%known%held(1)%row(3)), &
                     shares => two%linkage%solution%lambda(size(two%linkage%solution%lambda) - 1:))
             call check_close(error, shares, 0.5_wp*[moment, moment], 1.0e-6_wp, "halves of the moment, "//solver%name(), &

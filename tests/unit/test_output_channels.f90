@@ -157,6 +157,7 @@ contains
       character(*), intent(in) :: message                 !! how the message must begin
 
       type(catalogue_t) :: scene
+      type(figure_t), allocatable :: figures(:)
       type(text_t) :: words(2)
       character(:), allocatable :: got_message, hint, part
       integer :: bad
@@ -164,7 +165,7 @@ contains
       call make_scene(scene)
       words(1)%s = "motor.moment"
       words(2)%s = word
-      call check_figures(words, scene, bad, got_message, hint, part)
+      call check_figures(words, scene, bad, got_message, hint, part, figures)
       call check_equal(error, bad, 2, "number of the wrong figure '"//word//"'")
       call check_equal(error, got_message(1:min(len(message), len(got_message))), message, "message")
       call check_true(error, len(hint) > 0, "there is a hint for '"//word//"'")
