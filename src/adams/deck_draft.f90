@@ -7,7 +7,7 @@ module deck_draft
    use deck_table, only: deck_table_t, number_cell
    use kinds, only: wp
    use name_table, only: name_table_t
-   use text, only: split_blank, to_text
+   use text, only: replace, split_blank, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -30,10 +30,13 @@ module deck_draft
       type(joint_t), allocatable :: joints(:)        !! (joints)
       type(name_table_t) :: points                   !! names of points
       type(name_table_t) :: names                    !! names of what has channels
+      type(text_t), allocatable :: asked(:)          !! (n) what rows of requests tell
+      type(text_t), allocatable :: answers(:)        !! (n) names of these rows
    contains
       procedure :: put => put_row
       procedure :: new_name
       procedure :: point => point_of_marker
+      procedure :: row_of
       procedure :: write => write_tables
    end type deck_draft_t
 
@@ -76,6 +79,28 @@ contains
          call self%names%enter(name, id, previous)
       end do
    end subroutine new_name
+
+   !> The row of a request, by what it tells; its name has a place in expressions.
+   subroutine row_of(self, key, name, is_new)
+      class(deck_draft_t), intent(inout) :: self           !! the deck
+      character(*), intent(in) :: key                      !! what it tells
+      character(:), allocatable, intent(out) :: name       !! of the row
+      logical, intent(out) :: is_new                       !! whether it is to be written
+
+      integer :: k
+
+      is_new = .false.
+      if (.not. allocated(self%asked)) allocate (self%asked(0), self%answers(0))
+      do k = 1, size(self%asked)
+         if (self%asked(k)%s /= key) cycle
+         name = self%answers(k)%s
+         return
+      end do
+      is_new = .true.
+      call self%new_name(replace(key, "-", "_"), size(self%asked) + 1, name)
+      self%asked = [self%asked, text_t(key)]
+      self%answers = [self%answers, text_t(name)]
+   end subroutine row_of
 
    !> A name with nothing but what a deck's names have.
    pure function clean(wanted) result(name)

@@ -8,6 +8,7 @@
 !>
 !> Source: Flores et al. (2008), sections 2.4, 3.5, tables 3.2, 4.2. Limits: films are as the deck's tables say (`form = book`).
 module legacy_way
+   use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
    use item, only: item_t, option_t, place_of
    use kind_info, only: dim_frequency, dim_length, dim_t, kind_info_t
@@ -109,7 +110,7 @@ contains
       type(dim_t), intent(in) :: dimension       !! of the value
 
       option%name = name
-      option%text = real_text(number, 6)
+      option%text = real_text(number, 6)//unit_text(dimension)
       option%number = number
       option%is_number = .true.
       option%dimension = dimension
