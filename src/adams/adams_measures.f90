@@ -139,7 +139,7 @@ contains
       do k = 1, 3
          if (abs(direction(k)) <= nothing) cycle
          if (words /= "") words = words//" + "
-         words = words//"("//real_text(direction(k), 17)//")*"//row//channel//achar(iachar("x") + k - 1)
+         words = words//factor(direction(k))//row//channel//achar(iachar("x") + k - 1)
          n_seen = n_seen + 1
       end do
       words = "("//words//")"
@@ -200,8 +200,8 @@ contains
             if (index(part%name, "-") > 0) message = "the name of its part, "//part%name//", has no place in expressions"
             do k = 1, 3
                if (abs(direction(k)) <= nothing) cycle
-               words = words//" + ("//real_text(merge(1.0_wp, -1.0_wp, side == 1)*direction(k), 17)//")*"//part%name// &
-                       ".angular_velocity."//achar(iachar("x") + k - 1)
+               words = words//" + "//factor(merge(1.0_wp, -1.0_wp, side == 1)*direction(k))//part%name//".angular_velocity."// &
+                       achar(iachar("x") + k - 1)
                n_seen = n_seen + 1
             end do
          end associate
@@ -212,6 +212,15 @@ contains
          words = "(("//words(4:)//")*"//model%units%time_text()//"/1rad)"
       end if
    end subroutine name_spin
+
+   !> A factor before what it multiplies.
+   pure function factor(x) result(words)
+      real(wp), intent(in) :: x               !! the factor [1]
+      character(:), allocatable :: words      !! blank for one
+
+      words = "("//real_text(x, 17)//")*"
+      if (.not. abs(x - 1.0_wp) > 0.0_wp) words = ""
+   end function factor
 
    !> Whether a marker does not move.
    pure logical function is_fixed(model, marker)
