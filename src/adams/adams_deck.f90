@@ -22,6 +22,7 @@ module adams_deck
    use source_text, only: source_t
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: imported_t, import_dataset
@@ -47,6 +48,7 @@ contains
       type(deck_draft_t) :: draft
       type(statement_t), allocatable :: statements(:)
       type(buffer_t) :: buffer
+      type(text_list_t) :: settings
       character(:), allocatable :: title
       integer :: k
 
@@ -67,11 +69,10 @@ contains
       call add_motions(model, draft, mistakes)
       call add_forces(model, draft, mistakes)
       call add_loads(model, draft, mistakes)
-      allocate (imported%settings(0))
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
             if (is_setting(it%keyword)) then
-               imported%settings = [imported%settings, text_t("line "//to_text(it%line)//": "//it%keyword)]
+               call settings%add("line "//to_text(it%line)//": "//it%keyword)
             else if (.not. is_understood(it%keyword)) then
                call leave_out(model, it, reason_against(it%keyword))
             end if
@@ -79,6 +80,7 @@ contains
       end do
       imported%left_out = model%left_out%get()
       imported%changed = model%changed%get()
+      imported%settings = settings%get()
       call write_head(model, file, imported, buffer, mistakes)
       call draft%write(buffer)
       call buffer%line("")

@@ -7,8 +7,9 @@ module deck_draft
    use deck_table, only: deck_table_t, number_cell
    use kinds, only: wp
    use name_table, only: name_table_t
-   use text, only: replace, split_blank, text_t, to_text
+   use text, only: replace, split_blank, to_text
    use text_buffer, only: buffer_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: body_axis, body_name, deck_draft_t, joint_t, tab
@@ -30,8 +31,8 @@ module deck_draft
       type(joint_t), allocatable :: joints(:)        !! (joints)
       type(name_table_t) :: points                   !! names of points
       type(name_table_t) :: names                    !! names of what has channels
-      type(text_t), allocatable :: asked(:)          !! (n) what rows of requests tell
-      type(text_t), allocatable :: answers(:)        !! (n) names of these rows
+      type(text_list_t) :: asked                     !! what rows of requests tell
+      type(text_list_t) :: answers                   !! names of these rows
    contains
       procedure :: put => put_row
       procedure :: new_name
@@ -90,16 +91,16 @@ contains
       integer :: k
 
       is_new = .false.
-      if (.not. allocated(self%asked)) allocate (self%asked(0), self%answers(0))
-      do k = 1, size(self%asked)
-         if (self%asked(k)%s /= key) cycle
-         name = self%answers(k)%s
+      do k = 1, self%asked%n
+         name = self%asked%at(k)
+         if (name /= key) cycle
+         name = self%answers%at(k)
          return
       end do
       is_new = .true.
-      call self%new_name(replace(key, "-", "_"), size(self%asked) + 1, name)
-      self%asked = [self%asked, text_t(key)]
-      self%answers = [self%answers, text_t(name)]
+      call self%new_name(replace(key, "-", "_"), self%asked%n + 1, name)
+      call self%asked%add(key)
+      call self%answers%add(name)
    end subroutine row_of
 
    !> A name with nothing but what a deck's names have.
