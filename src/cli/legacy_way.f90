@@ -3,8 +3,9 @@
 !> Verner's method with fixed steps (the deck's `step`, else 10 us), Baumgarte's gains of 5 1/s unless the deck stabilises
 !> otherwise,
 !> the full augmented matrix with partial pivoting, all coordinates of all bodies, all bodies together, and wherever a joint with
-!> clearance has a formula of the book beside a corrected one, that of the book (faces of sliders only where they have a law). Onsets
-!> of contacts by the book's procedure 1 (`contact_onset = interpolate`) or 2 (`reject limit=0.1um`, unless the deck says another limit).
+!> clearance has a formula of the book beside a corrected one, that of the book (faces of sliders only where they have a law).
+!> Onsets of contacts by the book's procedure 1 (`contact_onset = interpolate`) or 2 (`reject limit=0.1um`, unless the deck says
+!> another limit).
 !>
 !> Source: Flores et al. (2008), sections 2.4, 3.5, tables 3.2, 4.2. Limits: films are as the deck's tables say (`form = book`).
 module legacy_way

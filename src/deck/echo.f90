@@ -168,8 +168,8 @@ contains
       if (column%cell == cell_duration) has_own_unit = len(value%text) > 0
    end function has_own_unit
 
-   !> Whether there is nothing to write: no value, and a default that is blank, that only the reader knows the unit of, or that means
-   !> something else where it is given.
+   !> Whether there is nothing to write: no value, and a default that is blank, that only the reader knows the unit of, or that
+   !> means something else where it is given.
    pure logical function is_empty(column, value)
       type(column_t), intent(in) :: column  !! the column
       type(value_t), intent(in) :: value    !! its value
