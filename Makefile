@@ -66,7 +66,7 @@ test:
 # The tests in a build with the sanitizers of addresses, leaks and undefined behaviour, an hour; what they say is in build/sanitize/reports
 test-sanitize:
 	@scripts/setup
-	$(inner)sanitize binary test_program
+	$(inner)sanitize binary test_program fuzz_program
 	@scripts/test_sanitize $(abspath $(BUILD)) $(PYTEST)
 
 test-debian:

@@ -8,9 +8,12 @@
 !> `adams_forces`.
 module adams_deck
    use adams_forces, only: add_forces
-   use adams_joints, only: add_joints, add_motions, add_primitives
+   use adams_gears, only: add_gears
+   use adams_joints, only: add_joints, add_primitives
+   use adams_loads, only: add_loads
    use adams_model, only: adams_model_t, argument_numbers, leave_out, mistake, new_model, part_t
-   use adams_names, only: full_names, is_refused, is_setting, is_understood
+   use adams_motions, only: add_motions
+   use adams_names, only: full_names, is_refused, is_setting, is_understood, reason_against
    use dataset, only: has_word, read_statements, statement_t
    use deck_draft, only: deck_draft_t, tab
    use deck_table, only: direction_cell, number_cell
@@ -19,6 +22,7 @@ module adams_deck
    use source_text, only: source_t
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: imported_t, import_dataset
@@ -44,6 +48,7 @@ contains
       type(deck_draft_t) :: draft
       type(statement_t), allocatable :: statements(:)
       type(buffer_t) :: buffer
+      type(text_list_t) :: settings
       character(:), allocatable :: title
       integer :: k
 
@@ -60,20 +65,22 @@ contains
       call add_bodies(model, draft, mistakes)
       call add_joints(model, draft, mistakes)
       call add_primitives(model, draft, mistakes)
+      call add_gears(model, draft, mistakes)
       call add_motions(model, draft, mistakes)
       call add_forces(model, draft, mistakes)
-      allocate (imported%settings(0))
+      call add_loads(model, draft, mistakes)
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
             if (is_setting(it%keyword)) then
-               imported%settings = [imported%settings, text_t("line "//to_text(it%line)//": "//it%keyword)]
+               call settings%add("line "//to_text(it%line)//": "//it%keyword)
             else if (.not. is_understood(it%keyword)) then
-               call leave_out(model, it, "a deck has no such thing")
+               call leave_out(model, it, reason_against(it%keyword))
             end if
          end associate
       end do
       imported%left_out = model%left_out%get()
       imported%changed = model%changed%get()
+      imported%settings = settings%get()
       call write_head(model, file, imported, buffer, mistakes)
       call draft%write(buffer)
       call buffer%line("")

@@ -15,7 +15,7 @@ module adams_expression
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: depends_on, node_t, on_other, on_rate, on_stretch, on_time, parse_tree, tree_t
+   public :: depends_on, is_measure, node_t, on_other, on_rate, on_stretch, on_time, parse_tree, tree_t
    public :: node_add, node_call, node_degrees, node_divide, node_multiply, node_name, node_negate, node_number, node_power, &
       node_subtract
 
@@ -46,6 +46,7 @@ module adams_expression
       character(:), allocatable :: name         !! of a name or function, in capitals
       character(:), allocatable :: digits       !! of a number, as written
       integer, allocatable :: arguments(:)      !! (n) numbers of the nodes that it works on
+      character(:), allocatable :: words        !! of a measure: how a deck calls it; unallocated: not yet known
    end type node_t
 
    !> An expression.
@@ -316,15 +317,12 @@ contains
       integer, intent(in) :: markers(2)      !! (2) markers of the force; 0: none
       logical, intent(in) :: turns           !! whether the force is a torque
 
-      character(*), parameter :: measures = " DM DX DY DZ AX AY AZ PSI THETA PHI YAW PITCH ROLL VM VR VX VY VZ WM WX WY WZ ACCM " &
-         //"ACCX ACCY ACCZ WDTM WDTX WDTY WDTZ FM FX FY FZ TM TX TY TZ AKISPL CUBSPL CURVE ARYVAL VARVAL DIF DIF1 PINVAL POUVAL " &
-         //"SENVAL SFORCE GFORCE VFORCE VTORQUE NFORCE BEAM BUSH JOINT JPRIM MOTION FIELD SPDP PTCV CVCV UCON USER BSPLINE "
       integer :: k, m(2)
       logical :: is_own
 
       bits = 0
       associate (it => tree%nodes(node))
-         if (index(measures, " "//it%name//" ") == 0) return
+         if (.not. is_measure(it%name)) return
          bits = on_other
          m = 0
          do k = 1, min(2, size(it%arguments))
@@ -336,5 +334,16 @@ contains
          if (it%name == merge("WZ", "VR", turns)) bits = on_rate
       end associate
    end function measure_of
+
+   !> Whether a function measures something of the model.
+   pure logical function is_measure(name)
+      character(*), intent(in) :: name   !! of the function, in capitals
+
+      character(*), parameter :: measures = " DM DX DY DZ AX AY AZ PSI THETA PHI YAW PITCH ROLL VM VR VX VY VZ WM WX WY WZ ACCM " &
+         //"ACCX ACCY ACCZ WDTM WDTX WDTY WDTZ FM FX FY FZ TM TX TY TZ AKISPL CUBSPL CURVE ARYVAL VARVAL DIF DIF1 PINVAL POUVAL " &
+         //"SENVAL SFORCE GFORCE VFORCE VTORQUE NFORCE BEAM BUSH JOINT JPRIM MOTION FIELD SPDP PTCV CVCV UCON USER BSPLINE "
+
+      is_measure = index(measures, " "//name//" ") > 0
+   end function is_measure
 
 end module adams_expression

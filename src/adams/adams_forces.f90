@@ -1,32 +1,34 @@
-!> Forces of an Adams dataset as rows of a deck.
+!> Springs, dampers and forces of one component of an Adams dataset as rows of a deck.
 !>
 !> | Adams | deck |
 !> |---|---|
 !> | SPRINGDAMPER | `force.spring`, `force.torsion_spring` |
 !> | SFORCE, TRANSLATION, of DM, VR and TIME | `force.spring`: law of x = DM, damping, actuator |
 !> | SFORCE, ROTATION, of AZ, WZ and TIME | `force.torsion_spring`: law of x = AZ, damping, actuator |
-!> | SFORCE, ACTIONONLY, of TIME | `force.point`, `force.torque` along the axis z of J |
-!> | VFORCE, VTORQUE, GFORCE, of TIME, against the ground | `force.point`, `force.torque` along the axes of RM |
+!> | SFORCE of other measures | the same, with an actuator that sees the motion |
+!> | SFORCE, ACTIONONLY | `force.point`, `force.torque`: `adams_loads` |
 !>
 !> A force of Adams is positive if it drives I and J apart, or turns I about the axis z of J; a deck's is positive if it pulls them
 !> together, or turns j (which is I) back. So the deck's is the negative one.
-!> An expression is cut into the terms of its sum; each may depend on the time, on the stretch, or, linearly, on its rate.
+!> An expression is cut into the terms of its sum; each may depend on the time, on the stretch, or, linearly, on its rate. One that
+!> cannot be cut is the actuator as a whole.
 !>
-!> Source: the public descriptions of the statements of Adams/Solver. Limits: whatever depends on other motion is left out.
+!> Source: the public descriptions of the statements of Adams/Solver. Limits: measures that `adams_measures` has no words for.
 module adams_forces
-   use adams_joints, only: angle_at_start, two_markers
-   use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_joints, only: angle_at_start, named, two_markers
+   use adams_loads, only: put_alone
+   use adams_model, only: adams_model_t, argument_numbers, leave_out
    use dataset, only: find_argument, has_word, statement_t
    use deck_draft, only: body_axis, body_name, deck_draft_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
    use expression, only: expression_t
    use expression_compile, only: compile_expression, evaluate_safely, fault_t, symbols_t
-   use force_parts, only: cut_force, parts_t
+   use force_parts, only: cut_force, parts_t, whole_force
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kind_info, only: dim_angle, dim_length
    use kinds, only: pi, wp
-   use text, only: real_text, text_t, to_text
+   use text, only: real_text
    implicit none (type, external)
    private
    public :: add_forces
@@ -53,25 +55,10 @@ contains
                if (any(marker == 0)) cycle
                if (it%keyword == "SFORCE") call add_single(model, draft, it, marker)
                if (it%keyword == "SPRINGDAMPER") call add_spring(model, draft, it, marker, mistakes)
-            case ("VFORCE", "GFORCE", "VTORQUE")
-               call add_vector(model, draft, it, mistakes)
             end select
          end associate
       end do
    end subroutine add_forces
-
-   !> The name of a statement in the deck.
-   subroutine name_of(draft, statement, name)
-      type(deck_draft_t), intent(inout) :: draft           !! the deck
-      type(statement_t), intent(in) :: statement           !! the statement
-      character(:), allocatable, intent(out) :: name       !! from Adams/View, or keyword and number
-
-      character(:), allocatable :: wanted
-
-      wanted = statement%view_name
-      if (wanted == "") wanted = statement%keyword//"_"//to_text(statement%id)
-      call draft%new_name(wanted, statement%id, name)
-   end subroutine name_of
 
    !> A spring and damper.
    subroutine add_spring(model, draft, statement, marker, mistakes)
@@ -140,7 +127,7 @@ contains
 
       character(:), allocatable :: length, name, point_i, point_j
 
-      call name_of(draft, statement, name)
+      call draft%new_name(named(statement), statement%id, name)
       call draft%point(model, marker(2), point_i)
       call draft%point(model, marker(1), point_j)
       length = free
@@ -164,7 +151,7 @@ contains
 
       character(:), allocatable :: name
 
-      call name_of(draft, statement, name)
+      call draft%new_name(named(statement), statement%id, name)
       associate (i => model%parts(model%markers(marker(2))%part), j => model%parts(model%markers(marker(1))%part))
          call draft%put("force.torsion_spring", turning_header, name//tab//body_name(i%name, i%is_ground)//tab// &
                body_name(j%name, j%is_ground)//tab//direction_cell(body_axis(model, marker(2), 3))//tab// &
@@ -203,8 +190,10 @@ contains
          free = rest_of(negative(parts%of_stretch, "1"), start, merge(1.0_wp, model%units%length, turns), turns)
          call cut_force(model, statement%arguments(k)%values(1)%s, statement, turns, free, parts)
       end if
-      if (parts%message == "" .and. is_alone .and. (parts%of_stretch /= "" .or. parts%of_rate /= "")) then
-         parts%message = "an ACTIONONLY force that is no function of the time alone"
+      if (parts%message /= "" .or. (is_alone .and. (parts%of_stretch /= "" .or. parts%of_rate /= ""))) then
+         parts%of_stretch = ""
+         parts%of_rate = ""
+         call whole_force(model, draft, statement%arguments(k)%values(1)%s, parts%of_time, parts%message)
       end if
       if (parts%message /= "") then
          call leave_out(model, statement, parts%message//": "//statement%arguments(k)%values(1)%s)
@@ -302,150 +291,5 @@ contains
       words = ""
       if (term /= "") words = "{-"//term//"*"//unit//"}"
    end function negative
-
-   !> A force or torque on I alone, along the axis z of J.
-   subroutine put_alone(model, draft, statement, marker, turns, text)
-      type(adams_model_t), intent(inout) :: model        !! the dataset
-      type(deck_draft_t), intent(inout) :: draft         !! the deck
-      type(statement_t), intent(in) :: statement         !! the statement
-      integer, intent(in) :: marker(2)                   !! (2) I and J
-      logical, intent(in) :: turns                       !! whether it is a torque
-      character(*), intent(in) :: text                   !! its size, with its unit
-
-      character(:), allocatable :: c(:), frame
-      real(wp) :: z(3)
-      integer :: k
-
-      if (.not. axes_of_load(model, marker(2), marker(1), frame)) then
-         call leave_out(model, statement, "its direction is that of another moving part")
-         return
-      end if
-      z = body_axis(model, marker(2), 3)
-      allocate (character(len(text) + 40) :: c(3))
-      do k = 1, 3
-         c(k) = ""
-         if (abs(z(k)) > 1.0e-15_wp) c(k) = "{"//real_text(z(k), 17)//"*"//text//"}"
-      end do
-      call put_load(model, draft, statement, marker(1), turns, frame, trim(c(1))//tab//trim(c(2))//tab//trim(c(3)))
-   end subroutine put_alone
-
-   !> Whether the axes of a marker are those of the world or of the body that is loaded, and which.
-   logical function axes_of_load(model, axes, loaded, frame) result(is_one)
-      type(adams_model_t), intent(in) :: model              !! the dataset
-      integer, intent(in) :: axes                           !! marker with the axes
-      integer, intent(in) :: loaded                         !! marker that is loaded
-      character(:), allocatable, intent(out) :: frame       !! as a cell
-
-      frame = ""
-      is_one = model%parts(model%markers(axes)%part)%is_ground
-      if (is_one) return
-      is_one = model%markers(axes)%part == model%markers(loaded)%part
-      frame = "body"
-   end function axes_of_load
-
-   !> A row of a force at a point, or of a torque.
-   subroutine put_load(model, draft, statement, marker, turns, frame, components)
-      type(adams_model_t), intent(inout) :: model        !! the dataset
-      type(deck_draft_t), intent(inout) :: draft         !! the deck
-      type(statement_t), intent(in) :: statement         !! the statement
-      integer, intent(in) :: marker                      !! that is loaded
-      logical, intent(in) :: turns                       !! whether it is a torque
-      character(*), intent(in) :: frame                  !! cell
-      character(*), intent(in) :: components             !! three cells
-
-      character(:), allocatable :: name, point
-
-      if (components == tab//tab) return
-      call name_of(draft, statement, name)
-      associate (part => model%parts(model%markers(marker)%part))
-         if (part%is_ground) then
-            call leave_out(model, statement, "it acts on the ground")
-         else if (turns) then
-            call draft%put("force.torque", "name body mx my mz frame", name//tab//body_name(part%name, .false.)//tab// &
-                  components//tab//frame)
-         else
-            call draft%point(model, marker, point)
-            call draft%put("force.point", "name point fx fy fz frame", name//tab//point//tab//components//tab//frame)
-         end if
-      end associate
-   end subroutine put_load
-
-   !> A force and a torque of three components.
-   subroutine add_vector(model, draft, statement, mistakes)
-      type(adams_model_t), intent(inout) :: model        !! the dataset
-      type(deck_draft_t), intent(inout) :: draft         !! the deck
-      type(statement_t), intent(in) :: statement         !! the statement
-      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
-
-      character(2), parameter :: names(3, 2) = reshape(["FX", "FY", "FZ", "TX", "TY", "TZ"], [3, 2])
-      character(:), allocatable :: frame, sum, unit
-      type(parts_t) :: parts
-      type(text_t) :: cells(3), terms(3)
-      real(wp) :: a(3, 3)
-      integer :: i, k, marker, other, pass, reference
-
-      marker = model%marker(id_of(statement, "I", mistakes))
-      other = model%marker(id_of(statement, "JFLOAT", mistakes, 2))
-      reference = model%marker(id_of(statement, "RM", mistakes))
-      if (marker == 0 .or. reference == 0) then
-         call mistake(mistakes, statement%line, "I and RM of "//statement%keyword//"/"//to_text(statement%id)// &
-                      " are no markers of rigid parts", "")
-         return
-      end if
-      if (.not. floats_on_ground(model, statement, mistakes)) then
-         call leave_out(model, statement, "its reaction is on a moving part")
-         return
-      end if
-      if (.not. axes_of_load(model, reference, marker, frame)) then
-         call leave_out(model, statement, "its axes are those of another moving part")
-         return
-      end if
-      do pass = 1, 2
-         do k = 1, 3
-            terms(k)%s = ""
-            i = find_argument(statement, names(k, pass))
-            if (i == 0) cycle
-            call cut_force(model, statement%arguments(i)%values(1)%s, statement, .false., 0.0_wp, parts)
-            if (parts%message == "" .and. (parts%of_stretch /= "" .or. &
-                  parts%of_rate /= "")) parts%message = "it depends on the motion"
-            if (parts%message /= "") then
-               call leave_out(model, statement, parts%message//": "//statement%arguments(i)%values(1)%s)
-               return
-            end if
-            terms(k)%s = parts%of_time
-         end do
-         unit = model%units%force_text()
-         if (pass == 2) unit = unit//"*"//model%units%length_text()
-         a = reshape([body_axis(model, reference, 1), body_axis(model, reference, 2), body_axis(model, reference, 3)], [3, 3])
-         do i = 1, 3
-            sum = ""
-            do k = 1, 3
-               if (terms(k)%s == "" .or. abs(a(i, k)) <= 1.0e-15_wp) cycle
-               if (sum /= "") sum = sum//" + "
-               sum = sum//real_text(a(i, k), 17)//"*"//terms(k)%s
-            end do
-            cells(i)%s = ""
-            if (sum /= "") cells(i)%s = "{("//sum//")*"//unit//"}"
-         end do
-         call put_load(model, draft, statement, marker, pass == 2, frame, cells(1)%s//tab//cells(2)%s//tab//cells(3)%s)
-      end do
-   end subroutine add_vector
-
-   !> Whether the floating marker of a force is on the ground.
-   logical function floats_on_ground(model, statement, mistakes)
-      type(adams_model_t), intent(in) :: model           !! the dataset
-      type(statement_t), intent(in) :: statement         !! the force
-      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
-
-      integer :: i, k, part
-
-      floats_on_ground = .false.
-      k = find_statement(model, "MARKER", id_of(statement, "JFLOAT", mistakes, 2))
-      if (k == 0) return
-      part = id_of(model%statements(k), "PART", mistakes, 1)
-      do i = 1, size(model%parts)
-         if (model%parts(i)%id == part) floats_on_ground = model%parts(i)%is_ground
-      end do
-   end function floats_on_ground
 
 end module adams_forces

@@ -7,15 +7,15 @@ module adams_names
    use text, only: split_blank, text_t
    implicit none (type, external)
    private
-   public :: full_names, is_refused, is_setting, is_understood
+   public :: full_names, is_refused, is_setting, is_understood, reason_against
 
    character(*), parameter :: understood = &
-      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE"
+      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE"
    character(*), parameter :: refused = "BEAM FIELD NFORCE FLEX_BODY FE_PART FEMDATA"   !! elastic bodies
    character(*), parameter :: settings = "DEBUG EQUILIBRIUM GRAPHICS IC INTEGRATOR KINEMATICS LSOLVER OUTPUT PREFERENCES " &
       //"REQUEST MREQUEST RESULTS TITLE LIST MATERIAL"   !! no part of the mechanism
-   character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY BUSHING CONTACT COUPLER CURVE CVCV CVSF DIFF DV END " &
-      //"FRICTION FORCE GCON GEAR GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF SPLINE " &
+   character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY BUSHING CONTACT CURVE CVCV CVSF DIFF DV END " &
+      //"FRICTION FORCE GCON GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF SPLINE " &
       //"STRING SURFACE TFSISO TIRE UCON USERCON"
 
 contains
@@ -62,6 +62,27 @@ contains
 
       is_setting = is_one(keyword, settings)
    end function is_setting
+
+   !> Why a deck does not have what a statement says.
+   pure function reason_against(keyword) result(reason)
+      character(*), intent(in) :: keyword          !! in full
+      character(:), allocatable :: reason          !! one line
+
+      select case (keyword)
+      case ("BUSHING"); reason = "its axes and its reaction move with J; force.spring and force.torsion_spring come near to it"
+      case ("CONTACT"); reason = "its solids are not in the dataset; see the joints with clearance, clearance.*"
+      case ("FRICTION"); reason = "an ideal joint has no friction in a deck; a joint with clearance has, friction.*"
+      case ("MFORCE", "SPLINE", "CURVE", "MATRIX", "STRING", "ARRAY")
+         reason = "it is for statements that a deck does not have"
+      case ("CVCV", "PTCV", "CVSF", "PTSF", "SFSF", "SURFACE"); reason = "a deck has no curves and surfaces that touch"
+      case ("DIFF", "GSE", "LSE", "TFSISO", "DV", "PINPUT", "POUTPUT", "SENSOR", "RULE")
+         reason = "a deck has no equations of one's own, and no control"
+      case ("UCON", "USERCON", "GCON"); reason = "a deck has no constraints of one's own"
+      case ("POINT_MASS"); reason = "a deck has bodies with inertia only"
+      case ("TIRE", "FORCE"); reason = "it is code outside the dataset"
+      case default; reason = "a deck has no such thing"
+      end select
+   end function reason_against
 
    !> Whether a word stands in a list.
    pure logical function is_one(word, list)

@@ -11,10 +11,10 @@
 !> | `POLY(x, x0, a0, ...)` | a0 + a1 (x - x0) + ... |
 !> | `SHF(x, x0, a, w, phi, b)` | a sin(w (x - x0) - phi) + b |
 !> | `FORCOS`, `FORSIN` `(x, x0, w, a0, a1, ...)` | a0 + a1 cos(w (x - x0)) + ..., with sines |
-!> | `IMPACT(x, v, x1, k, e, c, d)`, c = 0 | k max(x1 - x, 0)^e |
-!> | `BISTOP(x, v, x1, x2, k, e, c, d)`, c = 0 | k (max(x1 - x, 0)^e - max(x - x2, 0)^e) |
+!> | `IMPACT(x, v, x1, k, e, c, d)` | max(k p^e - c STEP(p, 0, 0, d, 1) v, 0), p = max(x1 - x, 0) |
+!> | `BISTOP(x, v, x1, x2, k, e, c, d)` | the same at x1, less that at x2 with p = max(x - x2, 0) and -v |
+!> | `DM VR DX DY DZ VX VY VZ WX WY WZ` | see `adams_measures` |
 !>
-!> Integrals over the time are known of sums of constants, powers of TIME, SIN and COS of what is linear in TIME, and STEP of TIME.
 !> Limits: whatever else there is has no words here, and the message says its name.
 module adams_translation
    use adams_expression, only: depends_on, node_add, node_call, node_degrees, node_divide, node_multiply, node_name, node_negate, &
@@ -23,7 +23,7 @@ module adams_translation
    use text, only: lower, text_t, to_text
    implicit none (type, external)
    private
-   public :: coefficient_text, deck_text, grouped, integral_text, words_t
+   public :: coefficient_text, deck_text, grouped, is_undamped, words_t
 
    character(*), parameter :: same = " SIN COS TAN ASIN ACOS ATAN SINH COSH TANH EXP LOG LOG10 SQRT ABS "  !! of one argument
    character(*), parameter :: same_of_two = " ATAN2 MIN MAX "
@@ -64,7 +64,11 @@ contains
             call deck_text(tree, it%arguments(1), words, a, message)
             text = "(-"//a//")"
          case (node_call)
-            call call_text(tree, node, words, text, message)
+            if (allocated(it%words)) then
+               text = it%words
+            else
+               call call_text(tree, node, words, text, message)
+            end if
          case default
             call deck_text(tree, it%arguments(1), words, a, message)
             call deck_text(tree, it%arguments(2), words, b, message)
@@ -135,7 +139,7 @@ contains
          allocate (a(max(n, 9)))
          do k = 1, n
             a(k)%s = ""
-            if (k == 2 .and. (it%name == "IMPACT" .or. it%name == "BISTOP")) cycle   ! the rate, where there is no damping
+            if (k == 2 .and. is_undamped(tree, node)) cycle   ! the rate
             call deck_text(tree, it%arguments(k), words, a(k)%s, message)
          end do
          if (message /= "") return
@@ -180,13 +184,14 @@ contains
             end do
             text = text//")"
          case ("IMPACT", "BISTOP")
-            k = merge(1, 0, it%name == "BISTOP")
-            if (.not. is_zero(tree, it%arguments(6 + k))) then
-               message = it%name//" with damping"
+            if (.not. is_undamped(tree, node) .and. is_zero(tree, it%arguments(least_arguments(it%name)))) then
+               message = it%name//" with a damping that is there at once"
                return
             end if
-            text = grouped(a(4 + k)%s)//"*max("//a(3)%s//" - "//grouped(a(1)%s)//", 0)^"//grouped(a(5 + k)%s)
-            if (k == 1) text = "("//text//" - ("//a(5)%s//")*max("//a(1)%s//" - ("//a(4)%s//"), 0)^("//a(6)%s//"))"
+            k = merge(1, 0, it%name == "BISTOP")
+            text = stop_text(a(3)%s//" - "//grouped(a(1)%s), "-"//grouped(a(2)%s), a(4 + k:7 + k), is_undamped(tree, node))
+            if (k == 1) text = "("//text//" - "//stop_text(a(1)%s//" - "//grouped(a(4)%s), grouped(a(2)%s), a(5:8), &
+                                                           is_undamped(tree, node))//")"
          case default
             if (index(same, " "//it%name//" ") > 0) then
                text = lower(it%name)//"("//a(1)%s//")"
@@ -198,6 +203,35 @@ contains
          end select
       end associate
    end subroutine call_text
+
+   !> One side of a stop: max(k p^e + c s v, 0) for p > 0, s from 0 to 1 as p goes from 0 to d, v the rate of p.
+   pure function stop_text(depth, rate, law, is_undamped) result(text)
+      character(*), intent(in) :: depth         !! p
+      character(*), intent(in) :: rate          !! v
+      type(text_t), intent(in) :: law(4)        !! (4) k, e, c, d
+      logical, intent(in) :: is_undamped        !! c is zero
+      character(:), allocatable :: text         !! an expression of a deck
+
+      character(:), allocatable :: share
+
+      text = grouped(law(1)%s)//"*max("//depth//", 0)^"//grouped(law(2)%s)
+      if (is_undamped) return
+      share = "min(max(("//depth//")/"//grouped(law(4)%s)//", 0), 1)"
+      text = "max("//text//" + "//grouped(law(3)%s)//"*"//share//"^2*(3 - 2*"//share//")*("//rate//"), 0)"
+   end function stop_text
+
+   !> Whether a node is a stop without damping.
+   pure logical function is_undamped(tree, node)
+      type(tree_t), intent(in) :: tree   !! the expression
+      integer, intent(in) :: node        !! number of the node
+
+      is_undamped = .false.
+      associate (it => tree%nodes(node))
+         if (it%name /= "IMPACT" .and. it%name /= "BISTOP") return
+         if (size(it%arguments) < least_arguments(it%name)) return
+         is_undamped = is_zero(tree, it%arguments(least_arguments(it%name) - 1))
+      end associate
+   end function is_undamped
 
    !> Arguments that a function has at least.
    pure integer function least_arguments(name) result(n)
@@ -274,97 +308,5 @@ contains
          end select
       end associate
    end subroutine coefficient_text
-
-   !> The integral of a node over the time, up to a constant.
-   recursive subroutine integral_text(tree, node, words, text, message)
-      type(tree_t), intent(in) :: tree                          !! the expression
-      integer, intent(in) :: node                               !! number of the node
-      type(words_t), intent(in) :: words                        !! how variables are written
-      character(:), allocatable, intent(out) :: text            !! an expression of a deck
-      character(:), allocatable, intent(inout) :: message       !! set: what there are no words for
-
-      character(:), allocatable :: a, b
-      integer :: k
-
-      text = ""
-      if (message /= "") return
-      associate (it => tree%nodes(node))
-         if (depends_on(tree, node, [0, 0], .false.) == 0) then
-            call deck_text(tree, node, words, a, message)
-            text = grouped(a)//"*"//words%time
-            return
-         end if
-         message = "its integral over the time has no words in a deck"
-         select case (it%kind)
-         case (node_name)
-            message = ""
-            text = words%time//"^2/2"
-         case (node_negate, node_add, node_subtract)
-            message = ""
-            call integral_text(tree, it%arguments(1), words, a, message)
-            text = "(-("//a//"))"
-            if (it%kind == node_negate) return
-            call integral_text(tree, it%arguments(2), words, b, message)
-            text = "("//a//merge(" + ", " - ", it%kind == node_add)//b//")"
-         case (node_multiply, node_divide)
-            k = 2
-            if (depends_on(tree, it%arguments(2), [0, 0], .false.) /= 0) k = 1
-            if (depends_on(tree, it%arguments(k), [0, 0], .false.) /= 0) return
-            if (k == 1 .and. it%kind == node_divide) return
-            message = ""
-            call integral_text(tree, it%arguments(3 - k), words, a, message)
-            call deck_text(tree, it%arguments(k), words, b, message)
-            text = grouped(a)//merge("*", "/", it%kind == node_multiply)//grouped(b)
-         case (node_power)
-            if (tree%nodes(it%arguments(1))%kind /= node_name .or. tree%nodes(it%arguments(2))%kind /= node_number) return
-            message = ""
-            call deck_text(tree, it%arguments(2), words, b, message)
-            text = words%time//"^("//b//" + 1)/("//b//" + 1)"
-         case (node_call)
-            call integral_of_call(tree, node, words, text, message)
-         end select
-      end associate
-   end subroutine integral_text
-
-   !> The integral of a function over the time.
-   subroutine integral_of_call(tree, node, words, text, message)
-      type(tree_t), intent(in) :: tree                          !! the expression
-      integer, intent(in) :: node                               !! number of the node
-      type(words_t), intent(in) :: words                        !! how variables are written
-      character(:), allocatable, intent(out) :: text            !! an expression of a deck
-      character(:), allocatable, intent(inout) :: message       !! kept, or blank where there are words
-
-      type(words_t) :: none
-      character(:), allocatable :: a, fault, h0, h1, rate, u, x0, x1
-      logical :: is_linear
-
-      text = ""
-      fault = ""
-      none = words
-      associate (it => tree%nodes(node))
-         select case (it%name)
-         case ("SIN", "COS")
-            call coefficient_text(tree, it%arguments(1), [0, 0], .false., on_time, .false., none, rate, is_linear)
-            if (.not. is_linear) return
-            call deck_text(tree, it%arguments(1), words, a, fault)
-            text = "sin("//a//")/"//grouped(rate)
-            if (it%name == "SIN") text = "(-cos("//a//")/"//grouped(rate)//")"
-         case ("STEP")
-            if (size(it%arguments) < 5) return
-            if (tree%nodes(it%arguments(1))%kind /= node_name) return
-            call deck_text(tree, it%arguments(2), words, x0, fault)
-            call deck_text(tree, it%arguments(3), words, h0, fault)
-            call deck_text(tree, it%arguments(4), words, x1, fault)
-            call deck_text(tree, it%arguments(5), words, h1, fault)
-            u = "min(max(("//words%time//" - "//grouped(x0)//")/("//x1//" - "//grouped(x0)//"), 0), 1)"
-            text = "("//h0//"*"//words%time//" + ("//h1//" - ("//h0//"))*(("//x1//" - ("//x0//"))*("//u//"^3 - "//u// &
-                  "^4/2) + max("// &
-                   words%time//" - ("//x1//"), 0)))"
-         case default
-            return
-         end select
-      end associate
-      message = fault
-   end subroutine integral_of_call
 
 end module adams_translation

@@ -7,8 +7,9 @@ module deck_draft
    use deck_table, only: deck_table_t, number_cell
    use kinds, only: wp
    use name_table, only: name_table_t
-   use text, only: split_blank, to_text
+   use text, only: replace, split_blank, to_text
    use text_buffer, only: buffer_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: body_axis, body_name, deck_draft_t, joint_t, tab
@@ -30,10 +31,13 @@ module deck_draft
       type(joint_t), allocatable :: joints(:)        !! (joints)
       type(name_table_t) :: points                   !! names of points
       type(name_table_t) :: names                    !! names of what has channels
+      type(text_list_t) :: asked                     !! what rows of requests tell
+      type(text_list_t) :: answers                   !! names of these rows
    contains
       procedure :: put => put_row
       procedure :: new_name
       procedure :: point => point_of_marker
+      procedure :: row_of
       procedure :: write => write_tables
    end type deck_draft_t
 
@@ -76,6 +80,28 @@ contains
          call self%names%enter(name, id, previous)
       end do
    end subroutine new_name
+
+   !> The row of a request, by what it tells; its name has a place in expressions.
+   subroutine row_of(self, key, name, is_new)
+      class(deck_draft_t), intent(inout) :: self           !! the deck
+      character(*), intent(in) :: key                      !! what it tells
+      character(:), allocatable, intent(out) :: name       !! of the row
+      logical, intent(out) :: is_new                       !! whether it is to be written
+
+      integer :: k
+
+      is_new = .false.
+      do k = 1, self%asked%n
+         name = self%asked%at(k)
+         if (name /= key) cycle
+         name = self%answers%at(k)
+         return
+      end do
+      is_new = .true.
+      call self%new_name(replace(key, "-", "_"), self%asked%n + 1, name)
+      call self%asked%add(key)
+      call self%answers%add(name)
+   end subroutine row_of
 
    !> A name with nothing but what a deck's names have.
    pure function clean(wanted) result(name)

@@ -1,19 +1,21 @@
-!> An expression of a force cut into terms of the time, of the stretch, and of its rate.
+!> An expression of a force: cut into terms of the time, of the stretch, and of its rate, or whole as a load that sees the motion.
 !>
-!> A sum, and a product with a constant of one, is cut further; a term that depends on more than one of them, or on other
-!> motion, has no words in a deck. VARVAL is replaced by the expression of its VARIABLE.
+!> A sum, and a product with a constant of one, is cut further; what has a term of more than one of them, or of other motion, is
+!> not cut. VARVAL is replaced by the expression of its VARIABLE.
 module force_parts
-   use adams_expression, only: depends_on, node_add, node_call, node_divide, node_multiply, node_negate, node_subtract, on_other, &
-      on_rate, on_stretch, on_time, parse_tree, tree_t
+   use adams_expression, only: depends_on, is_measure, node_add, node_call, node_divide, node_multiply, node_negate, &
+      node_subtract, on_other, on_rate, on_stretch, on_time, parse_tree, tree_t
+   use adams_measures, only: name_measures
    use adams_model, only: adams_model_t, find_statement, id_of
-   use adams_translation, only: coefficient_text, deck_text, words_t
+   use adams_translation, only: coefficient_text, deck_text, grouped, is_undamped, words_t
    use dataset, only: find_argument, statement_t, upper_case
+   use deck_draft, only: deck_draft_t
    use diagnostics, only: diagnostics_t
    use kinds, only: wp
    use text, only: real_text
    implicit none (type, external)
    private
-   public :: cut_force, parts_t
+   public :: cut_force, parts_t, whole_force
 
    !> The parts of a force, in the units of the dataset; blank: there is none.
    type :: parts_t
@@ -50,6 +52,32 @@ contains
       words%stretch = "("//words%stretch//")"
       call add_terms(tree, tree%root, "", own, turns, words, parts)
    end subroutine cut_force
+
+   !> A force as one expression in the time and the motion; requests that it needs go to the deck if it has words.
+   subroutine whole_force(model, draft, expression, text, message)
+      type(adams_model_t), intent(inout) :: model               !! the dataset
+      type(deck_draft_t), intent(inout) :: draft                !! the deck
+      character(*), intent(in) :: expression                    !! of the dataset
+      character(:), allocatable, intent(out) :: text            !! a plain number, in the units of the dataset
+      character(:), allocatable, intent(out) :: message         !! what has no words in a deck; blank: all has
+
+      type(tree_t) :: tree
+      type(words_t) :: words
+      integer :: k
+
+      call parse_tree(with_variables(model, expression), tree)
+      message = tree%message
+      if (message /= "") return
+      words = words_t("(t/"//model%units%time_text()//")", "")
+      do k = 1, tree%n
+         if (tree%nodes(k)%kind /= node_call) cycle
+         if (is_measure(tree%nodes(k)%name)) tree%nodes(k)%words = "0"
+      end do
+      call deck_text(tree, tree%root, words, text, message)     ! whether all but the measures has words
+      if (message == "") call name_measures(model, draft, tree, message)
+      if (message == "") call deck_text(tree, tree%root, words, text, message)
+      text = grouped(text)
+   end subroutine whole_force
 
    !> An expression with the variables that it takes by VARVAL put in.
    recursive function with_variables(model, text, depth) result(whole)
@@ -139,7 +167,11 @@ contains
             end select
          end if
          if (it%kind == node_call .and. iand(bits, on_rate) /= 0 .and. (it%name == "IMPACT" .or. it%name == "BISTOP")) then
-            call deck_text(tree, node, words, text, parts%message)   ! without damping it is of the stretch alone
+            if (is_undamped(tree, node)) then
+               call deck_text(tree, node, words, text, parts%message)   ! of the stretch alone
+            else
+               parts%message = it%name//" with damping"
+            end if
             if (parts%message == "") parts%of_stretch = sum_of(parts%of_stretch, factor//text)
             return
          end if

@@ -55,8 +55,12 @@ contains
       logical, intent(in) :: is_above         !! met above the limit, or below it
       real(wp), intent(in) :: limit           !! SI [any]
 
-      if (.not. allocated(self%list)) allocate (self%list(0))
-      self%list = [self%list, condition_t(words, group, component, item, is_above, limit)]
+      type(condition_t), allocatable :: longer(:)
+
+      allocate (longer(self%n + 1))
+      if (self%n > 0) longer(:self%n) = self%list
+      longer(self%n + 1) = condition_t(words, group, component, item, is_above, limit)
+      call move_alloc(longer, self%list)
       self%n = size(self%list)
    end subroutine stop_add
 

@@ -3,11 +3,13 @@
 !> Verner's method with fixed steps (the deck's `step`, else 10 us), Baumgarte's gains of 5 1/s unless the deck stabilises
 !> otherwise,
 !> the full augmented matrix with partial pivoting, all coordinates of all bodies, all bodies together, and wherever a joint with
-!> clearance has a formula of the book beside a corrected one, that of the book. Onsets of contacts by the book's procedure 1
-!> (`contact_onset = interpolate`) or 2 (`reject limit=0.1um`, unless the deck says another limit).
+!> clearance has a formula of the book beside a corrected one, that of the book (faces of sliders only where they have a law).
+!> Onsets of contacts by the book's procedure 1 (`contact_onset = interpolate`) or 2 (`reject limit=0.1um`, unless the deck says
+!> another limit).
 !>
 !> Source: Flores et al. (2008), sections 2.4, 3.5, tables 3.2, 4.2. Limits: films are as the deck's tables say (`form = book`).
 module legacy_way
+   use dimension_text, only: unit_text
    use errors, only: error_t, exit_usage, set_error
    use item, only: item_t, option_t, place_of
    use kind_info, only: dim_frequency, dim_length, dim_t, kind_info_t
@@ -83,11 +85,20 @@ contains
 
       associate (column => info%columns(c))
          if (.not. allocated(column%choices)) return
-         if (index(" "//column%choices//" ", " book ") > 0) item%values(c)%text = "book"
+         if (index(" "//column%choices//" ", " book ") > 0 .and. .not. lacks_law(column%name, item)) item%values(c)%text = "book"
          if (column%name == "stiffness" .and. column%choices == "half full") item%values(c)%text = "full"
          if (column%name == "ends" .and. column%choices == "clipped endless") item%values(c)%text = "endless"
       end associate
    end subroutine take_book
+
+   !> Whether the book's way of faces has no law that it needs: such a joint keeps its corners.
+   logical function lacks_law(column, item)
+      character(*), intent(in) :: column     !! the column
+      type(item_t), intent(in) :: item       !! the row
+
+      lacks_law = column == "faces"
+      if (lacks_law) lacks_law = item%reference("face_law") == 0
+   end function lacks_law
 
    !> Give a key a word.
    subroutine put_word(settings, key, word)
@@ -109,7 +120,7 @@ contains
       type(dim_t), intent(in) :: dimension       !! of the value
 
       option%name = name
-      option%text = real_text(number, 6)
+      option%text = real_text(number, 6)//unit_text(dimension)
       option%number = number
       option%is_number = .true.
       option%dimension = dimension

@@ -111,7 +111,7 @@ module kind_info
       character(:), allocatable :: choices    !! of a word: blank-separated words, blank if any is taken
       character(:), allocatable :: default    !! as in a deck; blank: may be left open; unallocated: required
       type(bounds_t) :: bounds                !! of a number
-      logical :: is_free = .false.            !! left out means free, not the default: the echo leaves it out too
+      logical :: is_free = .false.            !! left out means more than the default: the echo leaves it out too
       character(:), allocatable :: options    !! of a word: blank-separated option names (`key=value`)
       character(:), allocatable :: help       !! one line
    end type column_t
@@ -182,7 +182,7 @@ contains
       real(wp), intent(in), optional :: upper        !! greatest value allowed, SI [any]
       logical, intent(in), optional :: open_lower    !! the least value itself is not allowed
       logical, intent(in), optional :: open_upper    !! the greatest value itself is not allowed
-      logical, intent(in), optional :: is_free       !! left out means free, not the default
+      logical, intent(in), optional :: is_free       !! left out means more than the default
 
       type(column_t) :: column
 

@@ -168,13 +168,15 @@ contains
       if (column%cell == cell_duration) has_own_unit = len(value%text) > 0
    end function has_own_unit
 
-   !> Whether there is nothing to write: no value, and a blank default.
+   !> Whether there is nothing to write: no value, and a default that is blank, that only the reader knows the unit of, or that
+   !> means something else where it is given.
    pure logical function is_empty(column, value)
       type(column_t), intent(in) :: column  !! the column
       type(value_t), intent(in) :: value    !! its value
 
       is_empty = .false.
-      if (.not. value%given .and. allocated(column%default)) is_empty = len_trim(column%default) == 0 .or. column%is_free
+      if (value%given .or. .not. allocated(column%default)) return
+      is_empty = len_trim(column%default) == 0 .or. column%is_free .or. column%is_any
    end function is_empty
 
    !> A value as text, without the unit of bare numbers.

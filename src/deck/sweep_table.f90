@@ -16,7 +16,7 @@ module sweep_table
    use source_text, only: line_of, n_line_of, read_source, source_t
    use spelling, only: nearest_word
    use swept, only: most_cases, swept_t
-   use text, only: join, piece, to_text
+   use text, only: join, text_t, piece, to_text
    use text_list, only: text_list_t
    use units, only: unit_t
    implicit none (type, external)
@@ -205,6 +205,7 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes             !! collects what is wrong
 
       type(location_t) :: at
+      type(text_t), allocatable :: names(:)
       character(:), allocatable :: help, name
       integer :: i, k, open
       logical :: is_good
@@ -218,12 +219,11 @@ contains
             i = deck%symbols%find(name)
             if (i > deck%symbols%n_parameter) i = 0
             if (i == 0) then
-               associate (names => deck%symbols%names_of(functions=.false.))
-                  help = nearest_word(name, names)
-                  if (len(help) > 0) help = "did you mean '"//help//"'? "
-                  call mistakes%add(cells(k)%location, "'"//name//"' is not a parameter of the deck", "nothing to sweep", &
-                                  & help//"parameters: "//join(names, " "))
-               end associate
+               names = deck%symbols%names_of(functions=.false.)
+               help = nearest_word(name, names)
+               if (len(help) > 0) help = "did you mean '"//help//"'? "
+               call mistakes%add(cells(k)%location, "'"//name//"' is not a parameter of the deck", "nothing to sweep", &
+                               & help//"parameters: "//join(names, " "))
                cycle
             end if
             column%symbol = deck%symbols%list(i)

@@ -152,6 +152,7 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
 
       character(:), allocatable :: help
+      type(text_t), allocatable :: names(:)
       integer :: before, k
 
       swept%name = text_of(deck, list(1))
@@ -162,12 +163,11 @@ contains
       k = deck%symbols%find(swept%name)
       if (k > deck%symbols%n_parameter) k = 0  ! a function
       if (k == 0) then
-         associate (names => deck%symbols%names_of(functions=.false.))
-            help = nearest_word(swept%name, names)
-            if (len(help) > 0) help = "did you mean '"//help//"'? "
-            call mistakes%add(list(1)%location, "'"//swept%name//"' is not a parameter of the deck", "nothing to sweep", &
-                            & help//"parameters: "//join(names, " "))
-         end associate
+         names = deck%symbols%names_of(functions=.false.)
+         help = nearest_word(swept%name, names)
+         if (len(help) > 0) help = "did you mean '"//help//"'? "
+         call mistakes%add(list(1)%location, "'"//swept%name//"' is not a parameter of the deck", "nothing to sweep", &
+                         & help//"parameters: "//join(names, " "))
          return
       end if
       before = mistakes%count()

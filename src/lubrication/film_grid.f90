@@ -14,8 +14,8 @@
 !> dear as `finite`.
 !>
 !> Grids are made when the film is fitted to a bearing, one for each L/D (with tilt, when it is first asked for), and stay as long
-!> as the program: all copies of the film share them, each solution begins with the wet cells of the one before and does not depend
-!> on it.
+!> as the program: all films with the same supplies, resolution and boundary share them, each solution begins with the wet cells of
+!> the one before and does not depend on it.
 module film_grid
    use film_law, only: basic_parameters, film_bearing_t, film_law_t, film_motion_t, greatest_eccentricity, n_film_parameter, &
       own_parameters, parameter_clearance, parameter_eps_max, parameter_length, parameter_radius, parameter_viscosity
@@ -38,11 +38,17 @@ module film_grid
    integer, parameter :: rows_of(3) = [10, 16, 24]                !! rows of the half length
    real(wp), parameter :: same_ratio = 1.0e-12_wp                 !! difference of L/D that is none [1]
 
-   !> Grids that films share.
+   !> Grids that films share, and what these films are like.
    type :: grid_pool_t
+      type(supply_t), allocatable :: supply(:)       !! where lubricant comes in, pressures in Pa
+      integer :: resolution = 2                      !! coarse, normal, fine
+      integer :: boundary = boundary_reynolds        !! where pressures end
+      type(grid_pool_t), pointer :: next => null()   !! the pool made before
       type(reynolds_grid_t), allocatable :: grid(:)  !! the grids
       real(wp), allocatable :: pressure(:)           !! (grids) P of the supplies in the last solution; huge: there is none [1/s]
    end type grid_pool_t
+
+   type(grid_pool_t), pointer :: last_pool => null()  !! of all that were made: films come and go, and copies of them
 
    !> A bearing of finite length.
    type, extends(film_law_t) :: film_grid_t
@@ -109,9 +115,40 @@ contains
       case default
          allocate (self%supply(0))
       end select
-      allocate (self%pool)
-      allocate (self%pool%grid(0), self%pool%pressure(0))
+      call find_pool(self)
    end subroutine grid_prepare
+
+   !> The pool of films like this one; it is made if it is not there.
+   subroutine find_pool(self)
+      class(film_grid_t), intent(inout) :: self  !! the film; its pool is set
+
+      self%pool => last_pool
+      do while (associated(self%pool))
+         associate (pool => self%pool)
+            if (pool%resolution == self%resolution .and. pool%boundary == self%boundary &
+                .and. size(pool%supply) == size(self%supply)) then
+               if (all(are_equal(pool%supply, self%supply))) return
+            end if
+         end associate
+         self%pool => self%pool%next
+      end do
+      allocate (self%pool)
+      self%pool%supply = self%supply
+      self%pool%resolution = self%resolution
+      self%pool%boundary = self%boundary
+      self%pool%next => last_pool
+      allocate (self%pool%grid(0), self%pool%pressure(0))
+      last_pool => self%pool
+   end subroutine find_pool
+
+   !> Whether two supplies are one and the same.
+   elemental logical function are_equal(a, b)
+      type(supply_t), intent(in) :: a  !! one
+      type(supply_t), intent(in) :: b  !! the other
+
+      are_equal = (a%is_at_widest_gap .eqv. b%is_at_widest_gap) .and. &
+                  .not. any(abs([a%angle - b%angle, a%width - b%width, a%length - b%length, a%pressure - b%pressure]) > 0.0_wp)
+   end function are_equal
 
    !> Supplies that leave no film between them.
    function grid_mistake(self) result(message)

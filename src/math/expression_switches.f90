@@ -83,8 +83,18 @@ contains
          type(expression_t), intent(in) :: g   !! its function
          logical, intent(in) :: touches        !! whether it is one that touches zero
 
+         type(switch_t), allocatable :: longer(:)
+         integer :: m, n
+
          if (.not. is_of_time(g)) return
-         switches = [switches, switch_t(g, touches)]
+         n = size(switches)
+         allocate (longer(n + 1))
+         do m = 1, n
+            longer(m) = switches(m)
+         end do
+         longer(n + 1)%g = g
+         longer(n + 1)%touches = touches
+         call move_alloc(longer, switches)
       end subroutine add
 
       !> Append switches at places of an argument.

@@ -59,14 +59,14 @@ contains
       call add_number(info, "z", dim_length, "centre of mass at the start, world frame", default="0 m")
       do k = 0, 3
          call add_number(info, "e"//achar(iachar("0") + k), dim_none, "Euler parameter at the start, world to body", &
-                         default=merge("1", "0", k == 0))
+                         default=merge("1", "0", k == 0), is_free=.true.)
       end do
       call add_direction(info, "axis", "axis of a turn to the orientation at the start", default="")
-      call add_number(info, "angle", dim_angle, "angle of the turn about `axis`", default="0 rad")
+      call add_number(info, "angle", dim_angle, "angle of the turn about `axis`", default="0 rad", is_free=.true.)
       call add_word(info, "sequence", "axes of three turns to the orientation at the start", default="none", choices=sequences)
-      call add_number(info, "angle1", dim_angle, "first turn of the sequence", default="0 rad")
-      call add_number(info, "angle2", dim_angle, "second turn of the sequence", default="0 rad")
-      call add_number(info, "angle3", dim_angle, "third turn of the sequence", default="0 rad")
+      call add_number(info, "angle1", dim_angle, "first turn of the sequence", default="0 rad", is_free=.true.)
+      call add_number(info, "angle2", dim_angle, "second turn of the sequence", default="0 rad", is_free=.true.)
+      call add_number(info, "angle3", dim_angle, "third turn of the sequence", default="0 rad", is_free=.true.)
       call add_direction(info, "xi_axis", "direction of the xi axis at the start, world frame", default="")
       call add_direction(info, "eta_axis", "direction near that of the eta axis at the start, world frame", default="")
       do k = 1, 3

@@ -47,6 +47,9 @@ contains
 
       call read_section(deck, scene_info(), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
+      associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
+         if (.not. gravity%given) gravity%vector%n = merge(3, 2, scene%settings%is_spatial)
+      end associate
       call ask_all()
       call check_sections(deck, known, scene%settings%is_spatial, diagnostics)
       call functions_from_deck(deck, scene, diagnostics)

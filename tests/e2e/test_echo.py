@@ -1,5 +1,6 @@
 """deck.echo, the deck as it was understood, and what `explain` says of the same: defaults, IMSL's names, titles."""
 
+import pathlib
 import re
 
 import pytest
@@ -7,6 +8,7 @@ from support import Run, assert_close, call, changed, plain_deck, scratch, writt
 from test_warnings import PENDULUM
 
 ASSEMBLY = 4
+INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
 BACKSLASHES = ['"C:\\\\new\\\\table"', '"ends in \\\\"', '"a\\\\\\"b\\\\\\""', '"\\\\n is no line"', '"{/Symbol a} \\\\# \\\\{"']
 
 
@@ -109,3 +111,15 @@ def test_echo_of_guards(gudgeon):
     echo = (first.directory / "deck.echo").read_text()
     assert re.search(r"\[guards\](\n.*)*\npenetration\s*=\s*0\.5\b", echo), echo[-1500:]
     assert "[guards]" not in (run_deck(gudgeon, plain_deck([("analysis.dynamic", "end", "1 ms")])).directory / "deck.echo").read_text()
+
+
+@pytest.mark.parametrize("way", ["procedure1", "procedure2"])
+def test_echo_of_a_deck_run_as_programs_of_old(gudgeon, way):
+    """What --legacy makes of a deck is a deck: limits with their units, no faces of sliders without a law."""
+    for deck in (INPUTS / "slider_crank_dry.deck", INPUTS / "hard" / "wedged_slider.deck"):
+        text = re.sub(r"(?m)^end( *)= .*", r"end\1= 0.1 ms", re.sub(r"(?m)^every( *)= .*", r"every\1= 0.1 ms", deck.read_text()))
+        directory = scratch()
+        call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet", "--legacy", way, "--write", "numbers")
+        call(gudgeon, "check", directory / "out" / "deck.echo")
+        echo = (directory / "out" / "deck.echo").read_text()
+        assert re.search(r"(?m)^contact_onset += " + ("interpolate" if way == "procedure1" else "reject limit=1e-7m") + "$", echo)

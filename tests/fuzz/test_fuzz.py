@@ -2,14 +2,19 @@
 
 import argparse
 import os
+import pathlib
+import re
+import shutil
+import subprocess
 
 import pytest
-from conftest import BUILD, built
+from conftest import built, directory_of
 from fuzz import Programs, fuzz
 from mutants import Mutator
 
 DECKS = 300
 LIMIT = 20.0  # seconds for a call on a busy machine
+INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
 
 
 def chosen(n, first, debug, run):
@@ -22,7 +27,7 @@ def chosen(n, first, debug, run):
 @pytest.mark.parametrize("debug", [False, True], ids=["release", "debug"])
 def test_mutants_end_well(debug, record_property):
     """Every call on a broken deck has a defined end; most of them are refused, some are good."""
-    programs = Programs(BUILD, debug)
+    programs = Programs(directory_of("debug" if debug else "release"), False)
     built(programs.gudgeon)
     built(programs.many)
     classes, counts = fuzz(programs, chosen(DECKS, DECKS * debug, debug, 0.05))
@@ -55,3 +60,15 @@ def test_a_crash_is_found(script, what, tmp_path):
     options.explain, options.limit = 0.0, 0.5
     classes, counts = fuzz(programs, options)
     assert {key[0] for key in classes} >= {what} and sum(counts.values()) >= 2
+
+
+@pytest.mark.parametrize("option", ["", "--ideal"])
+def test_the_echo_of_every_deck_is_a_good_deck(tmp_path, option):
+    """Every deck of inputs/, as it was understood, is read again."""
+    shutil.copytree(INPUTS, tmp_path / "inputs")
+    decks = sorted((tmp_path / "inputs").rglob("*.deck"))
+    lines = "".join(f"echo {option} {deck.relative_to(tmp_path)}\n" for deck in decks)
+    done = subprocess.run([built(Programs(directory_of("release"), False).many)], input=lines, cwd=tmp_path, capture_output=True, text=True, timeout=10 * LIMIT)
+    codes = re.findall(r"^end \d+ (-?\d+)", done.stdout, re.M)
+    assert len(codes) == len(decks) > 50
+    assert [deck.name for deck, code in zip(decks, codes) if code != "0"] == [], done.stdout
