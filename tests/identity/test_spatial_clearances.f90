@@ -15,23 +15,26 @@ module test_spatial_clearances
    use friction_law, only: friction_law_t, memory_bristle, memory_none, memory_slip
    use generic_item, only: column_number, fill_item, set_number
    use item, only: item_t
-   use kind_info, only: is_of_space, kind_info_t
+   use joint_registry, only: n_joint_kinds, new_joint_set
+   use joint_set, only: joint_set_t
+   use kind_info, only: dim_angle, dim_length, is_of_space, kind_info_t
    use kinds, only: not_a_number, wp
    use law_fixture, only: steel, tame
    use motion, only: cross, loads_t, motion_t, new_loads, new_motion
    use normal_law, only: n_law_parameter, normal_law_t
-   use point_contact, only: most_of_item
-   use point_contacts, only: named_channels
+   use point_contact, only: most_of_item, point_contact_t
+   use point_contacts, only: named_channels, point_contacts_t
    use read_channel, only: read_loose
    use revolute_level, only: film_channels
    use rotations, only: rate_of_parameters, rotation_of_parameters, second_rate_of_parameters, turned_by
    use spatial_coordinates, only: new_spatial_coordinates, spatial_coordinates_t
+   use text, only: split_blank, text_t
    implicit none (type, external)
    private
    public :: run_test_spatial_clearances
 
    integer, parameter :: n_body = 2           !! bodies: of the bearing and of the journal
-   integer, parameter :: n_end = 3            !! pins: in the bushing, beyond an end, in an endless one
+   integer, parameter :: n_end = 3            !! pins: in the bushing, beyond an end, in an endless one; stops: of three joints
    real(wp), parameter :: tick = 1.0e-7_wp    !! step of differences in time [s]
 
    !> A geometry with its laws, in contact.
@@ -149,6 +152,12 @@ contains
       call set_number(bench%info, "edge_radius", 1.0e-3_wp, item(1))
       call set_number(bench%info, "corner_radius", 1.0e-3_wp, item(1))
       call set_number(bench%info, "length", 20.0e-3_wp, item(1))
+      call set_number(bench%info, "radius", 12.0e-3_wp, item(1))
+      call set_number(bench%info, "radius_i", 10.0e-3_wp, item(1))
+      call set_number(bench%info, "radius_j", 8.0e-3_wp, item(1))
+      call set_number(bench%info, "guide_start", 0.0_wp, item(1))
+      call set_number(bench%info, "guide_end", 0.0_wp, item(1))
+      call set_limits(ends, item(1), bench)
       call set_number(bench%info, "journal_length", merge(30.0e-3_wp, 18.0e-3_wp, ends == 2), item(1))
       c = column_number(bench%info, "ends")
       if (c > 0) item(1)%values(c)%text = trim(merge("endless", "clipped", ends == 3))
@@ -177,9 +186,60 @@ contains
       end do
       call new_motion(n_body, bench%motion, own)
       call move(bench, 0.0_wp)
+      if (column_number(bench%info, "joint") > 0) call take_joint(ends, bench)
       call bench%set%set_start(bench%motion)
       call bring_into_contact(random, bench)
    end subroutine make_bench
+
+   !> Limits that the bodies are beyond as they stand: of an angle, where the joint turns, or of a way.
+   subroutine set_limits(ends, item, bench)
+      integer, intent(in) :: ends            !! 3: of a way
+      type(item_t), intent(inout) :: item    !! the row
+      type(bench_t), intent(in) :: bench     !! the geometry
+
+      character(5), parameter :: limits(2) = [character(5) :: "lower", "upper"]
+      integer :: c, k
+
+      if (column_number(bench%info, "upper") == 0) return
+      call set_number(bench%info, "lower", -0.3_wp, item)
+      call set_number(bench%info, "upper", -1.0e-4_wp, item)
+      call set_number(bench%info, "lever", 0.2_wp, item)
+      do k = 1, 2
+         c = column_number(bench%info, limits(k))
+         item%values(c)%dimensions = merge(dim_length, dim_angle, ends == 3)
+      end do
+   end subroutine set_limits
+
+   !> The joint that an item names, between the bench's bodies: one that turns, slides, or does both.
+   subroutine take_joint(ends, bench)
+      integer, intent(in) :: ends            !! which of the kinds that the geometry knows
+      type(bench_t), intent(inout) :: bench  !! the bodies stand where the deck puts them
+
+      class(joint_set_t), allocatable :: joint
+      type(item_t) :: item(1)
+      type(kind_info_t) :: info
+      type(random_t) :: random
+      type(text_t), allocatable :: kinds(:)
+      integer :: c, kind
+
+      kinds = split_blank(bench%info%columns(column_number(bench%info, "joint"))%refers_to)
+      do kind = 1, n_joint_kinds
+         call new_joint_set(kind, joint)
+         info = joint%info()
+         if (info%name == kinds(ends)%s .and. is_of_space(info, .true.)) exit
+      end do
+      random%state = seed_of(bench%name, ends)
+      call fill_item(info, 1, random, item(1))
+      c = column_number(info, "zero")
+      if (c > 0) item(1)%values(c)%text = "start"
+      c = column_number(info, "axis_j")
+      item(1)%values(c)%given = .false.
+      deallocate (item(1)%values(c)%table)
+      call joint%new(item, bench%set%items%body, bench%set%items%s_i, bench%set%items%s_j)
+      call joint%prepare(item, [0.0_wp, 0.0_wp, 0.0_wp])
+      call joint%set_start(bench%motion)
+      call bench%set%take_joint(1, joint)
+   end subroutine take_joint
 
    !> Tilt the journal and shift it so that two of its contacts overlap, or its only one.
    subroutine bring_into_contact(random, bench)
@@ -193,6 +253,7 @@ contains
       bench%q(4:, 2) = turned_by(bench%q(4:, 2), 2.0e-3_wp*random%vector(3, -1.0_wp, 1.0_wp))
       call move(bench, 0.0_wp)
       start = bench%q(:3, 2) - (arm(2) - arm(1))
+      if (bench%info%name == "clearance.plane" .or. bench%info%name == "clearance.discs") start = start + reach()
       do k = 1, 1000
          shift = 0.8e-3_wp*random%vector(3, -1.0_wp, 1.0_wp)
          bench%q(:3, 2) = start + shift
@@ -200,7 +261,7 @@ contains
          call bench%set%gaps(bench%motion, delta, rate)
          associate (n => bench%set%n_contact)
             is_deep(:n) = delta(:n) > 2.0e-5_wp
-            if (count(is_deep(:n)) >= min(n, 2)) exit
+            if (count(is_deep(:n)) >= merge(1, min(n, 2), column_number(bench%info, "joint") > 0)) exit
          end associate
       end do
       bench%fits = k <= 1000
@@ -211,6 +272,21 @@ contains
       end do
 
    contains
+
+      !> From where the points coincide to where a ball touches: along the normal of its only contact.
+      function reach()
+         real(wp) :: reach(3)   !! (3) world frame [m]
+
+         type(point_contact_t) :: contact
+
+         bench%q(:3, 2) = start + [1.0e-6_wp, 0.0_wp, 0.0_wp]
+         call move(bench, 0.0_wp)
+         select type (set => bench%set)
+         class is (point_contacts_t)
+            call set%measure(1, .false., bench%motion, contact)
+         end select
+         reach = -contact%delta*contact%normal
+      end function reach
 
       !> Where the point of a body is.
       function arm(side)
