@@ -8,9 +8,9 @@
 !> `guide_end` along z.
 !>
 !> Signs: the reported force is that on the block, world frame; the moment is that of the contact forces on it about its point.
-!> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits: those
-!> of `plane_contacts` for the ends, so that a guide is not shorter than its block; faces and edges that lie flat touch with their
-!> corners.
+!> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits:
+!> those of `plane_contacts` for the ends, so that a guide is not shorter than its block; faces and edges that lie flat touch with
+!> their corners.
 module clearance_block
    use clearance_translational, only: add_guide_ends, describe_corner, find_end_mistake
    use item, only: item_t, place_of

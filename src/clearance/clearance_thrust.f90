@@ -3,8 +3,8 @@
 !> The faces of the bearing are across its axis z, half of `length` either side of its point. The collars are beyond them, so that
 !> each has the clearance `gap` where the pin's point is in the middle. Face and collar meet on a circle of `face_radius` about
 !> the pin's axis, in six points of the collar: contacts a_1 ... a_6 at the end of -z, b_1 ... b_6 at the other, the first along x,
-!> the others counter-clockwise about z. With n = +z (a) and -z (b) and h = -length/2 in `plane_contacts`. Six points resist a tilt alike in all
-!> directions as long as all touch.
+!> the others counter-clockwise about z. With n = +z (a) and -z (b) and h = -length/2 in `plane_contacts`. Six points
+!> resist a tilt alike in all directions as long as all touch.
 !>
 !> Signs: the reported force is that on the collars, world frame; the moment is that of the contact forces on them about the pin's
 !> point. Friction at the points gives the moment about the axis. Source: Flores et al. (2008), section 6.3, where the pin is held

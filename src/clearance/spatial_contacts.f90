@@ -27,8 +27,8 @@ module spatial_contacts
    end type spatial_contacts_t
 
    abstract interface
-      !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction. No
-      !> allocation.
+      !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
+      !> No allocation.
       subroutine measure_interface(self, motion)
          import :: motion_t, spatial_contacts_t
          implicit none (type, external)

@@ -32,7 +32,7 @@ module counted_joint
          class(counted_joint_t), intent(in) :: self        !! the set
          integer, intent(in) :: k                          !! item
          type(motion_t), intent(in) :: motion              !! positions and velocities
-         type(scalar_t), intent(inout) :: phi(most_angles) !! (most_angles) the angles; those that there are not are left alone [rad]
+         type(scalar_t), intent(inout) :: phi(most_angles) !! (most_angles) those that there are are set [rad]
       end subroutine angles_interface
    end interface
 

@@ -1,16 +1,16 @@
 !> Rack and pinion in space: a gear of body j rolls on a line of body i.
 !>
-!> With the unit axis s of the rack's pitch line through the point of i, the pinion's axis u in j, d = r_j^P - r_i^P to the centre of
-!> the pinion, and theta the angle of j against i about u, from where the deck puts the bodies:
+!> With the unit axis s of the rack's pitch line through the point of i, the pinion's axis u in j, d = r_j^P - r_i^P to the centre
+!> of the pinion, and theta the angle of j against i about u, from where the deck puts the bodies:
 !>
 !> Phi = s . d + R theta - (the same where the deck puts the bodies)                                (1 row)
 !>
 !> R is positive if the pinion lies to the left of the line, along s and seen from the tip of u: at n = u x s. Phi' = 0 says that
 !> line and pitch circle have the same velocity where they touch. Angles are taken next to those at the end of the last step.
 !>
-!> Signs: the force on the body of i, at P_j - R n where they touch, is s lambda. Source: P. E. Nikravesh, Computer-Aided Analysis of
-!> Mechanical Systems (1988), section 4.2.4, in space. Limits: other joints hold the pinion at its distance |R| from the line, and
-!> its axis at right angles to it; less than half a turn in a step; the force is along the line: no pressure angle, no play.
+!> Signs: the force on the body of i, at P_j - R n where they touch, is s lambda. Source: P. E. Nikravesh, Computer-Aided Analysis
+!> of Mechanical Systems (1988), section 4.2.4, in space. Limits: other joints hold the pinion at its distance |R| from the line,
+!> and its axis at right angles to it; less than half a turn in a step; the force is along the line: no pressure angle, no play.
 module spatial_rack
    use counted_joint, only: counted_joint_t, most_angles
    use item, only: item_t

@@ -258,5 +258,5 @@ def test_pinball(gudgeon):
     click = found.contacts[items.index("click")]
     before, after = (int(np.searchsorted(found.time, t)) for t in (click["time"], click["time"] + click["duration"]))
     momentum = 0.08 * found.item("bodies/velocity", "light") + 0.16 * found.item("bodies/velocity", "heavy")
-    assert_close(momentum[after, :2], momentum[before - 1, :2], absolute=2e-3 * np.linalg.norm(momentum[before - 1]), what="momentum")
+    assert_close(momentum[after, :2], momentum[before - 1, :2], absolute=5e-3 * np.linalg.norm(momentum[before - 1]), what="momentum")
     assert found.summary["energy_residual_max"] < 1e-5 * found.summary["energy_max"]

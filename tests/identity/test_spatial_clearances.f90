@@ -265,6 +265,11 @@ contains
          end associate
       end do
       bench%fits = k <= 1000
+      if (.not. bench%fits) return
+      if (maxval(pack(rate(:bench%set%n_contact), is_deep(:bench%set%n_contact))) < 0.0_wp) then
+         bench%v = -bench%v  ! one at least approaches: damping could leave no force of any
+         call move(bench, 0.0_wp)
+      end if
       do k = 1, bench%set%n_contact
          if (.not. is_deep(k)) cycle
          call bench%set%begin_contact(k, 0.0_wp, 5.0_wp, 0.0_wp)
@@ -380,6 +385,7 @@ contains
       call bench%set%evaluate(bench%motion, loads, losses(:, :bench%set%n_contact))
       scale = sum(abs(loads%force))
       call check_true(error, scale > 100.0_wp, bench%name//": there are forces")
+      if (allocated(error)) return
       call check_close(error, sum(loads%force, dim=2)/scale, [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-14_wp, bench%name//": forces")
       moment = 0.0_wp
       do k = 1, n_body
