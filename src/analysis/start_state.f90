@@ -3,7 +3,7 @@ module start_state
    use build_system, only: levels_ideal, new_system
    use consistent_start, only: assemble, assembly_t, find_dependent
    use driver_conflict, only: name_conflict
-   use errors, only: error_t, exit_assembly, set_error
+   use errors, only: error_t, exit_assembly, exit_deck, set_error
    use item, only: place_of
    use kinds, only: wp
    use memory_purpose, only: memory_is_for
@@ -82,11 +82,27 @@ contains
       end if
       call find_dependent(system%linkage, q, v, report)
       system%linkage%solution%is_redundant = size(report%dependent) > 0
+      call check_method(scene, system, report, error)
+      if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)
       call system%linkage%take_state(q, v, y)
       call look_at_overlap(system, y, &
                            scene%settings%dynamic%word("overlap") == "preload", error)
    end subroutine find_start
+
+   !> A method that leaves dependent rows out has not the multipliers that friction in joints depends on.
+   subroutine check_method(scene, system, report, error)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      type(mechanism_t), intent(in) :: system               !! the system that will run
+      type(assembly_t), intent(in) :: report                !! its dependent rows
+      type(error_t), allocatable, intent(out) :: error      !! the method cannot do it
+
+      if (size(report%dependent) == 0 .or. system%friction%rubbing%n == 0) return
+      if (scene%settings%dynamic%word("method") /= "ida") return
+      call set_error(error, exit_deck, "method ida leaves out rows that depend on others, and friction in joints needs the " &
+                     //"multipliers of all"//new_line("a")//"  = "//redundancy_text(system, report)//new_line("a") &
+                     //"  = take another method, or joints that are not redundant")
+   end subroutine check_method
 
    !> The static equilibrium at t = 0, its contacts begun.
    subroutine start_at_rest(scene, system, q, v, report, error)

@@ -174,6 +174,7 @@ contains
 
       class(friction_law_t), allocatable :: friction
       class(normal_law_t), allocatable :: law
+      type(joint_slot_t), allocatable :: joints(:)
       type(tie_t), allocatable :: ties(:)
       integer :: face_law, film, friction_law, i
 
@@ -188,8 +189,11 @@ contains
       if (face_law > 0) allocate (slot%set%laws%face, source=scene%laws(face_law)%law)
       slot%set%items%leaves = [(0, i=1, size(items))]
       allocate (slot%set%items%way(2, size(items)), source=0.0_wp)
+      allocate (joints(size(items)))
       do i = 1, size(items)
-         if (ties(i)%by_joint) call look_at_joint(scene, ties(i)%joint(1), slot%set%items%leaves(i), slot%set%items%way(:, i))
+         if (.not. ties(i)%by_joint) cycle
+         call make_joint(scene, ties(i)%joint(1), system%linkage%motion, joints(i)%set, slot%set%items%leaves(i))
+         slot%set%items%way(:, i) = joints(i)%set%way_of(1)
       end do
       slot%set%before%items = system%loose%n
       slot%set%before%contacts = system%loose%n_contact
@@ -206,6 +210,9 @@ contains
          system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
       end if
       call slot%set%prepare(items)
+      do i = 1, size(items)
+         if (ties(i)%by_joint) call slot%set%take_joint(i, joints(i)%set)
+      end do
       call slot%set%set_start(system%linkage%motion)
       call slot%set%fit_law(items, scene%materials, scene%bodies%mass, is_driven)
    end subroutine add_loose_set
@@ -244,14 +251,14 @@ contains
       call move_alloc(faded, law)
    end subroutine choose_law
 
-   !> What a joint leaves of the freedom of its bodies.
-   subroutine look_at_joint(scene, number, leaves, way)
-      type(scene_t), intent(in) :: scene   !! the scene
-      integer, intent(in) :: number        !! the joint, among all joints
-      integer, intent(out) :: leaves       !! what its kind says
-      real(wp), intent(out) :: way(2)      !! (2) axis of one that leaves a way, frame of body i [1]
+   !> A joint that a row names, by itself.
+   subroutine make_joint(scene, number, motion, set, leaves)
+      type(scene_t), intent(in) :: scene                    !! the scene
+      integer, intent(in) :: number                         !! the joint, among all joints
+      type(motion_t), intent(in) :: motion                  !! bodies where the deck puts them
+      class(joint_set_t), allocatable, intent(out) :: set   !! a set of one item, with its start
+      integer, intent(out) :: leaves                        !! what of the freedom of its bodies its kind says
 
-      class(joint_set_t), allocatable :: set
       real(wp) :: angle(0:scene%bodies%n)
       integer :: kind, row
 
@@ -264,7 +271,7 @@ contains
          angle(1:) = scene%bodies%angle
          call set%prepare(table%items(row:row), angle)
       end associate
-      way = set%way_of(1)
-   end subroutine look_at_joint
+      call set%set_start(motion)
+   end subroutine make_joint
 
 end module build_clearances

@@ -4,20 +4,21 @@
 !> block's width (x) and height (y) plus the gap. The block has the same axes in body j where the deck puts the bodies, and is
 !> `length` long. Its corners are A, B, C, D, counter-clockwise about z from the one at -x, -y, at the end of -z, and E, F, G, H at
 !> the other. Each may touch the surface on its side along x and along y: contacts A_x, A_y ... H_y, with n = +-x or +-y and
-!> h = half + gap in `plane_contacts`.
+!> h = half + gap in `plane_contacts`. A contact lasts while its corner is between the ends of the guide, `guide_start` and
+!> `guide_end` along z.
 !>
 !> Signs: the reported force is that on the block, world frame; the moment is that of the contact forces on it about its point.
-!> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits: the
-!> guide has no ends; faces and edges that lie flat touch with their corners.
+!> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits:
+!> those of `plane_contacts` for the ends, so that a guide is not shorter than its block; faces and edges that lie flat touch with
+!> their corners.
 module clearance_block
-   use clearance_translational, only: describe_corner
-   use clearance_set, only: no_mistake
-   use item, only: item_t
+   use clearance_translational, only: add_guide_ends, describe_corner, find_end_mistake
+   use item, only: item_t, place_of
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
    use plane_contacts, only: plane_contacts_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment, of_tilt
-   use text, only: text_t
+   use text, only: text_t, to_text
    implicit none (type, external)
    private
    public :: clearance_block_t
@@ -35,7 +36,7 @@ module clearance_block
       procedure, nopass :: contact_labels => block_labels
       procedure, nopass :: ideal_kind => block_ideal_kind
       procedure :: prepare => block_prepare
-      procedure, nopass :: mistake => no_mistake
+      procedure, nopass :: mistake => block_mistake
       procedure, nopass :: describe => describe_corner
    end type clearance_block_t
 
@@ -62,6 +63,7 @@ contains
       call add_number(info, "gap", dim_length, "clearance on each of the four sides", lower=0.0_wp)
       call add_number(info, "corner_radius", dim_length, "radius of the block's corners, for their stiffness", lower=0.0_wp, &
                       open_lower=.true.)
+      call add_guide_ends(info)
       call add_reference(info, "material", "material", "material of block and guide")
       call add_reference(info, "guide_material", "material", "material of the guide, if another", default="none")
       call add_word(info, "level", "fidelity: an ideal translational joint, or clearance", default="clearance", &
@@ -110,6 +112,8 @@ contains
             self%items%clearance(k) = item%number("gap")
             self%axes(k)%across = item%direction("width_axis")
             half = 0.5_wp*[item%number("width"), item%number("height"), item%number("length")]
+            if (has_ends(item)) self%axes(k)%ends = [item%number("guide_start"), item%number("guide_end")]
+            self%traits%energy_jumps = self%traits%energy_jumps .or. has_ends(item)
          end associate
          do corner = 1, n_corner
             do across = 1, 2
@@ -121,5 +125,28 @@ contains
          end do
       end do
    end subroutine block_prepare
+
+   !> Whether the guide of a row has ends.
+   pure logical function has_ends(item)
+      type(item_t), intent(in) :: item  !! the row
+
+      has_ends = max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp
+   end function has_ends
+
+   !> Ends must be in order, and hold the block.
+   subroutine block_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! column at fault, 0: all is well
+      character(:), allocatable, intent(out) :: message      !! what is wrong
+      character(:), allocatable, intent(out) :: help         !! what would be right
+
+      call find_end_mistake(item, column, message, help)
+      if (column > 0 .or. .not. has_ends(item)) return
+      if (item%number("guide_end") - item%number("guide_start") >= item%number("length")) return
+      column = place_of(item, "guide_end")
+      message = "the guide is "//to_text(item%number("guide_end") - item%number("guide_start"))//" m long, shorter than the " &
+                //"block: its corners are never all in it"
+      help = "a contact is one of a corner: give guide_start and guide_end at least "//to_text(item%number("length"))//" m apart"
+   end subroutine block_mistake
 
 end module clearance_block

@@ -17,7 +17,7 @@ module clearance_discs
    use surfaces, only: shape_external, surfaces_t, take_materials
    implicit none (type, external)
    private
-   public :: clearance_discs_t
+   public :: add_disc_columns, clearance_discs_t, describe_discs
 
    !> Pairs of discs.
    type, extends(round_contacts_t) :: clearance_discs_t
@@ -26,7 +26,7 @@ module clearance_discs
       procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => discs_prepare
       procedure, nopass :: mistake => no_mistake
-      procedure, nopass :: describe => discs_describe
+      procedure, nopass :: describe => describe_discs
    end type clearance_discs_t
 
 contains
@@ -39,19 +39,27 @@ contains
       info%space = in_plane
       info%help = "two discs or balls that touch from outside; without an ideal twin, so that --ideal keeps their contact"
       info%source = "Flores et al. (2008), sections 3.1 and 4.2"
-      call add_reference(info, "i", "points", "centre of the first disc")
-      call add_reference(info, "j", "points", "centre of the second disc")
-      call add_number(info, "radius_i", dim_length, "radius of the first disc", lower=0.0_wp, open_lower=.true.)
-      call add_number(info, "radius_j", dim_length, "radius of the second disc", lower=0.0_wp, open_lower=.true.)
-      call add_reference(info, "material", "material", "material of both discs")
-      call add_reference(info, "material_j", "material", "material of the second disc, if another", default="none")
-      call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
-      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
-      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second disc from that of the first", &
-                       of_eccentricity)
-      call add_channel(info, "force", "N", "world", 2, "force on the second disc", of_force)
+      call add_disc_columns(info, "disc")
       call add_contact_channels(info, "second disc", "t = R90 n")
    end function discs_info
+
+   !> Columns of two discs or balls, and the channels of the pair.
+   subroutine add_disc_columns(info, disc)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+      character(*), intent(in) :: disc          !! what they are, as "disc"
+
+      call add_reference(info, "i", "points", "centre of the first "//disc)
+      call add_reference(info, "j", "points", "centre of the second "//disc)
+      call add_number(info, "radius_i", dim_length, "radius of the first "//disc, lower=0.0_wp, open_lower=.true.)
+      call add_number(info, "radius_j", dim_length, "radius of the second "//disc, lower=0.0_wp, open_lower=.true.)
+      call add_reference(info, "material", "material", "material of both "//disc//"s")
+      call add_reference(info, "material_j", "material", "material of the second "//disc//", if another", default="none")
+      call add_reference(info, "law", "contact.", "normal law, a row of a contact table")
+      call add_reference(info, "friction", "friction.", "friction law, a row of a friction table, or none", default="none")
+      call add_channel(info, "eccentricity", "m", "world", 2, "centre of the second "//disc//" from that of the first", &
+                       of_eccentricity)
+      call add_channel(info, "force", "N", "world", 2, "force on the second "//disc, of_force)
+   end subroutine add_disc_columns
 
    !> Radii of each item.
    subroutine discs_prepare(self, items)
@@ -74,7 +82,7 @@ contains
    end subroutine discs_prepare
 
    !> Two convex surfaces.
-   pure subroutine discs_describe(item, materials, pair)
+   pure subroutine describe_discs(item, materials, pair)
       type(item_t), intent(in) :: item              !! the row
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
@@ -83,6 +91,6 @@ contains
       pair%radius_i = item%number("radius_i")
       pair%radius_j = item%number("radius_j")
       call take_materials(pair, materials, item%reference("material"), item%reference("material_j"))
-   end subroutine discs_describe
+   end subroutine describe_discs
 
 end module clearance_discs

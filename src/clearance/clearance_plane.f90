@@ -19,7 +19,7 @@ module clearance_plane
    use surfaces, only: shape_plane, surfaces_t, take_materials
    implicit none (type, external)
    private
-   public :: clearance_plane_t
+   public :: clearance_plane_t, describe_ball
 
    !> Balls on planes.
    type, extends(flat_contacts_t) :: clearance_plane_t
@@ -28,7 +28,7 @@ module clearance_plane
       procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => plane_prepare
       procedure, nopass :: mistake => no_mistake
-      procedure, nopass :: describe => plane_describe
+      procedure, nopass :: describe => describe_ball
    end type clearance_plane_t
 
 contains
@@ -76,7 +76,7 @@ contains
    end subroutine plane_prepare
 
    !> A ball on a plane.
-   pure subroutine plane_describe(item, materials, pair)
+   pure subroutine describe_ball(item, materials, pair)
       type(item_t), intent(in) :: item              !! the row
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
@@ -84,6 +84,6 @@ contains
       pair%shape = shape_plane
       pair%radius_j = item%number("radius")
       call take_materials(pair, materials, item%reference("material"), item%reference("ball_material"))
-   end subroutine plane_describe
+   end subroutine describe_ball
 
 end module clearance_plane

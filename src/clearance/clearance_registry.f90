@@ -1,8 +1,11 @@
 !> The geometries of joints with clearance: two lines each (`use`, `case`).
 module clearance_registry
+   use clearance_ball, only: clearance_ball_t
+   use clearance_balls, only: clearance_balls_t
    use clearance_block, only: clearance_block_t
    use clearance_bushing, only: clearance_bushing_t
    use clearance_discs, only: clearance_discs_t
+   use clearance_limits, only: clearance_limits_t
    use clearance_plane, only: clearance_plane_t
    use clearance_revolute, only: clearance_revolute_t
    use clearance_set, only: clearance_set_t
@@ -14,7 +17,7 @@ module clearance_registry
    private
    public :: n_clearance_kinds, new_clearance_set
 
-   integer, parameter :: n_clearance_kinds = 9  !! number of geometries
+   integer, parameter :: n_clearance_kinds = 12  !! number of geometries
 
 contains
 
@@ -33,6 +36,9 @@ contains
       case (7); allocate (clearance_bushing_t :: set)
       case (8); allocate (clearance_block_t :: set)
       case (9); allocate (clearance_thrust_t :: set)
+      case (10); allocate (clearance_ball_t :: set)
+      case (11); allocate (clearance_balls_t :: set)
+      case (12); allocate (clearance_limits_t :: set)
       end select
    end subroutine new_clearance_set
 

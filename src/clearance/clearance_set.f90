@@ -14,6 +14,7 @@ module clearance_set
    use floors, only: gentle
    use friction_law, only: friction_law_t, memory_slip
    use item, only: item_t
+   use joint_set, only: joint_set_t
    use kind_info, only: in_space, kind_info_t
    use kinds, only: not_a_number, pi, wp
    use motion, only: loads_t, motion_t
@@ -75,6 +76,7 @@ module clearance_set
       procedure(report_interface), deferred :: report
       procedure(energy_interface), deferred :: elastic_energy
       procedure :: new => clearance_new
+      procedure :: take_joint => clearance_take_joint
       procedure :: set_start => clearance_set_start
       procedure :: span_of => clearance_span_of
       procedure :: fit_law => clearance_fit_law
@@ -244,6 +246,13 @@ contains
          self%items%s_j(:, k) = points%s(:, journal(k))
       end do
    end subroutine clearance_new
+
+   !> Take what an item needs of the joint that its row names: nothing, unless the geometry says otherwise.
+   subroutine clearance_take_joint(self, k, joint)
+      class(clearance_set_t), intent(inout) :: self  !! the set, prepared
+      integer, intent(in) :: k                       !! item
+      class(joint_set_t), intent(in) :: joint        !! a set of one item, the joint, with its start
+   end subroutine clearance_take_joint
 
    !> Take what the deck leaves out from where it puts the bodies at the start: nothing, unless the geometry says otherwise.
    subroutine clearance_set_start(self, motion)

@@ -25,11 +25,12 @@ module clearance_stop
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: clearance_stop_t
+   public :: add_stop_columns, check_stop, clearance_stop_t, describe_stop, limits, lower, never, stop_labels, upper
 
    integer, parameter :: lower = 1               !! contact at the lower limit
    integer, parameter :: upper = 2               !! contact at the upper limit
    real(wp), parameter :: never = 1.0_wp         !! distance from a limit that a row leaves out, whatever the motion [m]
+   character(5), parameter :: limits(2) = [character(5) :: "lower", "upper"]  !! their columns
    real(wp), parameter :: no_material = 1.0_wp   !! compliance of surfaces without a material: no stiffness comes of it [1/Pa]
 
    !> Stops of joints.
@@ -39,8 +40,8 @@ module clearance_stop
       procedure, nopass :: contact_labels => stop_labels
       procedure, nopass :: ideal_kind => no_ideal_kind
       procedure :: prepare => stop_prepare
-      procedure, nopass :: mistake => stop_mistake
-      procedure, nopass :: describe => stop_describe
+      procedure, nopass :: mistake => check_stop
+      procedure, nopass :: describe => describe_stop
    end type clearance_stop_t
 
 contains
@@ -53,14 +54,22 @@ contains
       info%space = in_plane
       info%help = "stops of a pin's angle or of a guide's way; without an ideal twin, so that --ideal keeps their contact"
       info%source = "Flores et al. (2008), section 3.1"
-      call add_reference(info, "joint", "joint.revolute joint.translational", "the joint that is stopped")
+      call add_stop_columns(info, "joint.revolute joint.translational")
+      call add_contact_channels(info, "body of j", "t = R90 n")
+   end function stop_info
+
+   !> Columns of a stop, and its force.
+   subroutine add_stop_columns(info, joints)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+      character(*), intent(in) :: joints        !! kinds of joints that it stops, blank-separated
+
+      call add_reference(info, "joint", joints, "the joint that is stopped")
       call add_any_number(info, "lower", "least angle of j relative to i, or least way along the axis; left out: none", default="")
       call add_any_number(info, "upper", "greatest angle or way; left out: none", default="")
       call add_number(info, "lever", dim_length, "of an angle: distance of the stop from the pin", default="0 m", lower=0.0_wp)
       call add_reference(info, "law", "contact.", "normal law with a stiffness, a row of a contact table")
       call add_channel(info, "force", "N", "world", 2, "force on the body of j", of_force)
-      call add_contact_channels(info, "body of j", "t = R90 n")
-   end function stop_info
+   end subroutine add_stop_columns
 
    !> A contact for each limit.
    function stop_labels() result(labels)
@@ -76,7 +85,6 @@ contains
       class(clearance_stop_t), intent(inout) :: self   !! the set; what its joints leave is set
       type(item_t), intent(in) :: items(:)             !! (n) rows of the table
 
-      character(5), parameter :: limits(2) = [character(5) :: "lower", "upper"]
       real(wp) :: limit, side
       integer :: c, k, m
 
@@ -103,7 +111,7 @@ contains
    end subroutine stop_prepare
 
    !> Limits there must be, of one dimension, in order, and less than half a turn apart; an angle needs a lever.
-   subroutine stop_mistake(item, column, message, help)
+   subroutine check_stop(item, column, message, help)
       type(item_t), intent(in) :: item                       !! the row
       integer, intent(out) :: column                         !! column at fault, 0: all is well
       character(:), allocatable, intent(out) :: message      !! what is wrong
@@ -146,10 +154,10 @@ contains
             help = "give the distance of the stop from the pin"
          end if
       end associate
-   end subroutine stop_mistake
+   end subroutine check_stop
 
    !> Faces without sides or material: only a law with a stiffness of its own fits them.
-   pure subroutine stop_describe(item, materials, pair)
+   pure subroutine describe_stop(item, materials, pair)
       type(item_t), intent(in) :: item              !! the row
       type(material_t), intent(in) :: materials(:)  !! (materials) all materials
       type(surfaces_t), intent(out) :: pair         !! its surfaces
@@ -157,6 +165,6 @@ contains
       pair%shape = shape_face
       pair%sigma_i = no_material
       pair%sigma_j = no_material
-   end subroutine stop_describe
+   end subroutine describe_stop
 
 end module clearance_stop

@@ -31,7 +31,7 @@ module clearance_translational
    use surfaces, only: shape_face, shape_plane, surfaces_t, take_materials
    implicit none (type, external)
    private
-   public :: clearance_translational_t, describe_corner
+   public :: add_guide_ends, clearance_translational_t, describe_corner, find_end_mistake
 
    real(wp), parameter :: corner_x(n_corner) = [-0.5_wp, 0.5_wp, 0.5_wp, -0.5_wp]   !! of the length [1]
    real(wp), parameter :: corner_y(n_corner) = [-0.5_wp, -0.5_wp, 0.5_wp, 0.5_wp]   !! of the height [1]
@@ -74,9 +74,7 @@ contains
       call add_word(info, "slider_axis", "direction of the slider's length: an axis of its body", default="x", choices="x y")
       call add_number(info, "slider_angle", dim_angle, "angle from that axis to the slider's length, counter-clockwise", &
                       default="0 rad")
-      call add_number(info, "guide_start", dim_length, "where the surfaces begin, along the axis from the point guide", &
-                      default="0 m")
-      call add_number(info, "guide_end", dim_length, "where they end; both 0: they do not end", default="0 m")
+      call add_guide_ends(info)
       call add_reference(info, "material", "material", "material of slider and guide")
       call add_reference(info, "guide_material", "material", "material of the guide, if another", default="none")
       call add_word(info, "level", "fidelity: an ideal translational joint, or clearance", default="clearance", &
@@ -94,6 +92,15 @@ contains
       call add_channel(info, "moment", "N.m", "world", 1, "moment on the slider about its centre", of_moment)
       call add_contact_channels(info, "slider", "t = R90 n")
    end function translational_info
+
+   !> Columns of the ends of a guide.
+   subroutine add_guide_ends(info)
+      type(kind_info_t), intent(inout) :: info  !! the geometry
+
+      call add_number(info, "guide_start", dim_length, "where the surfaces begin, along the axis from the point guide", &
+                      default="0 m")
+      call add_number(info, "guide_end", dim_length, "where they end; both 0: they do not end", default="0 m")
+   end subroutine add_guide_ends
 
    !> Without clearance a translational joint.
    function translational_ideal_kind() result(kind)
@@ -160,24 +167,35 @@ contains
       character(:), allocatable, intent(out) :: message      !! what is wrong
       character(:), allocatable, intent(out) :: help         !! what would be right
 
-      column = 0
-      message = ""
-      help = ""
+      call find_end_mistake(item, column, message, help)
+      if (column > 0) return
       if (.not. item%is_given("gap") .and. .not. (item%is_given("gap_upper") .and. item%is_given("gap_lower"))) then
          column = place_of(item, "gap")
          message = "no clearance is given"
          help = "give the column gap, or gap_upper and gap_lower"
-      else if (item%number("guide_end") <= item%number("guide_start") .and. &
-               max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp) then
-         column = place_of(item, "guide_end")
-         message = "guide_end must be beyond guide_start"
-         help = "leave both out, or give 0, for surfaces without ends"
       else if (item%word("faces") /= "corners" .and. item%reference("face_law") == 0) then
          column = place_of(item, "faces")
          message = "faces = "//item%word("faces")//" needs the column face_law"
          help = "name a row of contact.plane_face there, or take faces = corners"
       end if
    end subroutine translational_mistake
+
+   !> Ends of a guide must be in order.
+   subroutine find_end_mistake(item, column, message, help)
+      type(item_t), intent(in) :: item                       !! the row
+      integer, intent(out) :: column                         !! column at fault, 0: all is well
+      character(:), allocatable, intent(out) :: message      !! what is wrong
+      character(:), allocatable, intent(out) :: help         !! what would be right
+
+      column = 0
+      message = ""
+      help = ""
+      if (item%number("guide_end") > item%number("guide_start") .or. &
+          .not. max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp) return
+      column = place_of(item, "guide_end")
+      message = "guide_end must be beyond guide_start"
+      help = "leave both out, or give 0, for surfaces without ends"
+   end subroutine find_end_mistake
 
    !> A rounded corner of a slider on a plane, with the sides of the face it belongs to.
    pure subroutine describe_corner(item, materials, pair)

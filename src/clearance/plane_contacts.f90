@@ -1,37 +1,41 @@
-!> Contacts in space between points of body j and planes fixed in body i.
+!> Contacts in space between points or balls of body j and planes fixed in body i.
 !>
-!> With p a point fixed in j, n the unit normal of a plane of i, into its material, h its distance along n from the point of the
-!> item in i, and d from that point to p:
+!> With p a point fixed in j, or the centre of a ball of radius R, n the unit normal of a plane of i, into its material, h its
+!> distance along n from the point of the item in i (less R, of a ball), and d from that point to p:
 !>
 !> delta = n . d - h,   rate = n . w,   w = d' - omega_i x d,   delta'' = n . (w' as body i sees it),
 !>
-!> forces as in `point_contacts`, at p: C is the point p. A geometry gives normals and points along the axes of its item, x, y, z
-!> of `find_frames`, in `prepare`; the axes are found in `set_start`.
+!> forces as in `point_contacts`, at C: the point p, or, of a ball, p + (R - delta/2) n, the middle between the surfaces. A geometry
+!> gives normals and points along the axes of its item, x, y, z, in `prepare`; the axes are found in `set_start` (`find_axes`).
 !>
-!> Signs: see `point_contact`. Source: Flores et al. (2008), section 4.3, with the surfaces of space. Limits: planes have no ends.
+!> Planes may begin and end along z of their item (`ends`): a contact lasts while p is between the ends. Beyond one `gaps` says how
+!> far p is beyond it, negative, if that is less.
+!>
+!> Signs: see `point_contact`. Source: Flores et al. (2008), section 4.3, with the surfaces of space. Limits: ends cut points, not
+!> the part of a face; a point that enters between the surfaces from beyond an end begins its contact there.
 module plane_contacts
-   use clearance_set, only: loss_contact, loss_friction
    use contact_grip, only: tangent_t
-   use contact_laws, only: press_in_course
-   use contact_memory, only: contact_memory_t
-   use item, only: item_t
+   use item, only: find_place, item_t
    use joint_frames, only: find_frames
    use kinds, only: wp
-   use motion, only: cross, loads_t, motion_t
-   use normal_law, only: n_law_parameter, normal_law_t
+   use motion, only: cross, motion_t
    use point_contact, only: point_contact_t
-   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt, point_contacts_t
-   use space_tangents, only: lie_in_space, set_sliding, spatial_force
+   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt, point_gaps
+   use space_tangents, only: lie_in_space, set_sliding
+   use spatial_contacts, only: spatial_contacts_t
    use spatial_rows, only: axis_of
    implicit none (type, external)
    private
    public :: plane_contacts_t
+
+   real(wp), parameter :: endless = huge(1.0_wp)  !! where planes end that do not [m]
 
    !> Points and planes along the axes of their item, and in the frames of the bodies.
    type :: planes_t
       real(wp), allocatable :: normal(:, :)    !! (3, n_contact) n along the axes of i [1]
       real(wp), allocatable :: point(:, :)     !! (3, n_contact) p from the point of the item in j, along the axes of j [m]
       real(wp), allocatable :: height(:)       !! (n_contact) h [m]
+      real(wp), allocatable :: radius(:)       !! (n_contact) R, 0: a point [m]
       real(wp), allocatable :: normal_i(:, :)  !! (3, n_contact) n, frame of body i [1]
       real(wp), allocatable :: point_j(:, :)   !! (3, n_contact) p, frame of body j [m]
    end type planes_t
@@ -43,21 +47,23 @@ module plane_contacts
       real(wp) :: across(3) = 0.0_wp       !! (3) x in body i, as in the deck; zero: that of `find_frames` [1]
       real(wp) :: frame_i(3, 3) = 0.0_wp   !! (3, 3) x, y, z as columns, frame of body i [1]
       real(wp) :: frame_j(3, 3) = 0.0_wp   !! (3, 3) the same, frame of body j [1]
+      real(wp) :: ends(2) = [-endless, endless]  !! (2) where the planes begin and end along z, from the point in i [m]
    end type axes_t
 
    !> Points against planes, in space. `prepare` of a geometry calls `make_planes` and fills them.
-   type, abstract, extends(point_contacts_t) :: plane_contacts_t
+   type, abstract, extends(spatial_contacts_t) :: plane_contacts_t
       type(planes_t) :: planes              !! planes, and what comes near them
       type(axes_t), allocatable :: axes(:)  !! (n) axes of the items
    contains
       procedure, non_overridable :: make_planes
       procedure :: set_start => plane_set_start
+      procedure :: find_axes => plane_find_axes
       procedure :: span_of => plane_span_of
-      procedure :: evaluate => plane_evaluate
+      procedure :: measure_acting => plane_measure_acting
       procedure :: measure => measure_one
+      procedure :: gaps => plane_gaps
       procedure :: penetration_acceleration => plane_penetration_acceleration
       procedure :: lie => plane_lie
-      procedure, nopass :: force_on_j => spatial_force
       procedure :: report_item => plane_report_item
    end type plane_contacts_t
 
@@ -73,11 +79,11 @@ contains
       call self%make_room()
       m = self%n_contact
       allocate (self%axes(self%n))
-      allocate (self%planes%normal(3, m), self%planes%point(3, m), self%planes%height(m), self%planes%normal_i(3, m), &
-                self%planes%point_j(3, m), source=0.0_wp)
+      allocate (self%planes%normal(3, m), self%planes%point(3, m), self%planes%height(m), self%planes%radius(m), &
+                self%planes%normal_i(3, m), self%planes%point_j(3, m), source=0.0_wp)
       do k = 1, self%n
-         self%axes(k)%axis_i = items(k)%direction("axis_i")
-         self%axes(k)%axis_j = items(k)%direction("axis_j")
+         if (find_place(items(k), "axis_i") > 0) self%axes(k)%axis_i = items(k)%direction("axis_i")
+         if (find_place(items(k), "axis_j") > 0) self%axes(k)%axis_j = items(k)%direction("axis_j")
       end do
    end subroutine make_planes
 
@@ -86,8 +92,23 @@ contains
       class(plane_contacts_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion            !! bodies where the deck puts them
 
-      real(wp) :: turn(3, 3), x(3)
       integer :: item, k
+
+      call self%find_axes(motion)
+      do k = 1, self%n_contact
+         item = self%item_of(k)
+         self%planes%normal_i(:, k) = matmul(self%axes(item)%frame_i, self%planes%normal(:, k))
+         self%planes%point_j(:, k) = self%items%s_j(:, item) + matmul(self%axes(item)%frame_j, self%planes%point(:, k))
+      end do
+   end subroutine plane_set_start
+
+   !> Axes of the items, from those of the deck and where it puts the bodies.
+   subroutine plane_find_axes(self, motion)
+      class(plane_contacts_t), intent(inout) :: self  !! the set, prepared
+      type(motion_t), intent(in) :: motion            !! bodies where the deck puts them
+
+      real(wp) :: turn(3, 3), x(3)
+      integer :: k
 
       do k = 1, self%n
          associate (axes => self%axes(k), own => motion%spatial%own, i => self%items%body(1, k))
@@ -102,12 +123,7 @@ contains
             axes%frame_j = matmul(axes%frame_j, turn)
          end associate
       end do
-      do k = 1, self%n_contact
-         item = self%item_of(k)
-         self%planes%normal_i(:, k) = matmul(self%axes(item)%frame_i, self%planes%normal(:, k))
-         self%planes%point_j(:, k) = self%items%s_j(:, item) + matmul(self%axes(item)%frame_j, self%planes%point(:, k))
-      end do
-   end subroutine plane_set_start
+   end subroutine plane_find_axes
 
    !> How far what takes part in a contact is from the centres of mass of both bodies.
    pure function plane_span_of(self, contact) result(span)
@@ -121,31 +137,13 @@ contains
       end associate
    end function plane_span_of
 
-   !> Add the contact forces of the touching contacts.
-   subroutine plane_evaluate(self, motion, loads, losses)
-      class(plane_contacts_t), intent(inout) :: self       !! the set
-      type(motion_t), intent(in) :: motion                  !! positions and velocities
-      type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
-
-      include "point_way.inc"
-   end subroutine plane_evaluate
-
-   include "press.inc"
-   include "spatial_loads.inc"
-
-   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
-   subroutine measure_touching(self, motion)
+   !> Measure the contacts that act.
+   subroutine plane_measure_acting(self, motion)
       class(plane_contacts_t), intent(inout) :: self  !! the set; kinematics are set
-      type(motion_t), intent(in) :: motion             !! positions and velocities
+      type(motion_t), intent(in) :: motion            !! positions and velocities
 
-      integer :: k
-
-      do k = 1, self%n_contact
-         if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) cycle
-         call measure_one(self, k, allocated(self%laws%friction), motion, self%work%contacts(k))
-      end do
-   end subroutine measure_touching
+      include "measure_acting.inc"
+   end subroutine plane_measure_acting
 
    !> Normal, penetration, its rate and arms of a contact; its sliding velocity where it is asked for.
    pure subroutine measure_one(self, k, with_sliding, motion, contact)
@@ -164,8 +162,13 @@ contains
          contact%arm_j = axis_of(motion, j, self%planes%point_j(:, k))
          contact%arm_i = motion%r(:, j) + contact%arm_j - motion%r(:, i)
          d = contact%arm_i - axis_of(motion, i, self%items%s_i(:, item))
-         w = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
          contact%delta = dot_product(contact%normal, d) - self%planes%height(k)
+         if (self%planes%radius(k) > 0.0_wp) then
+            d = (self%planes%radius(k) - 0.5_wp*contact%delta)*contact%normal
+            contact%arm_j = contact%arm_j + d
+            contact%arm_i = contact%arm_i + d
+         end if
+         w = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
          contact%rate = dot_product(contact%normal, w)
          if (with_sliding) call set_sliding(motion, i, j, contact)
       end associate
@@ -178,21 +181,65 @@ contains
       type(motion_t), intent(in) :: motion           !! positions, velocities and accelerations
       type(point_contact_t), intent(in) :: contact   !! its kinematics
 
-      real(wp) :: a(3), turn_i(3), turn_j(3)
+      real(wp) :: a(3), arm_i(3), arm_j(3), reach(3), turn_i(3), turn_j(3)
       integer :: item
 
       item = (k - 1)/self%n_contact_item + 1
       associate (i => self%items%body(1, item), j => self%items%body(2, item))
-         turn_i = cross(motion%omega(:, i), contact%arm_i)
-         turn_j = cross(motion%omega(:, j), contact%arm_j)
-         a = motion%a(:, j) + cross(motion%alpha(:, j), contact%arm_j) + cross(motion%omega(:, j), turn_j) - motion%a(:, i) &
-             - cross(motion%alpha(:, i), contact%arm_i) - cross(motion%omega(:, i), turn_i) &
+         reach = reach_of(self, k, contact)*contact%normal
+         arm_i = contact%arm_i - reach
+         arm_j = contact%arm_j - reach
+         turn_i = cross(motion%omega(:, i), arm_i)
+         turn_j = cross(motion%omega(:, j), arm_j)
+         a = motion%a(:, j) + cross(motion%alpha(:, j), arm_j) + cross(motion%omega(:, j), turn_j) - motion%a(:, i) &
+             - cross(motion%alpha(:, i), arm_i) - cross(motion%omega(:, i), turn_i) &
              - 2.0_wp*cross(motion%omega(:, i), motion%v(:, j) + turn_j - motion%v(:, i) - turn_i)
       end associate
       acceleration = dot_product(contact%normal, a)
    end function plane_penetration_acceleration
 
-   !> How a contact lies: the normal turns with body i, C stays in body j.
+   !> From the point p to C, along n.
+   pure real(wp) function reach_of(self, k, contact) result(reach)
+      class(plane_contacts_t), intent(in) :: self   !! the set
+      integer, intent(in) :: k                      !! contact
+      type(point_contact_t), intent(in) :: contact  !! its kinematics
+
+      reach = 0.0_wp
+      if (self%planes%radius(k) > 0.0_wp) reach = self%planes%radius(k) - 0.5_wp*contact%delta
+   end function reach_of
+
+   !> Penetrations and rates; of a point beyond an end of its plane how far it is beyond, negative, if that is less.
+   subroutine plane_gaps(self, motion, delta, rate)
+      class(plane_contacts_t), intent(in) :: self  !! the set
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+      real(wp), intent(inout) :: delta(:)          !! (all contacts) penetration [m]
+      real(wp), intent(inout) :: rate(:)           !! (all contacts) its rate [m/s]
+
+      real(wp) :: along(3), arm_i(3), arm_j(3), inside(2), place, speed
+      integer :: c, k, m
+
+      call point_gaps(self, motion, delta, rate)
+      do k = 1, self%n
+         if (self%axes(k)%ends(2) >= endless) cycle
+         associate (i => self%items%body(1, k), j => self%items%body(2, k))
+            along = axis_of(motion, i, self%axes(k)%frame_i(:, 3))
+            do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
+               arm_j = axis_of(motion, j, self%planes%point_j(:, c))
+               arm_i = motion%r(:, j) + arm_j - motion%r(:, i)
+               place = dot_product(along, arm_i - axis_of(motion, i, self%items%s_i(:, k)))
+               speed = dot_product(along, motion%v(:, j) + cross(motion%omega(:, j), arm_j) - motion%v(:, i) &
+                                   - cross(motion%omega(:, i), arm_i))
+               inside = [place - self%axes(k)%ends(1), self%axes(k)%ends(2) - place]
+               m = self%before%contacts + c
+               if (minval(inside) >= delta(m)) cycle
+               delta(m) = minval(inside)
+               rate(m) = merge(speed, -speed, inside(1) < inside(2))
+            end do
+         end associate
+      end do
+   end subroutine plane_gaps
+
+   !> How a contact lies: the normal turns with body i, p stays in body j.
    subroutine plane_lie(self, k, motion, tangent)
       class(plane_contacts_t), intent(in) :: self   !! the set
       integer, intent(in) :: k                       !! contact
@@ -200,13 +247,17 @@ contains
       type(tangent_t), intent(inout) :: tangent      !! how it lies; its forces and its way are left alone
 
       type(point_contact_t) :: contact
+      real(wp) :: arm_rate(3), normal_rate(3), reach
       integer :: item
 
       item = (k - 1)/self%n_contact_item + 1
       call measure_one(self, k, .true., motion, contact)
       associate (i => self%items%body(1, item), j => self%items%body(2, item))
-         call lie_in_space(motion, i, j, contact, contact%normal, cross(motion%omega(:, i), contact%normal), &
-                           cross(motion%omega(:, j), contact%arm_j), tangent)
+         reach = reach_of(self, k, contact)
+         normal_rate = cross(motion%omega(:, i), contact%normal)
+         arm_rate = cross(motion%omega(:, j), contact%arm_j - reach*contact%normal)
+         if (self%planes%radius(k) > 0.0_wp) arm_rate = arm_rate + reach*normal_rate - 0.5_wp*contact%rate*contact%normal
+         call lie_in_space(motion, i, j, contact, contact%normal, normal_rate, arm_rate, tangent)
       end associate
    end subroutine plane_lie
 

@@ -1,4 +1,4 @@
-!> A ball of body j loose in a socket of body i, or a pin with round bases loose in a bushing of it, in space.
+!> A ball of body j loose in a socket of body i or beside a ball of it, or a pin with round bases loose in a bushing, in space.
 !>
 !> With rho = r_j^P - r_i^P the place of a ball, or of a base of the pin, as body i sees it, and u the bushing's axis:
 !>
@@ -12,7 +12,8 @@
 !>
 !> C = r_j^P + (R_j - delta/2) n is the point of both bodies where the forces act: f_j = -F_N n + F_T t. t is the direction of
 !> sliding, v_T = v - (v . n) n with v the velocity of the material points of j against those of i at C.
-!> With e = 0 the normal is taken along w.
+!> With e = 0 the normal is taken along w. Beside a ball |e|, n, c and the ball's radius have the other sign, and all of this holds
+!> as it stands.
 !>
 !> Source: Flores et al. (2008), sections 6.2 and 6.3, corrected: velocities are those of material points, (6.22), (6.23), (6.62),
 !> (6.63); the normal is one of the world, (6.66); moments are turned to the bodies' axes, (6.29), (6.69); both forces act
@@ -20,16 +21,13 @@
 !> Limits: what the rim of a tilted base adds to the penetration, R_j (1 - cos of the tilt), is left out, and so is any contact
 !> of the pin's end faces; a pin that has left the bushing altogether touches nothing, see `engagement`.
 module socket_contacts
-   use clearance_set, only: loss_contact, loss_friction
    use contact_grip, only: tangent_t
-   use contact_laws, only: press_in_course
-   use contact_memory, only: contact_memory_t
    use kinds, only: wp
-   use motion, only: cross, loads_t, motion_t
-   use normal_law, only: n_law_parameter, normal_law_t
+   use motion, only: cross, motion_t
    use point_contact, only: point_contact_t
-   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt, point_contacts_t
-   use space_tangents, only: set_sliding, spatial_force
+   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt
+   use space_tangents, only: set_sliding
+   use spatial_contacts, only: spatial_contacts_t
    implicit none (type, external)
    private
    public :: direction_of, measure_one, station_of  ! for its submodule
@@ -39,9 +37,10 @@ module socket_contacts
 
    !> The surfaces of one joint.
    type :: socket_t
-      real(wp) :: radius_i = 0.0_wp               !! radius of socket or bushing [m]
+      real(wp) :: radius_i = 0.0_wp               !! radius of socket or bushing; negative: a ball that j touches from outside [m]
       real(wp) :: radius_j = 0.0_wp               !! radius of ball or pin [m]
       real(wp) :: clearance = 0.0_wp              !! radius_i less radius_j [m]
+      real(wp) :: side = 1.0_wp                   !! 1: j is in a hole; -1: beside a ball, distance and normal reversed [1]
       logical :: has_axis = .false.               !! a bushing, not a socket
       logical :: has_ends = .false.               !! whose ends count
       real(wp) :: half_i = 0.0_wp                 !! half the length of the bushing [m]
@@ -62,14 +61,13 @@ module socket_contacts
    end type station_t
 
    !> Balls in sockets or pins in bushings. `prepare` of a geometry sets their surfaces.
-   type, abstract, extends(point_contacts_t) :: socket_contacts_t
+   type, abstract, extends(spatial_contacts_t) :: socket_contacts_t
       type(socket_t), allocatable :: socket(:)         !! (n) the surfaces
    contains
-      procedure :: evaluate => socket_evaluate
+      procedure :: measure_acting => socket_measure_acting
       procedure :: measure => socket_measure
       procedure :: penetration_acceleration => socket_penetration_acceleration
       procedure :: lie => socket_lie
-      procedure, nopass :: force_on_j => spatial_force
       procedure :: report_item => socket_report_item
    end type socket_contacts_t
 
@@ -86,31 +84,13 @@ module socket_contacts
 
 contains
 
-   !> Add the contact forces of the touching contacts.
-   subroutine socket_evaluate(self, motion, loads, losses)
-      class(socket_contacts_t), intent(inout) :: self       !! the set
-      type(motion_t), intent(in) :: motion                  !! positions and velocities
-      type(loads_t), intent(inout) :: loads                 !! loads on the bodies
-      real(wp), intent(inout), contiguous :: losses(:, :)   !! (2, all contacts) power lost [W]
-
-      include "point_way.inc"
-   end subroutine socket_evaluate
-
-   include "press.inc"
-   include "spatial_loads.inc"
-
-   !> Measure the contacts that touch, all of them where they act apart, with their sliding velocities where there is friction.
-   subroutine measure_touching(self, motion)
+   !> Measure the contacts that act.
+   subroutine socket_measure_acting(self, motion)
       class(socket_contacts_t), intent(inout) :: self  !! the set; kinematics are set
       type(motion_t), intent(in) :: motion             !! positions and velocities
 
-      integer :: k
-
-      do k = 1, self%n_contact
-         if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) cycle
-         call measure_one(self, k, allocated(self%laws%friction), motion, self%work%contacts(k))
-      end do
-   end subroutine measure_touching
+      include "measure_acting.inc"
+   end subroutine socket_measure_acting
 
    !> Normal, penetration, its rate and arms of a contact; its sliding velocity where it is asked for.
    pure subroutine socket_measure(self, k, with_sliding, motion, contact)
@@ -141,8 +121,8 @@ contains
       associate (socket => self%socket(item))
          at = station_of(socket, k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), i, j, motion)
          distance = norm2(at%e)
-         normal = direction_of(at, distance)
-         contact%delta = distance - socket%clearance
+         normal = socket%side*direction_of(at, distance)
+         contact%delta = socket%side*distance - socket%clearance
          if (.not. at%is_there) contact%delta = -socket%clearance
          contact%normal = normal
          if (any(abs(at%pin) > 0.0_wp)) then
@@ -266,7 +246,7 @@ contains
       end associate
       distance = max(norm2(at%e), tiny(1.0_wp))
       w_e = w - dot_product(w, at%u)*at%u
-      acceleration = dot_product(at%e/distance, a) + (dot_product(w_e, w_e) - contact%rate**2)/distance
+      acceleration = self%socket(item)%side*(dot_product(at%e/distance, a) + (dot_product(w_e, w_e) - contact%rate**2)/distance)
    end function socket_penetration_acceleration
 
    !> Eccentricity of centres, tilt, and how much of the pin is in the bushing.

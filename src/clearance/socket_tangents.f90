@@ -39,7 +39,7 @@ contains
       at = station_of(self%socket(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), &
                       i, j, motion)
       length = max(norm2(at%e), tiny(1.0_wp))
-      n = direction_of(at, norm2(at%e))
+      n = self%socket(item)%side*direction_of(at, norm2(at%e))
       w = at%w
       glide = 0.0_wp
       if (any(abs(at%pin) > 0.0_wp)) then
@@ -47,7 +47,7 @@ contains
          w = at%w + glide*at%pin
       end if
       w = w - dot_product(w, at%u)*at%u
-      n_rate = (w - dot_product(n, w)*n)/length  ! as body i sees it
+      n_rate = self%socket(item)%side*(w - dot_product(n, w)*n)/length  ! as body i sees it
       if (any(abs(at%pin) > 0.0_wp)) then
          ! the direction of the force is n - q u at an end of the bushing
          u_part = dot_product(at%u, at%pin)

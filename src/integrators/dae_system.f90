@@ -4,7 +4,8 @@
 !>
 !> with J = Phi_q and W = M^{-1}, so that mu, the multiplier that keeps the positions on the
 !> constraints, is an impulse; it vanishes for the exact solution. The state y = (q, v, others, z) is that
-!> of the ordinary form, to which the same system answers as `evaluate`.
+!> of the ordinary form, to which the same system answers as `evaluate`. Of rows that depend on others where an integration begins
+!> the system leaves some out, so that the others are independent: their equations are lambda = 0 and mu = 0.
 !>
 !> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange
 !> equations with constraints, J. Comput. Appl. Math. 12-13 (1985) 77-90.
@@ -20,6 +21,8 @@ module dae_system
       integer :: n_row = 0                     !! number of constraint rows, m
       logical :: is_large = .false.            !! so large that implicit methods keep its matrices sparse
    contains
+      procedure(begin_interface), deferred :: begin_form
+      procedure(leaves_interface), deferred :: leaves_out
       procedure(residual_interface), deferred :: dae_residual
       procedure(pattern_interface), deferred :: dae_pattern
       procedure(spread_interface), deferred :: dae_spread
@@ -27,6 +30,20 @@ module dae_system
    end type dae_system_t
 
    abstract interface
+      !> An integration begins at the state of the last evaluation: choose the rows that are left out.
+      subroutine begin_interface(self)
+         import :: dae_system_t
+         implicit none (type, external)
+         class(dae_system_t), intent(inout) :: self   !! the system
+      end subroutine begin_interface
+
+      !> Whether it leaves out any.
+      pure logical function leaves_interface(self) result(does)
+         import :: dae_system_t
+         implicit none (type, external)
+         class(dae_system_t), intent(in) :: self   !! the system
+      end function leaves_interface
+
       !> What is left of the equations: left side less right side. Status: 0 done, > 0 retry with a
       !> smaller step, < 0 give up.
       subroutine residual_interface(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)

@@ -9,7 +9,9 @@
 !>
 !> Source: C. W. Gear, B. Leimkuhler and G. K. Gupta, Automatic integration of Euler-Lagrange equations
 !> with constraints, J. Comput. Appl. Math. 12-13 (1985) 77-90; A. C. Hindmarsh et al. (2005).
-!> Limits: redundant constraints are refused.
+!> Limits: of redundant constraints some are left out, chosen where an integration begins, and anew where the step has become too
+!> small, since those that are kept have come to depend on one another. Friction in joints, which needs the multipliers
+!> of all rows, is refused there.
 module ida
    use ida_library, only: ida_library_t
    use kind_info, only: kind_info_t

@@ -98,23 +98,36 @@ contains
       class(ida_library_t), intent(inout) :: self   !! the library
 
       real(c_double), pointer :: rate(:), u(:)
-      integer :: m, n
 
-      n = self%problem%system%n
       u => fn_vgetarraypointer(self%state)
       rate => fn_vgetarraypointer(self%rate)
-      u(:) = 0.0_wp
-      rate(:) = 0.0_wp
-      u(:n) = self%problem%method%step%y1
-      rate(:n) = self%problem%method%step%f1
-      associate (system => self%problem%system)
+      call take_start(self%problem, self%problem%method%step%y1, self%problem%method%step%f1, u, rate)
+   end subroutine set_start
+
+   !> A state that the system was evaluated at last, with its multipliers and derivatives.
+   subroutine take_start(problem, y, f, u, rate)
+      type(problem_t), intent(inout) :: problem         !! the problem
+      real(wp), intent(in) :: y(:)                      !! (n) state [any]
+      real(wp), intent(in) :: f(:)                      !! (n) its derivative [any]
+      real(wp), intent(out) :: u(:)                     !! (N) state and multipliers [any]
+      real(wp), intent(out) :: rate(:)                  !! (N) derivative [any]
+
+      integer :: m, n
+
+      n = size(y)
+      u = 0.0_wp
+      rate = 0.0_wp
+      u(:n) = y
+      rate(:n) = f
+      associate (system => problem%system)
          select type (system)
          class is (dae_system_t)
             m = system%n_row
+            call system%begin_form()
             call system%multipliers(u(n + 1:n + m))
          end select
       end associate
-   end subroutine set_start
+   end subroutine take_start
 
    !> Make IDA's objects.
    subroutine create(self, status)
@@ -164,12 +177,49 @@ contains
 
       outcome = fidasetstoptime(self%memory, t_stop)
       if (outcome == 0) outcome = fidasolve(self%memory, t_stop, reached, self%state, self%rate, ida_one_step)
+      if (outcome < 0 .and. leaves_out(self%problem%system)) then
+         call begin_anew(self, outcome)
+         if (outcome == 0) outcome = fidasetstoptime(self%memory, t_stop)
+         if (outcome == 0) outcome = fidasolve(self%memory, t_stop, reached, self%state, self%rate, ida_one_step)
+      end if
       t = reached(1)
       u => fn_vgetarraypointer(self%state)
       y = u(:size(y))
       status = 0
       if (outcome < 0) status = self%failure()
    end subroutine ida_step
+
+   !> Whether a system leaves out rows that depend on others.
+   logical function leaves_out(system)
+      class(*), intent(in) :: system  !! the system
+
+      leaves_out = .false.
+      select type (system)
+      class is (dae_system_t)
+         leaves_out = system%leaves_out()
+      end select
+   end function leaves_out
+
+   !> A step has failed for the rows that are kept have come to depend on one another: begin anew where it began, with other ones.
+   subroutine begin_anew(self, outcome)
+      class(ida_library_t), intent(inout) :: self   !! the library
+      integer(c_int), intent(out) :: outcome        !! 0: done
+
+      real(c_double), pointer :: rate(:), u(:)
+      real(wp) :: f(self%problem%system%n)
+      integer :: status
+
+      outcome = -1
+      associate (method => self%problem%method)
+         call self%problem%evaluate(method%t, method%step%y1, f, status)
+         if (status /= 0) return
+         u => fn_vgetarraypointer(self%state)
+         rate => fn_vgetarraypointer(self%rate)
+         call take_start(self%problem, method%step%y1, f, u, rate)
+         outcome = fidareinit(self%memory, method%t, self%state, self%rate)
+      end associate
+      if (outcome == 0) outcome = fidasetinitstep(self%memory, 0.0_wp)
+   end subroutine begin_anew
 
    !> State within the last step, by the polynomial of the method.
    subroutine ida_look_back(self, t, y)

@@ -27,6 +27,7 @@ module joint_registry
    use spatial_parallel_axes, only: spatial_parallel_axes_t
    use spatial_perpendicular, only: spatial_perpendicular_t
    use spatial_planar, only: spatial_planar_t
+   use spatial_rack, only: spatial_rack_t
    use spatial_revolute, only: spatial_revolute_t
    use spatial_revolute_spherical, only: spatial_revolute_spherical_t
    use spatial_rigid, only: spatial_rigid_t
@@ -38,7 +39,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 33  !! number of kinds
+   integer, parameter :: n_joint_kinds = 34  !! number of kinds
 
 contains
 
@@ -82,6 +83,7 @@ contains
       case (31); allocate (spatial_orientation_t :: set)
       case (32); allocate (spatial_parallel_axes_t :: set)
       case (33); allocate (spatial_perpendicular_t :: set)
+      case (34); allocate (spatial_rack_t :: set)
       end select
    end subroutine new_joint_set
 

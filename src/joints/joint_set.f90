@@ -52,7 +52,7 @@ module joint_set
       procedure :: new => joint_new
       procedure :: set_start => joint_set_start
       procedure :: take_joint => joint_take_joint
-      procedure :: is_turned_over => joint_is_turned_over
+      procedure :: closing_fault => joint_closing_fault
       procedure :: follow => joint_follow
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
@@ -188,15 +188,16 @@ contains
       type(motion_t), intent(in) :: motion       !! positions at the end of the step
    end subroutine joint_follow
 
-   !> Whether an item is closed in a way that nobody means, which its rows cannot tell from the right one: not, unless the kind
-   !> says otherwise.
-   pure logical function joint_is_turned_over(self, k, motion) result(is_over)
+   !> How an item is closed in a way that nobody means, which its rows cannot tell from the right one: what follows its name in a
+   !> message. In none, unless the kind says otherwise.
+   function joint_closing_fault(self, k, motion) result(fault)
       class(joint_set_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                !! item
       type(motion_t), intent(in) :: motion    !! positions
+      character(:), allocatable :: fault      !! what is wrong; blank: nothing
 
-      is_over = k < 0 .and. size(motion%angle) < self%n
-   end function joint_is_turned_over
+      fault = repeat("", k + self%n + size(motion%angle))
+   end function joint_closing_fault
 
    !> Tell the bodies of the set's rows, and which are angles.
    subroutine joint_declare_rows(self, rows)

@@ -14,13 +14,13 @@
 !> couples on both bodies, so that what the bearings carry for the force at the teeth is not among their reactions; no pressure
 !> angle, no play.
 module spatial_gear
+   use counted_joint, only: counted_joint_t, most_angles
    use item, only: item_t
    use kind_info, only: add_number, dim_length, kind_info_t
    use kinds, only: wp
-   use memory, only: get, put
    use motion, only: cross, motion_t
    use rows, only: rows_t
-   use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, element_t, set_joint_frames, spatial_joint_t
+   use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, element_t, set_joint_frames
    use spatial_rows, only: angle_of, axis_of, dot_of_axes, dot_with_span, put_row, scalar_t, seen_from_other, wrapped
    implicit none (type, external)
    private
@@ -29,20 +29,16 @@ module spatial_gear
    real(wp), parameter :: parallel = 1.0e-6_wp  !! sine of an angle of axes that is none [1]
 
    !> All pairs of gears of a spatial scene.
-   type, extends(spatial_joint_t) :: spatial_gear_t
+   type, extends(counted_joint_t) :: spatial_gear_t
       real(wp), allocatable, private :: radius(:, :)       !! (2, n) of i and j; of axes that point opposite ways one is turned [m]
       logical, allocatable, private :: is_parallel(:)      !! (n) whether the axes are parallel
-      real(wp), allocatable, private :: angle(:, :)        !! (2, n) phi_i and phi_j at the end of the last step [rad]
       real(wp), allocatable, private :: start(:)           !! (n) R_i phi_i + R_j phi_j where the deck puts the bodies [m]
    contains
       procedure, nopass :: info => gear_info
       procedure :: prepare => gear_prepare
       procedure :: set_start => gear_set_start
       procedure :: evaluate => gear_evaluate
-      procedure :: follow => gear_follow
-      procedure :: memory_size => gear_memory_size
-      procedure :: save => gear_save
-      procedure :: load => gear_load
+      procedure :: find_angles => gear_find_angles
    end type spatial_gear_t
 
 contains
@@ -84,7 +80,7 @@ contains
       class(spatial_gear_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion          !! bodies where the deck puts them
 
-      type(scalar_t) :: phi(2)
+      type(scalar_t) :: phi(most_angles)
       real(wp) :: z_i(3), z_j(3)
       integer :: k
 
@@ -95,18 +91,18 @@ contains
          self%is_parallel(k) = norm2(cross(z_i, z_j)) < parallel
          if (self%is_parallel(k) .and. dot_product(z_i, z_j) < 0.0_wp) self%radius(2, k) = -self%radius(2, k)
          self%angle(:, k) = 0.0_wp
-         phi = angles_of(self, k, motion)
+         call self%find_angles(k, motion, phi)
          self%angle(:, k) = phi%value
          self%start(k) = dot_product(self%radius(:, k), self%angle(:, k))
       end do
    end subroutine gear_set_start
 
    !> Angles of an item, next to those at the end of the last step.
-   pure function angles_of(self, k, motion) result(phi)
-      class(spatial_gear_t), intent(in) :: self  !! the set
-      integer, intent(in) :: k                   !! item
-      type(motion_t), intent(in) :: motion       !! positions and velocities
-      type(scalar_t) :: phi(2)                   !! (2) phi_i and phi_j [rad]
+   pure subroutine gear_find_angles(self, k, motion, phi)
+      class(spatial_gear_t), intent(in) :: self         !! the set
+      integer, intent(in) :: k                          !! item
+      type(motion_t), intent(in) :: motion              !! positions and velocities
+      type(scalar_t), intent(inout) :: phi(most_angles) !! (most_angles) phi_i and phi_j [rad]
 
       type(scalar_t) :: across(2, 2)
       integer :: a
@@ -127,7 +123,7 @@ contains
          phi(a) = angle_of(across(1, a), across(2, a))
          phi(a)%value = self%angle(a, k) + wrapped(phi(a)%value - self%angle(a, k))
       end do
-   end function angles_of
+   end subroutine gear_find_angles
 
    !> Fill the rows of all items.
    subroutine gear_evaluate(self, t, motion, rows)
@@ -136,11 +132,11 @@ contains
       type(motion_t), intent(in) :: motion       !! positions and velocities
       type(rows_t), intent(inout) :: rows        !! rows, those of the set are filled
 
-      type(scalar_t) :: phi(2), x
+      type(scalar_t) :: phi(most_angles), x
       integer :: k
 
       do k = 1, self%n
-         phi = angles_of(self, k, motion)
+         call self%find_angles(k, motion, phi)
          associate (r => self%radius(:, k))
             x%value = r(1)*phi(1)%value + r(2)*phi(2)%value
             x%rate = r(1)*phi(1)%rate + r(2)*phi(2)%rate
@@ -152,54 +148,5 @@ contains
          call put_row(rows, self%first_row + k, motion, self%body(:, k), x, self%start(k), 0.0_wp, 0.0_wp)
       end do
    end subroutine gear_evaluate
-
-   !> A step has ended: angles are counted from there.
-   subroutine gear_follow(self, motion)
-      class(spatial_gear_t), intent(inout) :: self  !! the set
-      type(motion_t), intent(in) :: motion          !! positions at the end of the step
-
-      type(scalar_t) :: phi(2)
-      integer :: k
-
-      do k = 1, self%n
-         phi = angles_of(self, k, motion)
-         self%angle(:, k) = phi%value
-      end do
-   end subroutine gear_follow
-
-   !> Two angles per item.
-   integer function gear_memory_size(self) result(n)
-      class(spatial_gear_t), intent(in) :: self  !! the set
-
-      n = 2*self%n
-   end function gear_memory_size
-
-   !> Write the angles.
-   subroutine gear_save(self, row, place)
-      class(spatial_gear_t), intent(in) :: self  !! the set
-      real(wp), intent(inout) :: row(:)          !! (any) checkpoint [any]
-      integer, intent(inout) :: place            !! last place used
-
-      integer :: k
-
-      do k = 1, self%n
-         call put(row, place, self%angle(:, k))
-      end do
-   end subroutine gear_save
-
-   !> Read the angles.
-   subroutine gear_load(self, row, place)
-      class(spatial_gear_t), intent(inout) :: self  !! the set
-      real(wp), intent(in) :: row(:)                !! (any) checkpoint [any]
-      integer, intent(inout) :: place               !! last place used
-
-      integer :: a, k
-
-      do k = 1, self%n
-         do a = 1, 2
-            call get(row, place, self%angle(a, k))
-         end do
-      end do
-   end subroutine gear_load
 
 end module spatial_gear

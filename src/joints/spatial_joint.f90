@@ -10,7 +10,7 @@
 !>
 !> Rows of `across` are angles. Signs: the force on body i of a point is -lambda.
 !> Source: Flores et al. (2008), eqs. (6.13) to (6.15), with the two independent rows of the parallel axes.
-!> Limits: parallel axes may be opposed: `is_turned_over` says so, and the start refuses it.
+!> Limits: parallel axes may be opposed: `closing_fault` says so, and the start refuses it.
 module spatial_joint
    use coordinates, only: coordinates_t
    use item, only: find_place, item_t
@@ -69,7 +69,7 @@ module spatial_joint
       procedure :: set_start => set_joint_frames
       procedure :: evaluate => spatial_evaluate
       procedure :: fill_rows => spatial_fill_rows
-      procedure :: is_turned_over => spatial_is_turned_over
+      procedure :: closing_fault => spatial_closing_fault
       procedure :: report => spatial_report
    end type spatial_joint_t
 
@@ -218,8 +218,22 @@ contains
       end do
    end subroutine spatial_fill_rows
 
+   !> Axes that are opposed where the rows only ask them to be parallel.
+   function spatial_closing_fault(self, k, motion) result(fault)
+      class(spatial_joint_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                    !! item
+      type(motion_t), intent(in) :: motion        !! positions
+      character(:), allocatable :: fault          !! what is wrong; blank: nothing
+
+      fault = ""
+      if (is_turned_over(self, k, motion)) then
+         fault = "is closed the wrong way round: its axes are parallel but opposed"//new_line("a")// &
+                 "  = turn one of its bodies, or reverse axis_i or axis_j, in the deck"
+      end if
+   end function spatial_closing_fault
+
    !> Whether the axes z of an item, parallel by its rows, are opposed: a branch that nobody means.
-   pure logical function spatial_is_turned_over(self, k, motion) result(is_over)
+   pure logical function is_turned_over(self, k, motion) result(is_over)
       class(spatial_joint_t), intent(in) :: self  !! the set
       integer, intent(in) :: k                    !! item
       type(motion_t), intent(in) :: motion        !! positions
@@ -237,7 +251,7 @@ contains
       if (is_over .or. .not. self%axes%holds_turn) return
       is_over = dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 1, k)), &
                             axis_of(motion, self%body(2, k), self%axes%frame_j(:, 1, k))) < 0.0_wp
-   end function spatial_is_turned_over
+   end function is_turned_over
 
    !> What presses the two ends of a bearing or slider: N = |f/2 + m/L| + |f/2 - m/L|, with the multipliers f of rows that hold
    !> x and y of the points, and m of rows x_i . z_j and y_i . z_j.

@@ -45,7 +45,7 @@ module drawing
       character(:), allocatable :: name     !! of the joint or element
       integer :: body(2) = 0                !! (2) bodies i and j, 0: ground
       real(wp) :: s(3, 2) = 0.0_wp          !! (3, 2) their points, own frames [m]
-      real(wp) :: axis(3) = 0.0_wp          !! (3) of a slide, along a plane, in the own frame of i; zero: none [1]
+      real(wp) :: axis(3) = 0.0_wp          !! (3) of a slide; normal of a plane; own frame of i, zero: none [1]
       real(wp) :: radius = 0.0_wp           !! of a bearing: of its hole; 0: not known [m]
       real(wp) :: clearance = 0.0_wp        !! of a bearing: radial clearance [m]
    end type mark_t

@@ -14,7 +14,7 @@ module shapes
    use rotations, only: axes_across, rotation_about
    implicit none (type, external)
    private
-   public :: box_part, mistake_of_shape, part_of_shape, shapes_info
+   public :: box_part, mistake_of_shape, part_of_shape, shapes_info, sphere_part
 
    integer, parameter :: n_side = 24                  !! sides of a cylinder, meridians of a sphere
    integer, parameter :: n_belt = 12                  !! belts of a sphere
@@ -100,7 +100,7 @@ contains
       case ("cylinder")
          call take_cylinder(item%number("radius"), 0.5_wp*item%number("length"), centre, axes, body, part)
       case default
-         call take_sphere(item%number("radius"), centre, is_spatial, body, part)
+         call sphere_part(item%number("radius"), centre, is_spatial, body, part)
       end select
    end subroutine part_of_shape
 
@@ -180,7 +180,7 @@ contains
    end subroutine take_cylinder
 
    !> A sphere; in the plane, a circle.
-   subroutine take_sphere(radius, centre, is_spatial, body, part)
+   subroutine sphere_part(radius, centre, is_spatial, body, part)
       real(wp), intent(in) :: radius        !! its radius [m]
       real(wp), intent(in) :: centre(3)     !! (3) its centre [m]
       logical, intent(in) :: is_spatial     !! the scene is in space
@@ -216,6 +216,6 @@ contains
          call add_stroke(part, [(belt*n_side + k, belt=0, n_belt), ((n_belt - belt)*n_side + k + n_side/2, belt=0, n_belt)], &
                          .false., in_pictures)
       end do
-   end subroutine take_sphere
+   end subroutine sphere_part
 
 end module shapes

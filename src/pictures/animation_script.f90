@@ -78,7 +78,7 @@ module animation_script
       " if(m.k==4)s+=spring(...p);if(m.k==2){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
       "  s+=guide(p[0],flat(V,e.map((v,k)=>v-o[k])),m.w,!m.b[0])}", &
       " if(m.k==7){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
-      "  const u=flat(V,e.map((v,k)=>v-o[k]));s+=plane(p[0],u,m.w)}", &
+      "  const n=flat(V,e.map((v,k)=>v-o[k])),l=Math.hypot(...n);if(l>0.1)s+=plane(p[0],[-n[1]/l,n[0]/l],m.w)}", &
       " if(m.k==5){const e=m.l?flat(V,f.e[m.l-1]):[0,0],g=D.magnified;s+=stand()+disc(p[0],0.034*S,'#fff4d6')", &
       "  +disc([p[0][0]+g*e[0],p[0][1]+g*e[1]],0.021*S,'#9fb4c7')}", &
       " if(m.l&&D.force){const w=flat(V,f.f[m.l-1]).map(v=>v*0.25*S/D.force);s+=arrow(p[1],w)}return s}", &

@@ -112,7 +112,7 @@ contains
       type(symbols_t), intent(out) :: symbols       !! scales
 
       real(wp), parameter :: of_way = 0.3_wp  ! size of symbols over the extent of the motion, at least [1]
-      real(wp) :: along, axis(3), x(3, 2)
+      real(wp) :: across, along, axis(3), x(3, 2)
       integer :: f, i, k
 
       symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
@@ -133,8 +133,14 @@ contains
                   x(:, i) = list(f)%r(:, mark%body(i)) + matmul(list(f)%a(:, :, mark%body(i)), mark%s(:, i))
                end do
                axis = matmul(list(f)%a(:, :, mark%body(1)), mark%axis)
+               if (mark%kind == mark_plane .and. .not. drawing%is_spatial) axis = [axis(2), -axis(1), 0.0_wp]
                along = dot_product(axis, x(:, 2) - x(:, 1))
-               symbols%ways(:, k) = [min(symbols%ways(1, k), along), max(symbols%ways(2, k), along)]
+               across = along
+               if (mark%kind == mark_plane .and. drawing%is_spatial) then  ! in the plane, whichever way
+                  along = norm2(x(:, 2) - x(:, 1) - along*axis)
+                  across = -along
+               end if
+               symbols%ways(:, k) = [min(symbols%ways(1, k), across), max(symbols%ways(2, k), along)]
             end do
          end associate
       end do

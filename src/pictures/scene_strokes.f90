@@ -27,6 +27,7 @@ module scene_strokes
    integer, parameter :: style_arrow = 9     !! forces
    integer, parameter :: n_style = 9         !! styles
 
+   real(wp), parameter :: seen_aside = 0.1_wp      !! of a plane's normal in the view, below which it is seen from above [1]
    real(wp), parameter :: pin_size = 0.014_wp      !! radius of a pin, of the size of the scene [1]
    real(wp), parameter :: bearing_size = 0.034_wp  !! radius of a magnified bearing, of that size [1]
    real(wp), parameter :: journal_part = 0.62_wp   !! radius of its journal, of that of the bearing [1]
@@ -136,6 +137,8 @@ contains
       case (mark_plane)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
+         if (.not. norm2(axis) > seen_aside) return  ! seen from above, or nearly
+         axis = [axis(2), -axis(1)]/norm2(axis)
          call draw_hatch(canvas, symbols, p(:, 1) + (way(1) - 0.2_wp*symbols%size)*axis, &
                          p(:, 1) + (way(2) + 0.2_wp*symbols%size)*axis)
       case (mark_slide)

@@ -11,7 +11,7 @@ module scene_checks
    use force_registry, only: n_force_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
-   use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, leaves_turn, same_dimension
+   use kind_info, only: dim_angle, dim_length, dim_t, kind_info_t, leaves_turn, leaves_way, same_dimension
    use kinds, only: wp
    use name_table, only: name_table_t
    use normal_law, only: n_law_parameter
@@ -183,7 +183,8 @@ contains
                               "the two points coincide at the start", "give the column length, or move the bodies")
       end subroutine check_start_length
 
-      !> Numbers of any dimension in a row that is tied by a joint are angles if the joint turns, lengths if it slides.
+      !> Numbers of any dimension in a row that is tied by a joint are angles if the joint turns, lengths if it slides; either if it
+      !> does both.
       subroutine check_limits(info, item, column, message, help)
          type(kind_info_t), intent(in) :: info                  !! the kind
          type(item_t), intent(in) :: item                       !! the row
@@ -198,6 +199,7 @@ contains
          tie = tie_of(scene, info, item)
          if (.not. tie%by_joint) return
          call find_joint(scene, tie%joint(1), kind, row)
+         if (.not. any(scene%joints(kind)%info%leaves == [leaves_turn, leaves_way])) return
          wanted = dim_length
          if (scene%joints(kind)%info%leaves == leaves_turn) wanted = dim_angle
          do c = 1, size(info%columns)

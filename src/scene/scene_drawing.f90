@@ -1,7 +1,8 @@
 !> What a scene looks like, from its tables.
 !>
 !> A body has the rows of [shapes] that name it. One without is drawn by the points that it carries (`body_outline`). Columns
-!> `radius`, `radius_i` and `radius_j` of a row that ties two points are circles about them, of balls, discs and gears.
+!> `radius`, `radius_i` and `radius_j` of a row that ties two points are circles about them, of discs and gears, in space across
+!> their axes; of loose joints in space they are balls.
 !>
 !> A joint is a mark at its two points: what it leaves of the freedom says which; a row whose points are apart at the start is a
 !> link, of a force a spring. Rows that name joints (drivers) are not drawn.
@@ -15,7 +16,7 @@ module scene_drawing
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
    use scene, only: scene_t, table_shapes, table_t
    use scene_size, only: extent_of_scene, size_of_bodies, start_position
-   use shapes, only: part_of_shape
+   use shapes, only: part_of_shape, sphere_part
    use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
@@ -42,8 +43,8 @@ contains
       end do
       has_part = .false.
       call add_shapes(scene, drawing, has_part)
-      call add_rounds(scene, scene%joints, drawing, has_part)
-      call add_rounds(scene, scene%clearances, drawing, has_part)
+      call add_rounds(scene, scene%joints, .false., drawing, has_part)
+      call add_rounds(scene, scene%clearances, drawing%is_spatial, drawing, has_part)
       call add_outlines(scene, drawing, has_part)
       call add_marks(scene, scene%joints, .false., drawing)
       call add_marks(scene, scene%clearances, .false., drawing)
@@ -78,10 +79,11 @@ contains
       end associate
    end subroutine add_shapes
 
-   !> Circles of balls, discs and gears, of bodies without shapes.
-   subroutine add_rounds(scene, tables, drawing, has_part)
+   !> Circles of discs and gears, and balls, of bodies without shapes.
+   subroutine add_rounds(scene, tables, are_balls, drawing, has_part)
       type(scene_t), intent(in) :: scene            !! the scene
       type(table_t), intent(in) :: tables(:)        !! (kinds) joints, or joints with clearance
+      logical, intent(in) :: are_balls              !! they are round all over
       type(drawing_t), intent(inout) :: drawing     !! gets parts
       logical, intent(inout) :: has_part(0:)        !! (0:bodies) whether a body has one
 
@@ -89,6 +91,7 @@ contains
       integer, parameter :: ends(3) = [1, 2, 2]
       logical :: had_part(0:scene%bodies%n)
       type(part_t) :: part
+      real(wp) :: axes(3, 3)
       type(tie_t) :: tie
       integer :: c, i, k, place
 
@@ -99,10 +102,15 @@ contains
             do c = 1, size(columns)
                place = find_place(tables(k)%items(i), trim(columns(c)))
                if (place == 0 .or. tie%n < 2 .or. tie%by_joint .or. tables(k)%info%leaves /= leaves_more) cycle
-               associate (body => tie%body(ends(c)), point => tie%point(ends(c)))
+               associate (body => tie%body(ends(c)), point => tie%point(ends(c)), &
+                          radius => abs(tables(k)%items(i)%values(place)%number))
                   if (point == 0 .or. body == 0 .or. had_part(body)) cycle
-                  call round_part(part, body, drawing%s(:, point), reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], &
-                                                                           [3, 2]), abs(tables(k)%items(i)%values(place)%number))
+                  if (are_balls) then
+                     call sphere_part(radius, drawing%s(:, point), scene%settings%is_spatial, body, part)
+                  else
+                     axes = axes_across(turning_axis(scene, tables(k)%items(i), tie, ends(c)))
+                     call round_part(part, body, drawing%s(:, point), axes(:, :2), radius)
+                  end if
                   call add_part(drawing, part)
                   if (norm2(drawing%s(:, point)) < same_place*drawing%size) has_part(body) = .true.
                end associate
@@ -110,6 +118,23 @@ contains
          end do
       end do
    end subroutine add_rounds
+
+   !> The axis that a disc or gear of a row turns about, own frame of its body: z of the plane; in space the axis of its end, which,
+   !> left out, is parallel to that of i where the deck puts the bodies.
+   pure function turning_axis(scene, item, tie, end) result(axis)
+      type(scene_t), intent(in) :: scene  !! the scene
+      type(item_t), intent(in) :: item    !! the row
+      type(tie_t), intent(in) :: tie      !! what it ties
+      integer, intent(in) :: end          !! which end, 1 or 2
+      real(wp) :: axis(3)                 !! (3) direction [1]
+
+      axis = [0.0_wp, 0.0_wp, 1.0_wp]
+      if (.not. scene%settings%is_spatial .or. find_place(item, "axis_j") == 0) return
+      if (end == 2) axis = item%direction("axis_j")
+      if (end == 2 .and. norm2(axis) > 0.0_wp) return
+      axis = item%direction("axis_i")
+      if (end == 2) axis = matmul(matmul(start_frame(scene, tie%body(1)), axis), start_frame(scene, tie%body(2)))
+   end function turning_axis
 
    !> Outlines of bodies that have no part, by their points.
    subroutine add_outlines(scene, drawing, has_part)
@@ -223,7 +248,6 @@ contains
                   if (tie%point(end) > 0) mark%s(:, end) = drawing%s(:, tie%point(end))
                end do
                mark%axis = axis_of(item)
-               if (find_place(item, "plane") > 0) mark%axis = [mark%axis(2), -mark%axis(1), 0.0_wp]  ! along the plane
                mark%kind = kind_of_mark(scene, info, item, tie, are_forces, same_place*drawing%size)
                if (mark%kind == mark_bearing) then
                   mark%radius = item%number("bearing_radius")

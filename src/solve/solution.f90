@@ -36,6 +36,7 @@ module solution
       real(wp), allocatable :: a(:, :)                   !! (n_v, 0:bodies) accelerations [m/s^2 or rad/s^2]
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
+      integer, allocatable :: left_out(:)                !! rows that the form of index 2 leaves out, which depend on others
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
       procedure :: find => solution_find, set_gains => solution_set_gains

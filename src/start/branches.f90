@@ -12,11 +12,12 @@ module branches
 
 contains
 
-   !> Joints whose axes are opposed where their rows only ask them to be parallel: the deck put the bodies nearer to that.
+   !> Joints that are closed in such a way: the deck put the bodies nearer to that.
    subroutine check_branches(linkage, error)
       type(linkage_t), intent(in) :: linkage             !! the system, assembled
       type(error_t), allocatable, intent(out) :: error   !! the message
 
+      character(:), allocatable :: fault
       integer :: item, k
 
       do k = 1, size(linkage%joints)
@@ -34,10 +35,8 @@ contains
 
          do item = 1, slot%set%n
             if (allocated(error)) return
-            if (.not. slot%set%is_turned_over(item, linkage%motion)) cycle
-            call set_error(error, exit_assembly, "joint '"//slot%set%names(item)%s//"' is closed the wrong way round: its axes " &
-                           //"are parallel but opposed"//new_line("a")// &
-                           "  = turn one of its bodies, or reverse axis_i or axis_j, in the deck")
+            fault = slot%set%closing_fault(item, linkage%motion)
+            if (fault /= "") call set_error(error, exit_assembly, "joint '"//slot%set%names(item)%s//"' "//fault)
          end do
       end subroutine look
 

@@ -19,7 +19,7 @@ module consistent_start
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: assemble, assembly_t, find_dependent
+   public :: assemble, assembly_t, choose_dependent, find_dependent
    public :: evaluate_rows, least_correction, limit_step, rank_tolerance, rates, scaled_jacobian, worst_violation
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp    !! least ratio of singular values [1]
@@ -273,18 +273,27 @@ contains
       limited = x*min(1.0_wp, longest_turn/max(linkage%coordinates%greatest_turn(linkage%bodies%n, x), longest_turn))
    end function limit_step
 
-   !> Rows that depend on others at an assembled position, and all rows whose multipliers are therefore not unique: those that
-   !> occur in a combination of rows that vanishes, Phi_q^T x = 0. From the factors R = [ R_1, R_2; 0, 0 ] of the rows in the
-   !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
-   subroutine find_dependent(linkage, q, v, report, is_sparse)
+   !> Rows that depend on others at an assembled position: `choose_dependent` there.
+   subroutine find_dependent(linkage, q, v, report)
       type(linkage_t), intent(inout) :: linkage        !! the bodies and their rows
       real(wp), intent(in) :: q(:)                     !! (n_q bodies) coordinates [any]
       real(wp), intent(in) :: v(:)                     !! (n_v bodies) their rates [m/s or rad/s]
       type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
+
+      if (linkage%rows%n > 0) call evaluate_rows(linkage, 0.0_wp, q, v)
+      call choose_dependent(linkage, report)
+   end subroutine find_dependent
+
+   !> Rows, as evaluated, that depend on others, and all rows whose multipliers are therefore not unique: those that
+   !> occur in a combination of rows that vanishes, Phi_q^T x = 0. From the factors R = [ R_1, R_2; 0, 0 ] of the rows in the
+   !> order of their pivots, x = ( -R_1^-1 R_2, 1 ).
+   subroutine choose_dependent(linkage, report, is_sparse)
+      type(linkage_t), intent(in) :: linkage           !! the bodies and their rows
+      type(assembly_t), intent(inout) :: report        !! rank and dependent rows are set
       logical, intent(in), optional :: is_sparse       !! whether matrices are sparse; absent: where there are many rows
 
       type(sparse_start_t) :: sparse
-      real(wp), allocatable :: jac(:, :), tau(:), transposed(:, :), work(:)
+      real(wp), allocatable :: ease(:), jac(:, :), tau(:), transposed(:, :), work(:)
       integer, allocatable :: order(:)
       logical, allocatable :: is_shared(:)
       integer :: info, k, m, n
@@ -292,11 +301,10 @@ contains
       report%dependent = [integer ::]
       report%shared = [integer ::]
       if (linkage%rows%n == 0) return
-      call evaluate_rows(linkage, 0.0_wp, q, v)
       if (wants_sparse(linkage, is_sparse)) then
          call new_sparse_start(linkage%bodies%n, linkage%rows, sparse)
-         call sparse%find_dependent(linkage%rows%jac, weights(linkage, spread(1.0_wp, 1, size(v))), &
-                                    linkage%solution%row_weight, share, &
+         allocate (ease(linkage%coordinates%n_v*linkage%bodies%n), source=1.0_wp)
+         call sparse%find_dependent(linkage%rows%jac, weights(linkage, ease), linkage%solution%row_weight, share, &
                                     report%dependent, report%shared)
          report%rank = linkage%rows%n - size(report%dependent)
          return
@@ -318,7 +326,7 @@ contains
       allocate (is_shared(m), source=.true.)
       is_shared(order(:report%rank)) = any(abs(transposed(:report%rank, report%rank + 1:)) > share, dim=2)
       report%shared = pack([(k, k=1, m)], is_shared)
-   end subroutine find_dependent
+   end subroutine choose_dependent
 
    !> The mechanism does not close: say where and by how much.
    subroutine position_error(linkage, error)

@@ -63,7 +63,8 @@ module mechanism
       integer(i8) :: n_evaluations = 0            !! evaluations made
       real(wp), allocatable, private :: held(:)   !! (positions + rates) state corrected for an evaluation [any]
    contains
-      procedure :: evaluate => mechanism_evaluate, dae_residual => mechanism_dae_residual
+      procedure :: evaluate => mechanism_evaluate, begin_form => mechanism_begin_form, leaves_out => mechanism_leaves_out
+      procedure :: dae_residual => mechanism_dae_residual
       procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread, weights => mechanism_weights
       procedure :: evaluate_loads => mechanism_evaluate_loads, multipliers => mechanism_multipliers
       procedure, private :: evaluate_terms, ledger_rates
@@ -252,6 +253,12 @@ module mechanism
          integer, intent(inout) :: place            !! last place used
       end subroutine mechanism_load
 
+      !> Rows that depend on others where the bodies are: those that the form of index 2 leaves out.
+      module subroutine mechanism_begin_form(self)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system, evaluated
+      end subroutine mechanism_begin_form
+
       !> What is left of the equations in the stabilised form of index 2.
       module subroutine mechanism_dae_residual(self, t, y, ydot, lambda, mu, r_y, r_lambda, r_mu, status)
          implicit none (type, external)
@@ -386,6 +393,13 @@ contains
 
       place = self%n - self%n_quadrature + quadrature
    end function in_state
+
+   !> Whether the form of index 2 leaves out rows.
+   pure logical function mechanism_leaves_out(self) result(does)
+      class(mechanism_t), intent(in) :: self  !! the system
+
+      does = self%linkage%solution%is_redundant
+   end function mechanism_leaves_out
 
    !> Multipliers of the last evaluation.
    subroutine mechanism_multipliers(self, lambda)

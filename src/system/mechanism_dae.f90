@@ -4,15 +4,28 @@
 !> For q' = N v the first equation is q' = N (v - M^{-1} Phi_q^T mu).
 submodule(mechanism) mechanism_dae
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use consistent_start, only: assembly_t, choose_dependent
    use rows, only: place_in_row, rows_t
    implicit none (type, external)
 
 contains
 
+   !> Rows that are left out: none, unless some depend on others from the start.
+   module procedure mechanism_begin_form
+      type(assembly_t) :: report
+
+      associate (solution => self%linkage%solution)
+         solution%left_out = [integer ::]
+         if (.not. solution%is_redundant) return
+         call choose_dependent(self%linkage, report)
+         solution%left_out = pack(report%dependent, report%dependent <= self%n_row)
+      end associate
+   end procedure mechanism_begin_form
+
    !> What is left of the equations.
    module procedure mechanism_dae_residual
       real(wp) :: change
-      integer :: m, n, n_state
+      integer :: k, m, n, n_state
 
       n = self%linkage%n_position
       n_state = self%n - self%n_quadrature
@@ -48,6 +61,10 @@ contains
          r_y = ydot - r_y
          r_lambda = linkage%solution%phi_dot(:m)
          r_mu = rows%phi(:m)
+         do k = 1, size(linkage%solution%left_out)
+            r_lambda(linkage%solution%left_out(k)) = lambda(linkage%solution%left_out(k))
+            r_mu(linkage%solution%left_out(k)) = mu(linkage%solution%left_out(k))
+         end do
       end associate
       if (.not. all(ieee_is_finite(r_y(:n_state)))) status = 1
    end procedure mechanism_dae_residual

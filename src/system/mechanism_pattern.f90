@@ -55,6 +55,7 @@ contains
                   body = place(self%linkage%rows%body(k, i))
                   if (body > 0) call add_body(n_v*n*level + n_v*(body - 1))
                end do
+               call add_entry(self%n + merge(0, m, level == 1) + i - 1)  ! of a row that is left out
             end do
          end do
          column(self%n + 2*m + 1) = n_entry
@@ -84,11 +85,16 @@ contains
 
    end procedure mechanism_dae_pattern
 
-   !> M^{-1} Phi_q^T, row by row, the first body of each before the second.
+   !> M^{-1} Phi_q^T, row by row, the first body of each before the second, and after them 1 of a row that is left out.
    module procedure mechanism_dae_spread
       integer :: body, i, k, n
+      logical :: is_left_out(self%n_row)
 
       n = 0
+      is_left_out = .false.
+      do k = 1, size(self%linkage%solution%left_out)
+         is_left_out(self%linkage%solution%left_out(k)) = .true.
+      end do
       associate (rows => self%linkage%rows, n_v => self%linkage%coordinates%n_v)
          do i = 1, self%n_row
             do k = 1, 2
@@ -98,6 +104,8 @@ contains
                values(n + 1:n + n_v) = self%linkage%inverse_mass(:, body)*rows%jac(n_v*(k - 1) + 1:n_v*k, i)
                n = n + n_v
             end do
+            n = n + 1
+            values(n) = merge(1.0_wp, 0.0_wp, is_left_out(i))
          end do
       end associate
    end procedure mechanism_dae_spread

@@ -296,8 +296,8 @@ def test_mistakes_of_bodies(gudgeon, columns, moments, cells, expected):
 def test_sections_of_the_other_space(gudgeon):
     """A kind of the plane is refused in space by name, and the other way round; so is a vector of the other space."""
     text = BAR.format(columns="x[m]", moments="1 1 1", cells="0")
-    done = call(gudgeon, "check", written(scratch(), text + "[joint.rack]\nname i j radius[m]\n"), expect=(1, 2, 3))
-    assert "joint.rack is not known in space" in done.stderr
+    done = call(gudgeon, "check", written(scratch(), text + "[joint.pin_in_slot]\nname i j axis\n"), expect=(1, 2, 3))
+    assert "joint.pin_in_slot is not known in space" in done.stderr
     done = call(gudgeon, "check", written(scratch(), text.replace("0 0 -9.81", "0 -9.81")), expect=(1, 2, 3))
     assert "gravity has two" in done.stderr
     planar = (ROOT / "inputs/four_bar.deck").read_text() + "\n[joint.spherical]\nname i j\n"

@@ -213,3 +213,23 @@ def test_ball(gudgeon, pressure, eps, v, turning):
     area = RADIUS**2 * np.sin(angle)[:, None] * (np.pi / len(angle)) * (np.pi / 360)
     expected = -np.array([(p * area * np.cos(angle)[:, None]).sum(), (p * area * np.outer(np.sin(angle), np.cos(beta))).sum()])
     assert np.linalg.norm(force[:2] - expected) < 1e-4 * np.linalg.norm(expected)
+
+
+def told(program, film, heads, values):
+    """Warnings of a run of a pin whose film of a given kind it lies in anyhow."""
+    joint = bushing(film, 0.02).format(boundary="reynolds")
+    text = PIN.format(x=0.5 * CLEARANCE, y=0.0, vx="0.01m/s", vy="0m/s", wx="0rad/s", wy="0rad/s", wz="10rad/s", turn_heads=heads, turn=values,
+                      joint=joint, viscosity=VISCOSITY)
+    return run(program, text).summary["warnings"]
+
+
+def test_films_beyond_their_validity_say_so(gudgeon):
+    """A tilt of 0.02 c of 10 mm at a gap of c/2 is more than aligned halves hold, and film.grid needs no warning; nor does a small tilt. A
+    pin that fills a part of its film is told with the part."""
+    tilt = 0.5 * CLEARANCE * 0.5 / 0.01  # adds half of the gap left in the middle at the ends
+    (words,) = told(gudgeon, "finite", "axis angle[rad]", f'"0 1 0" {tilt}')
+    assert "'joint', film 'wet': a tilt that adds 0.5 of the gap" in words and "film.grid for any" in words
+    assert told(gudgeon, "finite", "axis angle[rad]", f'"0 1 0" {0.2 * tilt}') == []
+    assert told(gudgeon, "grid", "axis angle[rad]", f'"0 1 0" {tilt}') == []
+    (words,) = told(gudgeon, "finite", "z[m]", "0.015")
+    assert "'joint': the pin fills only 0.75 of the length of its film" in words

@@ -115,6 +115,7 @@ contains
       c = column_number(info, name)
       if (c == 0) return
       if (.not. allocated(info%columns(c)%default)) return
+      if (info%columns(c)%default /= "") return  ! a reader fills it in
       item%values(c)%given = .false.
       if (allocated(item%values(c)%table)) deallocate (item%values(c)%table)
    end subroutine leave_open

@@ -2,7 +2,7 @@
 module test_sparse_start
    use build_system, only: levels_ideal, new_system
    use check, only: check_close, check_equal, check_true, suite_t
-   use consistent_start, only: assemble, assembly_t, find_dependent
+   use consistent_start, only: assemble, assembly_t, choose_dependent, evaluate_rows
    use deck_file, only: read_deck
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
@@ -119,8 +119,9 @@ contains
       call check_close(error, q_sparse/maxval(abs(q)), q/maxval(abs(q)), 1.0e-9_wp, name//": positions")
       call check_close(error, v_sparse/max(1.0_wp, maxval(abs(v))), v/max(1.0_wp, maxval(abs(v))), 1.0e-9_wp, name//": velocities")
       call check_close(error, sparse%residual, 0.0_wp, 1.0e-12_wp, name//": violation")
-      call find_dependent(system%linkage, q, v, dense, is_sparse=.false.)
-      call find_dependent(system%linkage, q, v, sparse, is_sparse=.true.)
+      call evaluate_rows(system%linkage, 0.0_wp, q, v)
+      call choose_dependent(system%linkage, dense, is_sparse=.false.)
+      call choose_dependent(system%linkage, sparse, is_sparse=.true.)
       call check_equal(error, size(dense%dependent), n_dependent, name//": dependent rows, dense")
       call check_equal(error, size(sparse%dependent), n_dependent, name//": dependent rows, sparse")
       call check_equal(error, sparse%rank, dense%rank, name//": rank")

@@ -1,0 +1,64 @@
+!> Two balls that touch from outside, in space.
+!>
+!> delta = R_i + R_j - |e|,  e = r_j^P - r_i^P,  n = -e / |e|: that of a ball in a socket of radius -R_i, see `socket_contacts`,
+!> which has rates and sliding velocities; forces: `point_contacts`.
+!>
+!> Signs: the reported force is that on the second ball, world frame. Source: Flores et al. (2008), sections 3.1 and 6.2; (3.3) for
+!> the stiffness. Limits: centres that coincide have no normal; friction has no moment about the normal.
+module clearance_balls
+   use clearance_discs, only: add_disc_columns, describe_discs
+   use clearance_set, only: no_ideal_kind, no_mistake
+   use item, only: item_t
+   use kind_info, only: in_space, kind_info_t
+   use kinds, only: wp
+   use point_contacts, only: add_contact_channels
+   use socket_contacts, only: socket_contacts_t
+   implicit none (type, external)
+   private
+   public :: clearance_balls_t
+
+   !> Pairs of balls.
+   type, extends(socket_contacts_t) :: clearance_balls_t
+   contains
+      procedure, nopass :: info => balls_info
+      procedure, nopass :: ideal_kind => no_ideal_kind
+      procedure :: prepare => balls_prepare
+      procedure, nopass :: mistake => no_mistake
+      procedure, nopass :: describe => describe_discs
+   end type clearance_balls_t
+
+contains
+
+   !> What the geometry says of itself.
+   function balls_info() result(info)
+      type(kind_info_t) :: info  !! name, columns and channels
+
+      info%name = "clearance.discs"
+      info%space = in_space
+      info%help = "two balls that touch from outside; without an ideal twin, so that --ideal keeps their contact"
+      info%source = "Flores et al. (2008), sections 3.1 and 6.2"
+      call add_disc_columns(info, "ball")
+      call add_contact_channels(info, "second ball", "its sliding velocity")
+   end function balls_info
+
+   !> Radii of each item.
+   subroutine balls_prepare(self, items)
+      class(clearance_balls_t), intent(inout) :: self  !! the set
+      type(item_t), intent(in) :: items(:)             !! (n) rows of the table
+
+      integer :: k
+
+      call self%make_room()
+      allocate (self%socket(self%n))
+      do k = 1, self%n
+         associate (item => items(k), socket => self%socket(k))
+            socket%side = -1.0_wp
+            socket%radius_i = -item%number("radius_i")
+            socket%radius_j = item%number("radius_j")
+            socket%clearance = socket%radius_i - socket%radius_j
+            self%items%clearance(k) = -socket%clearance
+         end associate
+      end do
+   end subroutine balls_prepare
+
+end module clearance_balls
