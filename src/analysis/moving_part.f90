@@ -295,8 +295,8 @@ contains
 
    end subroutine look_at_energy
 
-   !> Decide whether contacts that have just begun slip or stick. When one holds, those that it was too much for alone, and that slide
-   !> with no speed to speak of, are decided anew; this ends at the latest when every contact has held once.
+   !> Decide whether contacts that have just begun slip or stick. When one holds, those that it was too much for alone, and that
+   !> slide with no speed to speak of, are decided anew; this ends at the latest when every contact has held once.
    subroutine decide_slips(part, t, y, recorder, error)
       type(moving_part_t), intent(inout) :: part          !! the part, its motion that of the state
       real(wp), intent(in) :: t                           !! time [s]

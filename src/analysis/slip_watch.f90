@@ -18,8 +18,8 @@ module slip_watch
 
 contains
 
-   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; that is told
-   !> by `find_reversal` when all contacts are decided. Others that slide with no speed to speak of are to be decided anew, since
+   !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; that is
+   !> told by `find_reversal` when all contacts are decided. Others that slide with no speed to speak of are to be decided anew:
    !> they may have to hold their part of the load.
    subroutine handle_slip(system, t, y, slot, k, has_row, row)
       type(mechanism_t), intent(inout) :: system   !! the system; the contact's state is changed
