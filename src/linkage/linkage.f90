@@ -67,6 +67,7 @@ contains
       associate (solution => self%solution, n => self%rows%n, n_body => self%bodies%n)
          solution%row_weight = merge(1.0_wp, 1.0_wp/self%scales%length, self%rows%is_angle)
          allocate (solution%phi_dot(n), solution%b(n), solution%lambda(n), source=0.0_wp)
+         allocate (solution%left_out(0))
          allocate (solution%a(self%coordinates%n_v, 0:n_body), self%rest(self%coordinates%n_v, 0:n_body), source=0.0_wp)
          self%n_position = self%coordinates%n_q*self%rows%n_unknown + self%reduced%guided%n
          self%n_rate = self%coordinates%n_v*self%rows%n_unknown + self%reduced%guided%n

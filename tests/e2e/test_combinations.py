@@ -44,7 +44,8 @@ def shortened(deck, analysis, end):
     every = f"{end / PART / INSTANTS:.17g} s"
     own = re.findall(r"(?m)^\s*figures\s*=\s*([^#\n]*)", text_of(deck))
     body = first_body(text_of(deck))
-    figures = f"{own[-1].strip() if own else ''} {body}.velocity"
+    figures = re.sub(r"\(t=([\d.]+)", lambda found: f"(t={float(found.group(1)) / PART:.17g}", own[-1].strip() if own else "")
+    figures = f"{figures} {body}.velocity"
     if analysis == "dynamic":
         figures += f" spectrum({body}.velocity.x) section({body}.velocity.x,{body}.velocity.y)"
     settings = {"output": {"every": every, "from": "0 s", "last": "0 s", "figures": figures, "motion": "vtkhdf"}}
