@@ -54,11 +54,13 @@ module contact_watch
 
       !> Numbers that a checkpoint needs.
       module integer function watch_memory_size(self) result(n)
+         implicit none (type, external)
          class(contact_watch_t), intent(in) :: self  !! the watch
       end function watch_memory_size
 
       !> Write what the watch remembers.
       module subroutine watch_save(self, row, place)
+         implicit none (type, external)
          class(contact_watch_t), intent(in) :: self  !! the watch
          real(wp), intent(inout) :: row(:)           !! (any) checkpoint [any]
          integer, intent(inout) :: place             !! last place used
@@ -66,6 +68,7 @@ module contact_watch
 
       !> Read what the watch remembers.
       module subroutine watch_load(self, row, place)
+         implicit none (type, external)
          class(contact_watch_t), intent(inout) :: self  !! the watch
          real(wp), intent(in) :: row(:)                 !! (any) checkpoint [any]
          integer, intent(inout) :: place                !! last place used

@@ -77,6 +77,7 @@ module guards
       !> Append a warning for each joint whose contacts passed a limit without ending the run, one for each limit, and one for the
       !> body that went farthest.
       module subroutine guards_warn(self, system, warnings)
+         implicit none (type, external)
          class(guards_t), intent(in) :: self                        !! the guards
          type(mechanism_t), intent(in) :: system                !! the system
          type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
@@ -84,6 +85,7 @@ module guards
 
       !> A contact in words.
       module function joint_words(set, c) result(words)
+         implicit none (type, external)
          class(clearance_set_t), intent(in) :: set       !! set of the contact
          integer, intent(in) :: c                        !! contact of the set
          character(:), allocatable :: words              !! joint, contact and law
@@ -91,6 +93,7 @@ module guards
 
       !> What was passed, in words.
       module function breach_words(self, g, m) result(words)
+         implicit none (type, external)
          class(guards_t), intent(in) :: self     !! the guards
          integer, intent(in) :: g                !! guard
          integer, intent(in) :: m                !! contact

@@ -45,6 +45,7 @@ module verb_run
 
       !> Motion prescribed by drivers.
       module subroutine run_prescribed(options, loaded, error)
+         implicit none (type, external)
          type(options_t), intent(in) :: options               !! the command line
          type(loaded_t), intent(inout) :: loaded              !! the deck
          type(error_t), allocatable, intent(out) :: error     !! whatever went wrong
@@ -52,6 +53,7 @@ module verb_run
 
       !> Equilibrium at rest.
       module subroutine run_equilibrium(options, loaded, error)
+         implicit none (type, external)
          type(options_t), intent(in) :: options               !! the command line
          type(loaded_t), intent(inout) :: loaded              !! the deck
          type(error_t), allocatable, intent(out) :: error     !! whatever went wrong

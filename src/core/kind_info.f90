@@ -145,6 +145,7 @@ module kind_info
    interface
       !> Whether two dimensions are the same.
       pure module logical function same_dimension(a, b)
+         implicit none (type, external)
          type(dim_t), intent(in) :: a  !! one dimension
          type(dim_t), intent(in) :: b  !! the other
       end function same_dimension

@@ -156,17 +156,20 @@ module integrator
 
       !> List what the integrator saves: what every one keeps, then what the method adds.
       module subroutine integrator_list_memory(self, pieces)
+         implicit none (type, external)
          class(integrator_t), intent(in) :: self                 !! the integrator
          type(piece_t), allocatable, intent(inout) :: pieces(:)  !! (any) the list, grown
       end subroutine integrator_list_memory
 
       !> Numbers that a checkpoint needs; a method that remembers more adds to it.
       module integer function integrator_memory_size(self) result(n)
+         implicit none (type, external)
          class(integrator_t), intent(in) :: self  !! the integrator
       end function integrator_memory_size
 
       !> Write what the integrator remembers.
       module subroutine integrator_save(self, row, place)
+         implicit none (type, external)
          class(integrator_t), intent(in) :: self  !! the integrator
          real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
          integer, intent(inout) :: place          !! last place used
@@ -174,6 +177,7 @@ module integrator
 
       !> Read what the integrator remembers.
       module subroutine integrator_load(self, row, place)
+         implicit none (type, external)
          class(integrator_t), intent(inout) :: self  !! the integrator
          real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
          integer, intent(inout) :: place             !! last place used
@@ -181,11 +185,13 @@ module integrator
 
       !> Numbers that every integrator keeps: time, state, derivative, event functions and counters.
       module integer function base_memory_size(self) result(n)
+         implicit none (type, external)
          class(integrator_t), intent(in) :: self  !! the integrator
       end function base_memory_size
 
       !> Write what every integrator keeps.
       module subroutine save_base(self, row, place)
+         implicit none (type, external)
          class(integrator_t), intent(in) :: self  !! the integrator
          real(wp), intent(inout) :: row(:)        !! (any) checkpoint [any]
          integer, intent(inout) :: place          !! last place used
@@ -193,6 +199,7 @@ module integrator
 
       !> Read what every integrator keeps. The last step itself is over: its length is set to zero.
       module subroutine load_base(self, row, place)
+         implicit none (type, external)
          class(integrator_t), intent(inout) :: self  !! the integrator
          real(wp), intent(in) :: row(:)              !! (any) checkpoint [any]
          integer, intent(inout) :: place             !! last place used

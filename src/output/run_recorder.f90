@@ -136,6 +136,7 @@ module run_recorder
 
       !> Make the files.
       module subroutine start_run(self, catalogue, error)
+         implicit none (type, external)
          class(run_recorder_t), intent(inout) :: self       !! the recorder
          type(catalogue_t), intent(in) :: catalogue         !! what can be recorded
          type(error_t), allocatable, intent(out) :: error   !! a file cannot be made
@@ -144,6 +145,7 @@ module run_recorder
       !> Whether files, figures or statistics read the value of a quantity of an item. A dataset of run.h5 holds all items
       !> of its room that appear.
       module pure logical function run_wants(self, group, item) result(wants)
+         implicit none (type, external)
          class(run_recorder_t), intent(in) :: self          !! the recorder, started
          integer, intent(in) :: group                       !! its group in the catalogue
          integer, intent(in) :: item                        !! number of the item in the group's room

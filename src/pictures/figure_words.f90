@@ -64,6 +64,7 @@ module figure_words
 
       !> A figure with arguments.
       module subroutine new_call(word, catalogue, figure, message, hint)
+         implicit none (type, external)
          character(*), intent(in) :: word                       !! a word of the deck
          type(catalogue_t), intent(in) :: catalogue             !! what can be recorded
          type(figure_t), intent(inout) :: figure                !! the figure, its kind is known
