@@ -26,7 +26,7 @@ module spatial_joint
    private
    public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
    public :: element_t, set_joint_frames
-   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t
+   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
    integer, parameter :: is_across = 2   !! two axes at right angles
