@@ -50,7 +50,10 @@ class Joint:
         "spherical": "point", "revolute": "point parallel", "universal": "point cross", "cylindrical": "parallel inline",
         "translational": "parallel turn inline", "screw": "parallel inline screw", "planar": "parallel inplane",
         "rigid": "point parallel turn", "distance": "distance", "revolute_spherical": "inplane distance", "inline": "inline",
-        "inplane": "inplane", "orientation": "parallel turn", "parallel_axes": "parallel", "perpendicular": "cross"}
+        "inplane": "inplane", "orientation": "parallel turn", "parallel_axes": "parallel", "perpendicular": "cross",
+        # driven: the joint first, then a row for each driver
+        "pin and motor": "point parallel motor", "shaft, motor and pusher": "parallel inline motor pusher", "cylinder": "ram"}
+    drivers = {"motor": "angle", "pusher": "position", "ram": "distance"}
 
     def __init__(self, kind, random, pose):
         self.kind = kind
@@ -63,9 +66,10 @@ class Joint:
             z = np.cross(z, random.normal(size=3))
         self.axis_j = rot_j.T @ z
         self.frame.append(frame_of(self.axis_j))
-        if "turn" in self.rows[kind] or "screw" in self.rows[kind]:
+        if any(row in self.rows[kind] for row in ("turn", "screw", "motor")):
             self.frame[1] = rot_j.T @ rot_i @ self.frame[0]
         # the point of j where the rows let it be
+        self.driven = [row for row in self.rows[kind].split() if row in self.drivers]
         span = {"point": np.zeros(3), "inline": 0.3*z, "inplane": 0.3*x}
         d = next((span[row] for row in ("point", "inline", "inplane") if row in self.rows[kind].split()), None)
         if d is not None:
@@ -105,17 +109,49 @@ class Joint:
                 found.append(np.sqrt(dot(d, d)) - self.length)
             if row == "screw":
                 found.append(dot(a[..., 2, :], d) - self.along - PITCH*self.angle(a, b)/(2*np.pi))
+            if row == "motor":
+                found.append(self.angle(a, b))
+            if row == "pusher":
+                found.append(dot(a[..., 2, :], d) - self.along)
+            if row == "ram":
+                found.append(np.sqrt(dot(d, d)) - self.length)
         return np.stack(found, -1)
+
+    def prescribed(self, n, t, derivative):
+        """A derivative of what the n rows follow: in those of drivers 0.4 t + 0.2 sin(3 t) from the start."""
+        follows = np.zeros(n)
+        follows[n - len(self.driven):] = {1: 0.4 + 0.6*np.cos(3*t), 2: -1.8*np.sin(3*t)}[derivative]
+        return follows
+
+    def tables(self):
+        """The joint and its drivers in the deck."""
+        columns = self.columns()
+        words = {"axis_i": columns["axis_i"]} if "axis_i" in columns else {}
+        lines = []
+        joint = {"pin and motor": "revolute", "shaft, motor and pusher": "cylindrical", "cylinder": None}.get(self.kind, self.kind)
+        if joint:
+            lines = [f"[joint.{joint}]", " ".join(["name i j", *columns]), " ".join(["tie p_i p_j", *columns.values()])]
+        for row in self.driven:
+            start = {"motor": 0.0, "pusher": self.along, "ram": self.length}[row]
+            unit = "rad" if row == "motor" else "m"
+            follow = f"{{{float(start)!r}{unit}+0.4{unit}/(1s)*t+0.2{unit}*sin(3rad/(1s)*t)}}"
+            at = ["joint", "tie"] if row == "motor" else ["i j", "p_i p_j"]
+            extra = words if row == "pusher" else {}
+            lines += [f"[driver.{self.drivers[row]}]", " ".join(["name", at[0], *extra, self.drivers[row]]),
+                      " ".join([row, at[1], *extra.values(), follow])]
+        return lines
 
     def columns(self):
         """Of the deck, beside the points."""
-        if self.kind in ("spherical", "distance", "orientation"):
+        if self.kind in ("spherical", "distance", "orientation", "cylinder"):
             return {}
         words = {"axis_i": '"' + " ".join(map(repr, self.axis.tolist())) + '"'}
         if "cross" in self.rows[self.kind]:
             words["axis_j"] = '"' + " ".join(map(repr, self.axis_j.tolist())) + '"'
         if self.kind == "screw":
             words |= {"pitch": f"{PITCH}m", "zero": "start"}
+        if "motor" in self.driven:
+            words["zero"] = "start"
         return words
 
 
@@ -161,7 +197,7 @@ class Scene:
         self.free = np.repeat([not g for g in self.is_ground], 6)
         u = np.where(self.free, random.normal(size=12), 0.0)
         rows = jacobian(self.joint, self.pose)[:, self.free]
-        u[self.free] -= np.linalg.pinv(rows) @ rows @ u[self.free]
+        u[self.free] -= np.linalg.pinv(rows) @ (rows @ u[self.free] - self.joint.prescribed(len(rows), 0.0, 1))
         self.u = u
 
     def springs(self, pose, u):
@@ -175,12 +211,12 @@ class Scene:
         turn = COIL["stiffness"]*(self.joint.angle(a, b) - COIL["free_angle"]) + COIL["damping"]*dot(u[9:] - u[3:6], a[2]) + COIL["preload"]
         return tension*d/length, at, turn*a[2]
 
-    def rates(self, pose, u):
-        """Accelerations, and what the joint does to both bodies."""
+    def rates(self, t, pose, u):
+        """Accelerations, what the joint and its drivers do to both bodies, and what a driver does along its coordinate."""
         rows = jacobian(self.joint, pose)
         h = 1e-4
         gain = [jacobian(self.joint, moved(pose, u, k*h)) @ u for k in (-2, -1, 1, 2)]
-        gamma = -(gain[0] - 8*gain[1] + 8*gain[2] - gain[3])/(12*h)
+        gamma = self.joint.prescribed(len(rows), t, 2) - (gain[0] - 8*gain[1] + 8*gain[2] - gain[3])/(12*h)
         mass, load = np.zeros((12, 12)), np.zeros(12)
         for k in range(2):
             tensor = pose[k][1] @ self.tensor[k] @ pose[k][1].T
@@ -203,16 +239,17 @@ class Scene:
         x = np.linalg.solve(full, np.concatenate([load[free], gamma]))
         a = np.zeros(12)
         a[free] = x[:n]
-        return a, -rows.T @ x[n:]
+        first = m - len(self.joint.driven)
+        return a, -rows[:first].T @ x[n:n + first], -x[n + first:]
 
     def pose_of(self, y):
         """Positions and rotations of a state (r, quaternion, u)."""
         return [self.pose[k] if self.is_ground[k] else (y[7*k:7*k + 3], Rotation.from_quat(y[7*k + 3:7*k + 7]).as_matrix()) for k in range(2)]
 
-    def slope(self, _, y):
+    def slope(self, t, y):
         """Derivative of a state."""
         u = y[14:]
-        a, _ = self.rates(self.pose_of(y), u)
+        a = self.rates(t, self.pose_of(y), u)[0]
         out = []
         for k in range(2):
             q, w = y[7*k + 3:7*k + 7], u[6*k + 3:6*k + 6]
@@ -238,14 +275,12 @@ class Scene:
             numbers = [self.mass[k], t[0, 0], t[1, 1], t[2, 2], -t[0, 1], -t[0, 2], -t[1, 2], *r, q[3], *q[:3], *self.u[6*k:6*k + 6]]
             bodies.append(" ".join([names[k], *(repr(float(x)) for x in numbers)]))
         points = [" ".join([f"p_{c}", names[k], *(repr(float(x)) for x in self.joint.s[k])]) for k, c in enumerate("ij")]
-        columns = self.joint.columns()
         frame = next(name for name in reversed(names) if name != "ground")
         requests, springs = [], []
         if self.has_springs:
             points += [" ".join([f"e_{c}", names[k], *(repr(float(x)) for x in self.ends[k])]) for k, c in enumerate("ij")]
             requests = [f"wire_j wire j p_j {frame}", f"coil_i coil i - {frame}", f"coil_j coil j p_i {frame}"]
-            axis = columns["axis_i"]
-            columns = columns | {"zero": "start"}
+            axis = self.joint.columns()["axis_i"]
             springs = ["[force.spring]", "name i j stiffness[N/m] damping[N.s/m] free_length[m] preload[N]",
                        "wire e_i e_j " + " ".join(map(str, SPRING.values())),
                        "[force.torsion_spring]", "name i j axis_i zero stiffness[N.m/rad] damping[N.m.s/rad] free_angle[rad] preload[N.m]",
@@ -253,9 +288,9 @@ class Scene:
         return "\n".join([
             "deck = 1", "[scene]", 'title = "joint"', "space = spatial", "gravity = " + " ".join(map(repr, GRAVITY.tolist())) + " m/s^2",
             "[bodies]", head, *bodies, "[points]", "name body xi[m] eta[m] zeta[m]", *points,
-            f"[joint.{self.kind}]", " ".join(["name i j", *columns]), " ".join(["tie p_i p_j", *columns.values()]),
-            "[request.reaction]", "name joint on point frame", f"on_j tie j p_j {frame}",
-            *requests, *springs, "[analysis.dynamic]", f"end = {TIMES[-1]} s", "tolerance = 1e-12",
+            *self.joint.tables(), "[request.reaction]", "name joint on point frame",
+            f"on_j {'ram' if self.kind == 'cylinder' else 'tie'} j p_j {frame}", *requests, *springs,
+            "[analysis.dynamic]", f"end = {TIMES[-1]} s", "tolerance = 1e-12",
             "[output]", f"every = {TIMES[1]} s", ""])
 
 
@@ -276,9 +311,9 @@ def test_motion_and_reactions(gudgeon, kind, place):
     """States, accelerations, and the reaction on i and on j."""
     scene, states, run, rows = made(gudgeon, kind, place)
     moving = [k for k in range(2) if not scene.is_ground[k]]
-    for y, row in zip(states, rows):
+    for t, y, row in zip(TIMES, states, rows):
         pose, u = scene.pose_of(y), y[14:]
-        a, load = scene.rates(pose, u)
+        a, load, drives = scene.rates(t, pose, u)
         for n, k in enumerate(moving):
             own = {quantity: run.read(f"bodies/{quantity}")[row, n] for quantity in (
                 "position", "velocity", "acceleration", "angular_velocity", "angular_acceleration", "spin", "orientation")}
@@ -289,8 +324,14 @@ def test_motion_and_reactions(gudgeon, kind, place):
             assert own["acceleration"] == pytest.approx(a[6*k:6*k + 3], rel=1e-8, abs=1e-6)
             assert own["angular_acceleration"] == pytest.approx(a[6*k + 3:6*k + 6], rel=1e-8, abs=1e-6)
             e = own["orientation"]
+            start = Rotation.from_matrix(scene.pose[k][1]).as_quat()
+            assert np.roll(run.read("bodies/orientation")[0, n], -1) == pytest.approx(start, abs=1e-9)
             assert Rotation.from_quat([*e[1:], e[0]]).as_matrix() == pytest.approx(pose[k][1], abs=1e-9)
         at = [r + rot @ s for (r, rot), s in zip(pose, scene.joint.s)]
+        for driver, drive in zip(scene.joint.driven, drives):
+            assert run.item("drivers/" + ("moment" if driver == "motor" else "force"), driver)[row] == pytest.approx(drive, rel=1e-8, abs=1e-6)
+        if kind == "cylinder":
+            continue
         force, moment = load[:3], load[3:6] - np.cross(at[0] - pose[0][0], load[:3])
         assert run.item("joints/force", "tie")[row] == pytest.approx(force, rel=1e-8, abs=1e-6)
         assert run.item("joints/moment", "tie")[row] == pytest.approx(moment, rel=1e-8, abs=1e-6)
