@@ -109,7 +109,7 @@ contains
       type(deck_draft_t), intent(inout) :: draft         !! the deck
       type(statement_t), intent(in) :: statement         !! the statement
       character(*), intent(in) :: kind                   !! of the deck
-      integer, intent(in) :: axis(2)                     !! (2) axes of I and J that the kind has, 1 to 3: z, of HOOKE x of I and y of J
+      integer, intent(in) :: axis(2)                     !! (2) axes of I and J that the kind has, 1 to 3
       integer, intent(in) :: marker(2)                   !! (2) I and J
       character(*), intent(in) :: pitch                  !! of a screw; else blank
 

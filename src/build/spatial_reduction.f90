@@ -80,7 +80,7 @@ contains
       end if
    end function spatial_guide
 
-   !> The sign that a turn against the base must have, so that the body's Euler parameters begin on the side where the deck has them.
+   !> The sign of a turn against the base with which the body's Euler parameters begin on the side where the deck has them.
    pure real(wp) function sign_of(q, p_base, p)
       real(wp), intent(in) :: q(4)        !! (4) Euler parameters of the turn [1]
       real(wp), intent(in) :: p_base(4)   !! (4) those of the base [1]

@@ -26,7 +26,7 @@ contains
       f = -f_n*contact%normal + f_t*contact%tangent
    end function spatial_force
 
-   !> Sliding velocity of a contact at its arms, and its direction; normals may have any length, and none is a contact that is not there.
+   !> Sliding velocity of a contact at its arms, and its direction; normals may have any length, none where there is no contact.
    pure subroutine set_sliding(motion, i, j, contact)
       type(motion_t), intent(in) :: motion             !! positions and velocities
       integer, intent(in) :: i                         !! body i

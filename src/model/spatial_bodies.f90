@@ -208,8 +208,8 @@ contains
       end associate
    end subroutine new_spatial_bodies
 
-   !> Whether Euler parameters of the principal axes, of either sign, give the own axes others than the row has: those that it gives,
-   !> or else e0, or the first that is not zero, positive.
+   !> Whether Euler parameters of the principal axes, of either sign, give the own axes others than the row has: those that it
+   !> gives, or else e0, or the first that is not zero, positive.
    logical function is_turned_round(item, p, own)
       type(item_t), intent(in) :: item      !! the row
       real(wp), intent(in) :: p(4)          !! (4) of the principal axes [1]
