@@ -10,7 +10,7 @@ module spatial_torsion_spring
    use bodies, only: points_t
    use force_set, only: force_set_t
    use item, only: item_t
-   use joint_frames, only: add_zero_column, find_frames, from_start
+   use joint_frames, only: add_zero_columns, find_frames, from_start
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
    use memory, only: get, put
@@ -32,6 +32,7 @@ module spatial_torsion_spring
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
       type(spring_law_t), allocatable :: law(:)     !! (n) moment over angle and its rate, and actuator
       real(wp), allocatable :: axis(:, :, :)        !! (3, 2, n) axes of i and j as in the deck; zero: left out [1]
+      real(wp), allocatable :: across(:, :, :)      !! (3, 2, n) x of i and of j as in the deck; zero: left out [1]
       logical, allocatable :: from_start(:)         !! (n) the angle is zero where the deck puts the bodies
       real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) frames of the axes, frames of the bodies [1]
       real(wp), allocatable :: near(:)              !! (n) angle at the end of the last step [rad]
@@ -66,7 +67,7 @@ contains
       call add_reference(info, "j", "bodies", "second body")
       call add_direction(info, "axis_i", "axis, in the frame of body i", default='"0 0 1"')
       call add_direction(info, "axis_j", "axis, in the frame of body j; left out: as the deck puts the bodies", default="")
-      call add_zero_column(info)
+      call add_zero_columns(info)
       call add_turning_law(info)
       call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis", of_moment)
       call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted", of_angle)
@@ -84,13 +85,15 @@ contains
 
       self%n = size(items)
       allocate (self%names(self%n), self%body(2, self%n), self%law(self%n), self%from_start(self%n))
-      allocate (self%axis(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
+      allocate (self%axis(3, 2, self%n), self%across(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
       do k = 1, self%n
          associate (item => items(k))
             self%names(k)%s = items(k)%name
             self%body(:, k) = [item%reference("i"), item%reference("j")]
             self%axis(:, 1, k) = item%direction("axis_i")
             self%axis(:, 2, k) = item%direction("axis_j")
+            self%across(:, 1, k) = item%direction("x_i")
+            self%across(:, 2, k) = item%direction("x_j")
             self%from_start(k) = item%word("zero") == from_start
             call self%law(k)%prepare(item, "free_angle")
          end associate
@@ -106,7 +109,7 @@ contains
 
       do k = 1, self%n
          call find_frames(motion, self%body(:, k), self%axis(:, 1, k), self%axis(:, 2, k), self%from_start(k), &
-                          self%frame(:, :, 1, k), self%frame(:, :, 2, k))
+                          self%frame(:, :, 1, k), self%frame(:, :, 2, k), self%across(:, :, k))
       end do
       call self%follow(motion)
    end subroutine torsion_set_start

@@ -44,6 +44,8 @@ def run(program, tables, columns="", cells="", expect=0):
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "1 0 0" 5\n', "the axes of 'coil' are not parallel"),
     (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 -1 0" 5\n', "the axes of 'coil' are not parallel"),
     ('[joint.revolute]\nname i j axis_i\npin wall near "0 0 0"\n', "all numbers are zero"),
+    ('[joint.revolute]\nname i j axis_i x_i\npin wall near "0 1 0" "0 -2 0"\n', "the reference direction of 'pin' lies along its axis"),
+    (PIN + '[force.torsion_spring]\nname i j axis_i x_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 1 0" 5\n', "the reference direction of 'coil' lies"),
 ])
 def test_told(gudgeon_debug, tables, words):
     """What cannot be put together is told by name."""

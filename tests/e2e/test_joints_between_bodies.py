@@ -403,3 +403,35 @@ def test_springs(gudgeon, place):
         assert run.item("reactions/moment", "coil_i")[row] == pytest.approx(moment @ own, abs=1e-7)
         assert run.item("reactions/moment", "coil_j")[row] == pytest.approx(-moment @ own, abs=1e-7)
         assert np.all(run.item("reactions/force", "coil_j")[row] == 0)
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("kind", ["revolute", "cylindrical", "planar"])
+def test_reference_directions(gudgeon, kind, place):
+    """Angles from one direction to the other, neither quite across the axis, as between the x axes of two markers; and the reaction
+    along the first."""
+    scene = Scene(kind, place)
+    random = np.random.default_rng(5)
+    given = random.normal(size=(2, 3))
+    axes = []
+    for x, frame in zip(given, scene.joint.frame):
+        z = frame[:, 2]
+        x = x - dot(x, z)*z
+        axes.append(np.stack([x, np.cross(z, x), z*np.linalg.norm(x)], axis=1)/np.linalg.norm(x))
+    directory = scratch()
+    extra = " ".join('"' + " ".join(map(repr, x.tolist())) + '"' for x in given)
+    axis = scene.joint.columns()["axis_i"]
+    text = scene.deck().replace("name i j axis_i\n", "name i j axis_i x_i x_j\n").replace(f"tie p_i p_j {axis}", f"tie p_i p_j {axis} {extra}")
+    assert extra in text
+    call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
+    run = Run(directory / "out")
+    for row in range(len(run.time)):
+        rot = [np.eye(3), np.eye(3)]
+        for n, k in enumerate(k for k in range(2) if not scene.is_ground[k]):
+            e = run.read("bodies/orientation")[row, n]
+            rot[k] = Rotation.from_quat([*e[1:], e[0]]).as_matrix()
+        own = rot[0] @ axes[0]
+        x = rot[1] @ axes[1][:, 0]
+        assert run.item("joints/angle", "tie")[row] == pytest.approx(np.arctan2(dot(x, own[:, 1]), dot(x, own[:, 0])), abs=1e-8)
+        for quantity in ("force", "moment"):
+            assert run.item(f"joints/joint_{quantity}", "tie")[row] == pytest.approx(run.item(f"joints/{quantity}", "tie")[row] @ own, abs=1e-9)
