@@ -38,8 +38,7 @@ contains
       logical, intent(in) :: is_held         !! x of j is that of i
       real(wp), intent(out) :: frame_i(3, 3) !! (3, 3) axes x, y, z as columns, frame of body i [1]
       real(wp), intent(out) :: frame_j(3, 3) !! (3, 3) axes x, y, z as columns, frame of body j [1]
-      real(wp), intent(in), optional :: across(3, 2)
-         !! (3, 2) directions of x along the own axes of i and of j, as in the deck; zero: left out [1]
+      real(wp), intent(in), optional :: across(3, 2) !! (3, 2) x along the own axes of i and of j; zero: left out [1]
 
       real(wp) :: axis(3)
 
