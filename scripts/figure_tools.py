@@ -43,9 +43,11 @@ def start(default, title):
     return str(pathlib.Path(sys.argv[1]).resolve()), directory, figures
 
 
-def deck_text(deck, changes):
-    """A deck without figures of its own and with the changes {section: {key: value}}; what is not there is added."""
+def deck_text(deck, changes, renamed):
+    """A deck without figures of its own, some tables renamed, and with the changes {section: {key: value}}; what is not there is added."""
     text = deck.read_text()
+    for old, new in renamed.items():
+        text = text.replace(f"[{old}]", f"[{new}]")
     changes = {**changes, "output": {"figures": None, **changes.get("output", {})}}
     for section, settings in changes.items():
         if f"[{section}]" not in text:
@@ -98,12 +100,13 @@ class Run:
 
 @dataclasses.dataclass
 class Case:
-    """A run to be made: parameters of the deck, changes of its settings, other words of the command line."""
+    """A run to be made: parameters of the deck, changes of its settings, other words of the command line, tables that become others."""
 
     deck: pathlib.Path
     parameters: dict = dataclasses.field(default_factory=dict)
     changes: dict = dataclasses.field(default_factory=dict)
     options: tuple = ()
+    renamed: dict = dataclasses.field(default_factory=dict)
 
 
 def run_all(program, directory, cases):
@@ -112,7 +115,7 @@ def run_all(program, directory, cases):
     def one(name):
         case = cases[name]
         deck = directory / f"{name}.deck"
-        deck.write_text(deck_text(case.deck, case.changes))
+        deck.write_text(deck_text(case.deck, case.changes, case.renamed))
         settings = [word for key, value in case.parameters.items() for word in ("--set", f"{key}={value}")]
         command = [program, "run", str(deck), "--out", str(directory / name), "--quiet", *settings, *case.options]
         done = subprocess.run(command, text=True, capture_output=True)

@@ -7,6 +7,7 @@
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: those of `adams_model`, `adams_joints`,
 !> `adams_forces`.
 module adams_deck
+   use adams_constraints, only: add_constraints
    use adams_forces, only: add_forces
    use adams_gears, only: add_gears
    use adams_joints, only: add_joints, add_primitives
@@ -65,6 +66,7 @@ contains
       call add_bodies(model, draft, mistakes)
       call add_joints(model, draft, mistakes)
       call add_primitives(model, draft, mistakes)
+      call add_constraints(model, draft)
       call add_gears(model, draft, mistakes)
       call add_motions(model, draft, mistakes)
       call add_forces(model, draft, mistakes)

@@ -71,7 +71,7 @@ contains
       real(wp) :: c, force, free, k, moment
 
       associate (u => model%units)
-         if (has_word(statement, "ROTATION", 2)) then
+         if (has_word(statement, "ROTATIONAL", 2)) then
             moment = u%force*u%length
             k = number("KT", 2)*moment
             c = number("CT", 2)*moment*u%time
@@ -178,7 +178,7 @@ contains
          call leave_out(model, statement, "it has no FUNCTION")
          return
       end if
-      turns = has_word(statement, "ROTATION", 1)
+      turns = has_word(statement, "ROTATIONAL", 1)
       is_alone = has_word(statement, "ACTIONONLY", 2)
       start = norm2(model%place(marker(1)) - model%place(marker(2)))/model%units%length
       if (turns) start = angle_at_start(model, marker)

@@ -32,7 +32,7 @@ contains
                                                  "UNIVERSAL", "HOOKE", "PLANAR", "FIXED"]
       character(13), parameter :: deck(8) = [character(13) :: "revolute", "translational", "cylindrical", "spherical", &
                                                 "universal", "universal", "planar", "rigid"]
-      integer :: i, k, marker(2)
+      integer :: axis(2), i, k, marker(2)
 
       allocate (draft%joints(0))
       do k = 1, size(model%statements)
@@ -53,7 +53,9 @@ contains
                call model%changed%add("line "//to_text(it%line)//": JOINT/"//to_text(it%id)// &
                                       " (cylindrical) and the screw on the same axis are one joint.screw")
             else
-               call add_joint(model, draft, it, "joint."//trim(deck(i)), merge(1, 3, trim(adams(i)) == "HOOKE"), marker, "")
+               axis = 3
+               if (trim(adams(i)) == "HOOKE") axis = [1, 2]
+               call add_joint(model, draft, it, "joint."//trim(deck(i)), axis, marker, "")
                call add_start(model, draft, it, mistakes)
             end if
          end associate
@@ -67,7 +69,7 @@ contains
 
       reason = "a deck's space has no such joint ("//word//")"
       if (index(word, "CO") == 1) reason = reason//": no joint keeps equal speeds at any angle; joint.universal does not"
-      if (index(word, "RA") == 1) reason = reason//": a rack and its pinion are a joint of the plane, joint.rack"
+      if (index(word, "RA") == 1) reason = "it is not translated; joint.rack has a rack and its pinion"
    end function no_joint
 
    !> The first word of a statement that has no value.
@@ -107,7 +109,7 @@ contains
       type(deck_draft_t), intent(inout) :: draft         !! the deck
       type(statement_t), intent(in) :: statement         !! the statement
       character(*), intent(in) :: kind                   !! of the deck
-      integer, intent(in) :: axis                        !! axis of both markers that the kind has, 1 or 3
+      integer, intent(in) :: axis(2)                     !! (2) axes of I and J that the kind has, 1 to 3
       integer, intent(in) :: marker(2)                   !! (2) I and J
       character(*), intent(in) :: pitch                  !! of a screw; else blank
 
@@ -127,13 +129,14 @@ contains
       case ("joint.spherical")
          continue
       case ("joint.rigid", "joint.orientation", "joint.translational")
-         if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis))
+         if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
          if (maxval(abs(a - b)) > same) call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"// &
             to_text(statement%id)//" holds the orientation that the dataset begins with, in which I and J differ")
       case default
-         axis_i = direction_cell(body_axis(model, marker(2), axis))
-         x = body_axis(model, marker(1), axis)
-         if (kind /= "joint.universal" .and. kind /= "joint.perpendicular" .and. dot_product(a(:, axis), b(:, axis)) < 0.0_wp) then
+         axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
+         x = body_axis(model, marker(1), axis(1))
+         if (kind /= "joint.universal" .and. kind /= "joint.perpendicular" .and. &
+             dot_product(a(:, axis(1)), b(:, axis(2))) < 0.0_wp) then
             x = -x
             call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"//to_text(statement%id)// &
                                    ": the axes z of I and J are opposed; that of I is turned over")
@@ -171,7 +174,7 @@ contains
          call mistake(mistakes, statement%line, "a screw has a PITCH", "")
          return
       end if
-      call add_joint(model, draft, statement, "joint.screw", 3, marker, exact_text(pitch(1)*model%units%length)//"m")
+      call add_joint(model, draft, statement, "joint.screw", [3, 3], marker, exact_text(pitch(1)*model%units%length)//"m")
       if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
          to_text(statement%id)//" (screw) holds its axis too, as there is no cylindrical joint beside it")
       call add_start(model, draft, statement, mistakes)
@@ -302,7 +305,7 @@ contains
             if (i > size(adams)) then
                call leave_out(model, it, "a deck's space has no such primitive ("//first_word(it)//")")
             else
-               call add_joint(model, draft, it, "joint."//trim(deck(i)), 3, marker, "")
+               call add_joint(model, draft, it, "joint."//trim(deck(i)), [3, 3], marker, "")
             end if
          end associate
       end do

@@ -17,7 +17,7 @@ module adams_measures
    use text, only: real_text, to_text
    implicit none (type, external)
    private
-   public :: name_measures
+   public :: markers_of, name_measures
 
    character(*), parameter :: axes = "XYZ"           !! last letter of a component
    integer, parameter :: most_seen = 12              !! words of motion that an expression of a deck may have

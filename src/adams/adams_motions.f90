@@ -56,7 +56,7 @@ contains
             end if
             marker = draft%joints(i)%marker
             turns = draft%joints(i)%kind == "joint.revolute" .or. &
-                    (draft%joints(i)%kind == "joint.cylindrical" .and. has_word(it, "ROTATION", 1))
+                    (draft%joints(i)%kind == "joint.cylindrical" .and. has_word(it, "ROTATIONAL", 1))
             if (turns) then
                call add_turn(model, draft, it, draft%joints(i)%name, marker, mistakes)
             else if (draft%joints(i)%kind == "joint.translational" .or. draft%joints(i)%kind == "joint.cylindrical") then

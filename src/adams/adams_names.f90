@@ -10,12 +10,12 @@ module adams_names
    public :: full_names, is_refused, is_setting, is_understood, reason_against
 
    character(*), parameter :: understood = &
-      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE"
+      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE GCON"
    character(*), parameter :: refused = "BEAM FIELD NFORCE FLEX_BODY FE_PART FEMDATA"   !! elastic bodies
    character(*), parameter :: settings = "DEBUG EQUILIBRIUM GRAPHICS IC INTEGRATOR KINEMATICS LSOLVER OUTPUT PREFERENCES " &
       //"REQUEST MREQUEST RESULTS TITLE LIST MATERIAL"   !! no part of the mechanism
    character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY BUSHING CONTACT CURVE CVCV CVSF DIFF DV END " &
-      //"FRICTION FORCE GCON GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF SPLINE " &
+      //"FRICTION FORCE GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF SPLINE " &
       //"STRING SURFACE TFSISO TIRE UCON USERCON"
 
 contains
@@ -77,7 +77,8 @@ contains
       case ("CVCV", "PTCV", "CVSF", "PTSF", "SFSF", "SURFACE"); reason = "a deck has no curves and surfaces that touch"
       case ("DIFF", "GSE", "LSE", "TFSISO", "DV", "PINPUT", "POUTPUT", "SENSOR", "RULE")
          reason = "a deck has no equations of one's own, and no control"
-      case ("UCON", "USERCON", "GCON"); reason = "a deck has no constraints of one's own"
+      case ("UCON", "USERCON"); reason = "a deck has no constraints of one's own"
+      case ("GCON"); reason = "a deck has no constraints of one's own, but distances"
       case ("POINT_MASS"); reason = "a deck has bodies with inertia only"
       case ("TIRE", "FORCE"); reason = "it is code outside the dataset"
       case default; reason = "a deck has no such thing"

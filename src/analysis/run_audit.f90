@@ -12,6 +12,7 @@ module run_audit
    public :: audit, limits_t, warn_of_errors
 
    real(wp), parameter :: careful_energy = 1.0e-3_wp     !! residual of the largest energy that is worth a warning [1]
+   real(wp), parameter :: noise = 1.0e3_wp               !! round-off of the ledger, in spacings of what it adds up [1]
    real(wp), parameter :: careful_violation = 1.0e-4_wp  !! violation, of the size of the bodies or a radian, that is [1]
 
    !> What the results must fulfil, and what ends a run before its end.
@@ -26,16 +27,18 @@ module run_audit
 contains
 
    !> What a careful reader of the results should know.
-   subroutine warn_of_errors(system, worst, worst_row, lost, summary)
+   subroutine warn_of_errors(system, worst, worst_row, lost, added, summary)
       type(mechanism_t), intent(in) :: system  !! the system
       real(wp), intent(in) :: worst                !! greatest violation, over the size of the bodies or one radian [1]
       integer, intent(in) :: worst_row             !! the row it belongs to
       real(wp), intent(in) :: lost                 !! least that contacts had lost: negative, they made energy [J]
+      real(wp), intent(in) :: added                !! magnitude of what the ledger adds up [J]
       type(summary_t), intent(inout) :: summary    !! warnings are added to it
 
       if (system%ledger%is_kept) then  ! else the residual is a NaN, which must not be compared
          associate (quality => summary%quality)
-            if (quality%energy_residual_max > careful_energy*quality%energy_max .and. quality%energy_max > 0.0_wp) then
+            if (quality%energy_residual_max > careful_energy*quality%energy_max .and. &
+                .not. is_round_off(quality%energy_residual_max, added)) then
                call append_text(summary%warnings, "the energy ledger does not close: its residual reached "// &
                                 real_text(quality%energy_residual_max/quality%energy_max, 3)// &
                                 " of the largest energy; try a smaller tolerance")
@@ -55,14 +58,24 @@ contains
       end if
    end subroutine warn_of_errors
 
+   !> Whether a residual of the ledger is the round-off of what it adds up: all there is where nothing moves.
+   pure logical function is_round_off(residual, added)
+      real(wp), intent(in) :: residual   !! greatest of the run [J]
+      real(wp), intent(in) :: added      !! magnitude of what the ledger adds up [J]
+
+      is_round_off = residual <= noise*epsilon(1.0_wp)*added
+   end function is_round_off
+
    !> Compare the results with the deck's limits.
-   subroutine audit(summary, limits, error)
+   subroutine audit(summary, added, limits, error)
       type(summary_t), intent(in) :: summary             !! results
+      real(wp), intent(in) :: added                      !! magnitude of what the ledger adds up [J]
       type(limits_t), intent(in) :: limits               !! limits
       type(error_t), allocatable, intent(out) :: error   !! a limit is exceeded
 
       if (limits%energy > 0.0_wp .and. summary%quality%has_ledger) then
-         if (.not. summary%quality%energy_residual_max <= limits%energy*summary%quality%energy_max) then
+         if (.not. (summary%quality%energy_residual_max <= limits%energy*summary%quality%energy_max .or. &
+                    is_round_off(summary%quality%energy_residual_max, added))) then
             call set_error(error, exit_audit, "audit failed: the ledger's residual reached "// &
                            real_text(summary%quality%energy_residual_max/summary%quality%energy_max, 3)// &
                            " of the largest energy, allowed are "//real_text(limits%energy, 3)//new_line("a")// &

@@ -63,10 +63,10 @@ contains
       if (.not. summary%quality%has_ledger) summary%quality%energy_residual_max = not_a_number()
       summary%quality%violation_max = tally%violation_max
       summary%quality%violation_rate_max = tally%violation_rate_max
-      if (.not. allocated(error)) call audit(summary, limits, error)
+      if (.not. allocated(error)) call audit(summary, tally%magnitude, limits, error)
       worst = maxloc(whole%parts%worst, dim=1)
       call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%worst, whole%parts(worst)%worst_row, &
-                          tally%least_lost, summary)
+                          tally%least_lost, tally%magnitude, summary)
       do p = 1, size(whole%parts)
          call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
       end do

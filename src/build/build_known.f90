@@ -6,6 +6,7 @@
 module build_known
    use find_guided, only: find_guided_bodies, guide_t
    use find_known, only: find_known_bodies, link_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use item, only: place_of
    use joint_registry, only: n_joint_kinds
    use joint_set, only: joint_set_t
@@ -102,6 +103,7 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! known bodies are set; joints are there
 
       class(known_bodies_t), allocatable :: known
+      real(wp) :: rise, speed, x(size(links))
       integer :: item(size(links)), k, slot(size(links))
 
       if (scene%settings%is_spatial) then
@@ -124,7 +126,15 @@ contains
       type is (planar_known_t)
          known%item = [(planar_link(linkage%joints(slot(k))%set, item(k), known%held(k), start_angles(scene)), k=1, known%n)]
       type is (spatial_known_t)
-         known%item = [(spatial_link(linkage%joints(slot(k))%set, item(k), known%held(k)), k=1, known%n)]
+         x = 0.0_wp
+         do k = 1, known%n
+            associate (held => known%held(k))
+               if (held%slot > 0) call linkage%joints(held%slot)%set%prescription(held%item, 0.0_wp, x(k), speed, rise)
+               if (.not. ieee_is_finite(x(k))) x(k) = 0.0_wp  ! which the start will tell
+            end associate
+         end do
+         known%item = [(spatial_link(linkage%joints(slot(k))%set, item(k), known%held(k), x(k), linkage%motion%spatial%p), &
+                         k=1, known%n)]
       end select
       allocate (linkage%reduced%is_known(linkage%bodies%n), source=.false.)
       linkage%reduced%is_known(links%body) = .true.
@@ -162,7 +172,7 @@ contains
                                       start_angles(scene), linkage%mass(:, guided%held(k)%body)), k=1, guided%n)]
       type is (spatial_guided_t)
          guided%item = [(spatial_guide(linkage%joints(slot(k))%set, item(k), guided%held(k), k > guided%n_turning, &
-                                       linkage%mass(:, guided%held(k)%body)), k=1, guided%n)]
+                                       linkage%mass(:, guided%held(k)%body), linkage%motion%spatial%p), k=1, guided%n)]
       end select
       call move_alloc(guided, linkage%reduced%guided)
    end subroutine set_guided

@@ -28,51 +28,66 @@ module spatial_reduction
 contains
 
    !> A known body, held by a revolute joint with its driver, or by a rigid joint.
-   function spatial_link(set, k, held) result(link)
+   function spatial_link(set, k, held, x, p) result(link)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item
       type(held_t), intent(in) :: held        !! how the body is held
+      real(wp), intent(in) :: x               !! angle of the driver at the start [rad]
+      real(wp), intent(in) :: p(:, 0:)        !! (4, 0:bodies) Euler parameters where the deck puts the bodies [1]
       type(spatial_link_t) :: link            !! what the kernel needs
 
       type(seen_joint_t) :: seen
-      real(wp) :: sense
+      real(wp) :: sense, sign
 
       seen = seen_from(set, k, held%side)
       link%s_body = seen%s_body
       link%s_base = seen%s_base
-      link%q_0 = seen%q_0
-      if (held%slot == 0) return
       sense = merge(1.0_wp, -1.0_wp, held%side == 2)
-      link%q_1 = sense*seen%q_1
+      sign = sign_of(cos(0.5_wp*x)*seen%q_0 + sense*sin(0.5_wp*x)*seen%q_1, p(:, held%base), p(:, held%body))
+      link%q_0 = sign*seen%q_0
+      if (held%slot == 0) return
+      link%q_1 = sign*sense*seen%q_1
       link%axis = sense*seen%in_body(:, 3)
    end function spatial_link
 
    !> A guided body, held by a revolute or a translational joint.
-   function spatial_guide(set, k, held, slides, mass) result(guide)
+   function spatial_guide(set, k, held, slides, mass, p) result(guide)
       class(joint_set_t), intent(in) :: set   !! the joint's set
       integer, intent(in) :: k                !! its item
       type(held_t), intent(in) :: held        !! how the body is held
       logical, intent(in) :: slides           !! whether the joint leaves a way, not a turn
       real(wp), intent(in) :: mass(6)         !! (6) masses of the body [kg and kg.m^2]
+      real(wp), intent(in) :: p(:, 0:)        !! (4, 0:bodies) Euler parameters where the deck puts the bodies [1]
       type(spatial_guide_t) :: guide          !! what the kernel needs
 
       type(seen_joint_t) :: seen
+      real(wp) :: sign
 
       seen = seen_from(set, k, held%side)
+      sign = sign_of(seen%q_0, p(:, held%base), p(:, held%body))  ! the coordinate begins within half a turn of zero
       guide%mass = mass
-      guide%q_0 = seen%q_0
+      guide%q_0 = sign*seen%q_0
       if (slides) then
          guide%way = seen%in_base(:, 3)
          guide%s_base = seen%s_base - matmul(seen%in_base, matmul(seen%s_body, seen%in_body))
          guide%ease = 1.0_wp/mass(1)
       else
-         guide%q_1 = seen%q_1
+         guide%q_1 = sign*seen%q_1
          guide%turn = seen%in_body(:, 3)
          guide%way = -seen%s_body
          guide%s_base = seen%s_base
          guide%ease = 1.0_wp/(dot_product(guide%turn, mass(4:)*guide%turn) + mass(1)*sum(cross(guide%turn, guide%way)**2))
       end if
    end function spatial_guide
+
+   !> The sign of a turn against the base with which the body's Euler parameters begin on the side where the deck has them.
+   pure real(wp) function sign_of(q, p_base, p)
+      real(wp), intent(in) :: q(4)        !! (4) Euler parameters of the turn [1]
+      real(wp), intent(in) :: p_base(4)   !! (4) those of the base [1]
+      real(wp), intent(in) :: p(4)        !! (4) those of the body [1]
+
+      sign_of = merge(-1.0_wp, 1.0_wp, dot_product(product_of(p_base, q), p) < 0.0_wp)
+   end function sign_of
 
    !> A joint as seen from one of its bodies.
    function seen_from(set, k, side) result(seen)

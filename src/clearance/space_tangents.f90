@@ -26,18 +26,22 @@ contains
       f = -f_n*contact%normal + f_t*contact%tangent
    end function spatial_force
 
-   !> Sliding velocity of a contact at its arms, and its direction; normals may have any length.
+   !> Sliding velocity of a contact at its arms, and its direction; normals may have any length, none where there is no contact.
    pure subroutine set_sliding(motion, i, j, contact)
       type(motion_t), intent(in) :: motion             !! positions and velocities
       integer, intent(in) :: i                         !! body i
       integer, intent(in) :: j                         !! body j
       type(point_contact_t), intent(inout) :: contact  !! normal and arms; sliding velocities and t are set
 
-      real(wp) :: slip(3), speed
+      real(wp) :: slip(3), speed, square
 
+      square = dot_product(contact%normal, contact%normal)
       slip = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
-      slip = slip - dot_product(slip, contact%normal)/dot_product(contact%normal, contact%normal)*contact%normal
-      speed = norm2(slip)
+      speed = 0.0_wp
+      if (square > 0.0_wp) then
+         slip = slip - dot_product(slip, contact%normal)/square*contact%normal
+         speed = norm2(slip)
+      end if
       contact%v_t = speed
       contact%v_t_work = speed
       contact%tangent = 0.0_wp

@@ -60,6 +60,7 @@ contains
             if (way == "procedure1") then
                call put_word(settings, "contact_onset", "interpolate")
                if (allocated(onset%options)) deallocate (onset%options)
+               allocate (onset%options(0))
             else if (onset%text /= "reject") then
                call put_word(settings, "contact_onset", "reject")
                if (allocated(onset%options)) deallocate (onset%options)

@@ -127,7 +127,7 @@ contains
       number = self%values(place_of(self, name))%number
    end function item_number
 
-   !> The direction in a column, as it stands; zero where the column is left open.
+   !> The direction in a column, its greatest component one, so that its length can be found; zero where the column is left open.
    pure function item_direction(self, name) result(x)
       class(item_t), intent(in) :: self   !! the row
       character(*), intent(in) :: name    !! the column
@@ -138,6 +138,7 @@ contains
          if (.not. allocated(value%table)) return
          if (size(value%table) == 3) x = value%table(:, 1)
       end associate
+      if (any(abs(x) > 0.0_wp)) x = x/maxval(abs(x))
    end function item_direction
 
    !> The word in a column.

@@ -27,6 +27,7 @@ module force_set
       procedure :: follow => force_follow
       procedure :: elastic_energy => force_elastic_energy
       procedure :: lost_power => force_lost_power
+      procedure :: load_on => force_load_on
       procedure, nopass :: memory_version => force_memory_version
       procedure :: memory_size => force_memory_size
       procedure :: save => force_save
@@ -116,6 +117,22 @@ contains
 
       power = 0.0_wp*size(motion%angle)*self%n
    end function force_lost_power
+
+   !> Load of an item on one of its two bodies: none, unless the kind acts between two. No allocation.
+   subroutine force_load_on(self, k, side, t, motion, force, moment, place)
+      class(force_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      integer, intent(in) :: side             !! 1: on the body of i, 2: on that of j
+      real(wp), intent(in) :: t               !! time [s]
+      type(motion_t), intent(in) :: motion    !! positions and velocities
+      real(wp), intent(out) :: force(3)       !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)      !! (3) about the place, world frame [N.m]
+      real(wp), intent(out) :: place(3)       !! (3) where it is told, world frame [m]
+
+      force = 0.0_wp
+      moment = 0.0_wp
+      place = motion%r(:, 0)
+   end subroutine force_load_on
 
    !> Version of the form of what the set saves; a kind that changes it says so.
    pure integer function force_memory_version() result(version)

@@ -46,6 +46,7 @@ module force_spring
       procedure :: evaluate => spring_evaluate
       procedure :: elastic_energy => spring_elastic_energy
       procedure :: lost_power => spring_lost_power
+      procedure :: load_on => spring_load_on
       procedure :: report => spring_report
       procedure :: bodies_of => spring_bodies
    end type force_spring_t
@@ -169,6 +170,30 @@ contains
          power = power + self%law(k)%lost_power(rate)
       end do
    end function spring_lost_power
+
+   !> Load of an item on the body of i or j, at its point.
+   subroutine spring_load_on(self, k, side, t, motion, force, moment, place)
+      class(force_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      integer, intent(in) :: side                !! 1: on the body of i, 2: on that of j
+      real(wp), intent(in) :: t                  !! time [s]
+      type(motion_t), intent(in) :: motion       !! positions and velocities
+      real(wp), intent(out) :: force(3)          !! (3) world frame [N]
+      real(wp), intent(out) :: moment(3)         !! (3) about the point: none [N.m]
+      real(wp), intent(out) :: place(3)          !! (3) the point, world frame [m]
+
+      real(wp) :: actuator, length, rate, tension, u(3)
+
+      call tension_of(self, k, t, motion, u, length, rate, tension, actuator)
+      moment = 0.0_wp
+      if (side == 1) then
+         force = tension*u
+         place = point_position(motion, self%body(1, k), self%s_i(:, k))
+      else
+         force = -tension*u
+         place = point_position(motion, self%body(2, k), self%s_j(:, k))
+      end if
+   end subroutine spring_load_on
 
    !> Values of a channel for all items.
    subroutine spring_report(self, code, t, motion, values)

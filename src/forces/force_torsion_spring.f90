@@ -39,6 +39,7 @@ module force_torsion_spring
       procedure :: evaluate => torsion_evaluate
       procedure :: elastic_energy => torsion_elastic_energy
       procedure :: lost_power => torsion_lost_power
+      procedure :: load_on => torsion_load_on
       procedure :: report => torsion_report
       procedure :: bodies_of => torsion_bodies
    end type force_torsion_spring_t
@@ -145,6 +146,26 @@ contains
          power = power + self%law(k)%lost_power(motion%omega(3, self%body(2, k)) - motion%omega(3, self%body(1, k)))
       end do
    end function torsion_lost_power
+
+   !> Moment of an item on the body of i or j.
+   subroutine torsion_load_on(self, k, side, t, motion, force, moment, place)
+      class(force_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                           !! item
+      integer, intent(in) :: side                        !! 1: on the body of i, 2: on that of j
+      real(wp), intent(in) :: t                          !! time [s]
+      type(motion_t), intent(in) :: motion               !! positions and velocities
+      real(wp), intent(out) :: force(3)                  !! (3) none [N]
+      real(wp), intent(out) :: moment(3)                 !! (3) world frame [N.m]
+      real(wp), intent(out) :: place(3)                  !! (3) centre of mass: any place will do [m]
+
+      real(wp) :: actuator, angle, rate
+
+      force = 0.0_wp
+      moment = 0.0_wp
+      call moment_of(self, k, t, motion, angle, rate, moment(3), actuator)
+      if (side == 2) moment = -moment
+      place = motion%r(:, self%body(side, k))
+   end subroutine torsion_load_on
 
    !> Values of a channel for all items.
    subroutine torsion_report(self, code, t, motion, values)

@@ -10,7 +10,7 @@ module spatial_torsion_spring
    use bodies, only: points_t
    use force_set, only: force_set_t
    use item, only: item_t
-   use joint_frames, only: add_zero_column, find_frames, from_start
+   use joint_frames, only: add_zero_columns, find_frames, from_start
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
    use memory, only: get, put
@@ -32,6 +32,7 @@ module spatial_torsion_spring
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
       type(spring_law_t), allocatable :: law(:)     !! (n) moment over angle and its rate, and actuator
       real(wp), allocatable :: axis(:, :, :)        !! (3, 2, n) axes of i and j as in the deck; zero: left out [1]
+      real(wp), allocatable :: across(:, :, :)      !! (3, 2, n) x of i and of j as in the deck; zero: left out [1]
       logical, allocatable :: from_start(:)         !! (n) the angle is zero where the deck puts the bodies
       real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) frames of the axes, frames of the bodies [1]
       real(wp), allocatable :: near(:)              !! (n) angle at the end of the last step [rad]
@@ -43,6 +44,7 @@ module spatial_torsion_spring
       procedure :: evaluate => torsion_evaluate
       procedure :: elastic_energy => torsion_elastic_energy
       procedure :: lost_power => torsion_lost_power
+      procedure :: load_on => torsion_load_on
       procedure :: report => torsion_report
       procedure :: bodies_of => torsion_bodies
       procedure :: memory_size => torsion_memory_size
@@ -65,7 +67,7 @@ contains
       call add_reference(info, "j", "bodies", "second body")
       call add_direction(info, "axis_i", "axis, in the frame of body i", default='"0 0 1"')
       call add_direction(info, "axis_j", "axis, in the frame of body j; left out: as the deck puts the bodies", default="")
-      call add_zero_column(info)
+      call add_zero_columns(info)
       call add_turning_law(info)
       call add_channel(info, "moment", "N.m", "joint", 1, "moment on the body of i about the axis", of_moment)
       call add_channel(info, "angle", "rad", "joint", 1, "angle of j relative to i about the axis, turns counted", of_angle)
@@ -83,13 +85,15 @@ contains
 
       self%n = size(items)
       allocate (self%names(self%n), self%body(2, self%n), self%law(self%n), self%from_start(self%n))
-      allocate (self%axis(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
+      allocate (self%axis(3, 2, self%n), self%across(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
       do k = 1, self%n
          associate (item => items(k))
             self%names(k)%s = items(k)%name
             self%body(:, k) = [item%reference("i"), item%reference("j")]
             self%axis(:, 1, k) = item%direction("axis_i")
             self%axis(:, 2, k) = item%direction("axis_j")
+            self%across(:, 1, k) = item%direction("x_i")
+            self%across(:, 2, k) = item%direction("x_j")
             self%from_start(k) = item%word("zero") == from_start
             call self%law(k)%prepare(item, "free_angle")
          end associate
@@ -105,7 +109,7 @@ contains
 
       do k = 1, self%n
          call find_frames(motion, self%body(:, k), self%axis(:, 1, k), self%axis(:, 2, k), self%from_start(k), &
-                          self%frame(:, :, 1, k), self%frame(:, :, 2, k))
+                          self%frame(:, :, 1, k), self%frame(:, :, 2, k), self%across(:, :, k))
       end do
       call self%follow(motion)
    end subroutine torsion_set_start
@@ -187,6 +191,28 @@ contains
          power = power + self%law(k)%lost_power(angle%rate)
       end do
    end function torsion_lost_power
+
+   !> Moment of an item on the body of i or j.
+   subroutine torsion_load_on(self, k, side, t, motion, force, moment, place)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                             !! item
+      integer, intent(in) :: side                          !! 1: on the body of i, 2: on that of j
+      real(wp), intent(in) :: t                            !! time [s]
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+      real(wp), intent(out) :: force(3)                    !! (3) none [N]
+      real(wp), intent(out) :: moment(3)                   !! (3) world frame [N.m]
+      real(wp), intent(out) :: place(3)                    !! (3) centre of mass: any place will do [m]
+
+      type(scalar_t) :: angle
+      real(wp) :: actuator, f
+
+      angle = angle_of(self, k, motion)
+      call self%law(k)%force(t, motion, angle%value, angle%rate, f, actuator)
+      force = 0.0_wp
+      moment = -f*angle%turn_i
+      if (side == 2) moment = -f*angle%turn_j
+      place = motion%r(:, self%body(side, k))
+   end subroutine torsion_load_on
 
    !> Values of a channel for all items.
    subroutine torsion_report(self, code, t, motion, values)

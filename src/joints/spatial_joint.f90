@@ -14,7 +14,7 @@
 module spatial_joint
    use coordinates, only: coordinates_t
    use item, only: find_place, item_t
-   use joint_frames, only: add_zero_column, find_frames, from_start
+   use joint_frames, only: add_zero_columns, find_frames, from_start
    use joint_set, only: joint_set_t, of_force, of_moment, of_own, of_violation, of_violation_rate, report_shared
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
@@ -26,7 +26,7 @@ module spatial_joint
    private
    public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
    public :: element_t, set_joint_frames
-   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t
+   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
    integer, parameter :: is_across = 2   !! two axes at right angles
@@ -56,6 +56,7 @@ module spatial_joint
       logical :: holds_turn = .false.              !! the frames are parallel as the deck puts the bodies
       real(wp), allocatable :: axis_i(:, :)        !! (3, n) as in the deck, body's own axes [1]
       real(wp), allocatable :: axis_j(:, :)        !! (3, n) as in the deck; zero: left out [1]
+      real(wp), allocatable :: across(:, :, :)     !! (3, 2, n) x of i and of j as in the deck; zero: left out [1]
       logical, allocatable :: from_start(:)        !! (n) angles are zero where the deck puts the bodies
       real(wp), allocatable :: frame_i(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body i [1]
       real(wp), allocatable :: frame_j(:, :, :)    !! (3, 3, n) axes x, y, z as columns, frame of body j [1]
@@ -150,13 +151,17 @@ contains
       allocate (self%axes%axis_i(3, self%n), self%axes%axis_j(3, self%n), source=0.0_wp)
       allocate (self%axes%frame_i(3, 3, self%n), self%axes%frame_j(3, 3, self%n), source=0.0_wp)
       allocate (self%axes%from_start(self%n), source=.false.)
+      allocate (self%axes%across(3, 2, self%n), source=0.0_wp)
       self%axes%axis_i(3, :) = 1.0_wp
       if (self%n == 0) return
       if (find_place(items(1), "axis_i") == 0) return
       do k = 1, self%n
          self%axes%axis_i(:, k) = items(k)%direction("axis_i")
          if (find_place(items(k), "axis_j") > 0) self%axes%axis_j(:, k) = items(k)%direction("axis_j")
-         if (find_place(items(k), "zero") > 0) self%axes%from_start(k) = items(k)%word("zero") == from_start
+         if (find_place(items(k), "zero") == 0) cycle
+         self%axes%from_start(k) = items(k)%word("zero") == from_start
+         self%axes%across(:, 1, k) = items(k)%direction("x_i")
+         self%axes%across(:, 2, k) = items(k)%direction("x_j")
       end do
    end subroutine spatial_take_axes
 
@@ -170,7 +175,8 @@ contains
       do k = 1, self%n
          associate (axes => self%axes)
             call find_frames(motion, self%body(:, k), axes%axis_i(:, k), axes%axis_j(:, k), &
-                             axes%holds_turn .or. axes%from_start(k), axes%frame_i(:, :, k), axes%frame_j(:, :, k))
+                             axes%holds_turn .or. axes%from_start(k), axes%frame_i(:, :, k), axes%frame_j(:, :, k), &
+                             axes%across(:, :, k))
          end associate
       end do
    end subroutine set_joint_frames
@@ -285,7 +291,7 @@ contains
    subroutine add_turn_channels(info)
       type(kind_info_t), intent(inout) :: info  !! the kind
 
-      call add_zero_column(info)
+      call add_zero_columns(info)
       call add_channel(info, "angle", "rad", "joint", 1, "angle of j against i about the axis, between -pi and pi", of_angle)
       call add_channel(info, "angular_rate", "rad/s", "joint", 1, "angular velocity of j against i about the axis", &
                        of_angular_rate)

@@ -1,7 +1,7 @@
 !> What a deck asks of a motion beside the channels of its items: points, places, reactions, and expressions over channels.
 !>
 !> Every point of the deck can tell its position, velocity and acceleration, world frame. A row of [request.motion] is a point as
-!> seen from another one or from a body; one of [request.reaction] the reaction of a joint at a point, along the axes of a
+!> seen from another one or from a body; one of [request.reaction] the reaction of a joint or spring at a point, along the axes of a
 !> body; one of [request] an expression over channels.
 module requests
    use expression, only: expression_t
@@ -12,7 +12,7 @@ module requests
    private
    public :: formula_t, motion_request_info, motion_request_t, of_reaction_force, of_reaction_moment, point_channels, &
       reaction_info, reaction_request_t, request_info, requests_t, source_t
-   public :: source_ideal, source_joint, source_loose, source_none
+   public :: source_force, source_ideal, source_joint, source_loose, source_none
 
    integer, parameter :: of_reaction_force = 1   !! channel of a reaction
    integer, parameter :: of_reaction_moment = 2  !! channel of a reaction
@@ -21,6 +21,7 @@ module requests
    integer, parameter :: source_joint = 1  !! of an ideal joint or a driver
    integer, parameter :: source_ideal = 2  !! of a joint with clearance that is taken as ideal
    integer, parameter :: source_loose = 3  !! of a joint with clearance
+   integer, parameter :: source_force = 4  !! of a spring, damper or actuator between two bodies
 
    !> A channel by its names, so that it can be found in any catalogue.
    type :: source_t
@@ -49,9 +50,9 @@ module requests
    !> A reaction at a point.
    type :: reaction_request_t
       character(:), allocatable :: name   !! of the request
-      character(:), allocatable :: joint  !! name of the joint
+      character(:), allocatable :: joint  !! name of the joint, or of what else has a reaction
       logical :: on_j = .false.           !! on the body of j, not on that of i
-      integer :: source = source_none     !! where the joint is in a system, one of the above
+      integer :: source = source_none     !! where it is in a system, one of the above
       integer :: slot = 0                 !! its set there
       integer :: item = 0                 !! its number in the set
       logical :: has_point = .false.      !! at a point of its own, not where the joint has its force
@@ -119,9 +120,9 @@ contains
 
       info%name = "request.reaction"
       info%space = merge(in_space, in_plane, is_spatial)
-      info%help = "the reaction of a joint or driver at a point, along the axes of a body"
+      info%help = "the reaction of a joint, driver or spring at a point, along the axes of a body"
       info%source = "Flores et al. (2008), eq. (2.24)"
-      call add_word(info, "joint", "the joint, driver or joint with clearance")
+      call add_word(info, "joint", "the joint, driver, joint with clearance, spring or torsional spring")
       call add_word(info, "on", "the body that it acts on", default="i", choices="i j")
       call add_reference(info, "point", "points", "point about which the moment is told; left out: where the joint tells its own", &
                          default="none")

@@ -19,8 +19,8 @@ module spatial_bodies
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_angle, dim_angular_speed, &
       dim_inertia, dim_length, dim_mass, dim_none, dim_speed, in_space, kind_info_t
    use kinds, only: wp
-   use rotations, only: euler_parameters_of, principal_axes, rotation_about, rotation_of_axes, rotation_of_parameters, &
-      rotation_of_sequence
+   use rotations, only: euler_parameters_of, principal_axes, product_of, rotation_about, rotation_of_axes, &
+      rotation_of_parameters, rotation_of_sequence
    implicit none (type, external)
    private
    public :: of_orientation, of_spin
@@ -200,12 +200,35 @@ contains
                bodies%v(:, k) = [(item%number(rates(i)), i=1, 3)]
                part%w(:, k) = [(item%number(rates(i)), i=4, 6)]
                part%p(:, k) = euler_parameters_of(matmul(start_rotation(item), part%own(:, :, k)))
+               if (is_turned_round(item, part%p(:, k), part%own(:, :, k))) part%p(:, k) = -part%p(:, k)
                bodies%is_rate_given(:3, k) = [(item%is_given(rates(i)), i=1, 3)]
                bodies%is_rate_given(4:, k) = any([(item%is_given(rates(i)), i=4, 6)])
             end associate
          end do
       end associate
    end subroutine new_spatial_bodies
+
+   !> Whether Euler parameters of the principal axes, of either sign, give the own axes others than the row has: those that it
+   !> gives, or else e0, or the first that is not zero, positive.
+   logical function is_turned_round(item, p, own)
+      type(item_t), intent(in) :: item      !! the row
+      real(wp), intent(in) :: p(4)          !! (4) of the principal axes [1]
+      real(wp), intent(in) :: own(3, 3)     !! (3, 3) principal axes to the body's own [1]
+
+      real(wp), parameter :: none = 1.0e-9_wp   ! a parameter that is round-off [1]
+      real(wp) :: given(4), inner(4), outer(4)
+      logical :: ways(4)
+
+      inner = euler_parameters_of(own)
+      outer = product_of(p, [inner(1), -inner(2:4)])
+      given = [item%number("e0"), item%number("e1"), item%number("e2"), item%number("e3")]
+      ways = ways_given(item)
+      if (.not. ways(1)) then
+         given = 0.0_wp
+         given(findloc(abs(outer) > none, .true., dim=1)) = 1.0_wp
+      end if
+      is_turned_round = dot_product(outer, given) < 0.0_wp
+   end function is_turned_round
 
    !> Points from their rows, whose bodies have been resolved; in the frames of principal axes.
    subroutine new_spatial_points(items, own, points)

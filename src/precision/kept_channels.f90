@@ -6,6 +6,7 @@
 module kept_channels
    use catalogue, only: catalogue_t, group_t, n_rooms, room_bodies, room_contacts
    use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kept_run, only: kept_run_t, n_sort, sort_of
    use kinds, only: i8, wp
    use recorder, only: row_stop, summary_t
@@ -166,6 +167,7 @@ contains
             do j = 1, size(group%data, 2)
                do i = 1, size(group%data, 1)
                   x = abs(group%data(i, j))
+                  if (ieee_is_nan(x)) cycle  ! an item whose kind does not have the channel
                   if (x*factor_to(self, group, j) > magnitude) magnitude = x*factor_to(self, group, j)
                end do
             end do

@@ -1,5 +1,6 @@
 !> Requests of a deck, and what its loads see of the motion: names become places.
 module read_requests
+   use columns, only: find_column
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use expression, only: expression_t
@@ -101,7 +102,7 @@ contains
       s = scene%points%s(:, point)
    end subroutine take_point
 
-   !> A reaction is that of a joint, a driver or a joint with clearance.
+   !> A reaction is that of a joint, a driver, a joint with clearance, or a force between two bodies.
    subroutine check_joint(scene, item, diagnostics)
       type(scene_t), intent(in) :: scene                  !! the scene
       type(item_t), intent(in) :: item                    !! the row of the reaction
@@ -119,12 +120,16 @@ contains
       do k = 1, size(scene%clearances)
          call add_names(scene%clearances(k)%items, names)
       end do
+      do k = 1, size(scene%forces)
+         if (find_column(scene%forces(k)%info, "j") > 0) call add_names(scene%forces(k)%items, names)
+      end do
       call table%list(names)
       if (table%find(item%word("joint")) > 0) return
       near = nearest_word(item%word("joint"), names)
       if (near /= "") near = "did you mean '"//near//"'?"
       call diagnostics%add(item%values(place_of(item, "joint"))%location, "unknown joint '"//item%word("joint")// &
-                           "' in column joint of request.reaction", "no joint, driver or joint with clearance of this deck", near)
+                           "' in column joint of request.reaction", "no joint, driver, joint with clearance or spring of "// &
+                           "this deck", near)
    end subroutine check_joint
 
    !> Points that have channels: all whose names are no other item's.

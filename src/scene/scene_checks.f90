@@ -17,7 +17,7 @@ module scene_checks
    use normal_law, only: n_law_parameter
    use references, only: add_names
    use scene, only: scene_t, table_bodies, table_motions, table_points, table_reactions
-   use scene_size, only: start_position
+   use scene_size, only: start_direction, start_position
    use surfaces, only: shape_face, surfaces_t
    use text, only: text_t, to_text
    use ties, only: find_joint, tie_of, tie_t
@@ -114,12 +114,15 @@ contains
          do i = 1, size(scene%joints(k)%items)
             call check_pair(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_start_length(scene%joints(k)%info, scene%joints(k)%items(i))
+            call check_references(scene%joints(k)%info, scene%joints(k)%items(i))
             call check_friction(scene%joints(k)%info, scene%joints(k)%items(i))
          end do
       end do
       do k = 1, n_force_kinds
          do i = 1, size(scene%forces(k)%items)
             call check_pair(scene%forces(k)%info, scene%forces(k)%items(i))
+            call check_start_axes(scene%forces(k)%info, scene%forces(k)%items(i))
+            call check_references(scene%forces(k)%info, scene%forces(k)%items(i))
          end do
       end do
       do k = 1, n_clearance_kinds
@@ -156,6 +159,52 @@ contains
                               "the same body", "columns "//info%columns(tie%column(1))%name//" and "// &
                               info%columns(tie%column(2))%name//" must name two bodies or points of them")
       end subroutine check_pair
+
+      !> The two axes of a torsional spring, which some joint holds parallel, must be so at the start, or nearly.
+      subroutine check_start_axes(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         real(wp), parameter :: least = 0.5_wp  ! cosine of the angle between axes that count as parallel [1]
+         type(tie_t) :: tie
+         integer :: c
+
+         c = find_column(info, "axis_j")
+         if (c == 0) return
+         if (.not. item%values(c)%given) return
+         tie = tie_of(scene, info, item)
+         if (dot_product(start_direction(scene, tie%body(1), item%direction("axis_i")), &
+                         start_direction(scene, tie%body(2), item%direction("axis_j"))) > least) return
+         call diagnostics%add(item%values(c)%location, "the axes of '"//item%name//"' are not parallel", &
+                              "points elsewhere than axis_i does, where the deck puts the bodies", &
+                              "leave axis_j out, or turn one of the bodies")
+      end subroutine check_start_axes
+
+      !> Reference directions of an angle may not lie along the axis.
+      subroutine check_references(info, item)
+         type(kind_info_t), intent(in) :: info  !! the kind
+         type(item_t), intent(in) :: item       !! the row
+
+         real(wp), parameter :: least = 1.0e-6_wp  ! sine of an angle that is none [1]
+         character(6), parameter :: axis(2) = ["axis_i", "axis_j"]
+         character(3), parameter :: reference(2) = ["x_i", "x_j"]
+         type(tie_t) :: tie
+         real(wp) :: x(3), z(3)
+         integer :: c, side
+
+         if (find_column(info, "x_i") == 0) return
+         tie = tie_of(scene, info, item)
+         do side = 1, 2
+            c = column_of(info, reference(side))
+            if (.not. item%values(c)%given) cycle
+            z = start_direction(scene, tie%body(1), item%direction("axis_i"))
+            if (item%is_given(axis(side))) z = start_direction(scene, tie%body(side), item%direction(axis(side)))
+            x = start_direction(scene, tie%body(side), item%direction(reference(side)))
+            if (1.0_wp - dot_product(x, z)**2 > least**2) cycle
+            call diagnostics%add(item%values(c)%location, "the reference direction of '"//item%name//"' lies along its axis", &
+                                 "nothing of it is across the axis", "give a direction across it, or leave the column out")
+         end do
+      end subroutine check_references
 
       !> A length that is left out is the distance of the points at the start, which must not coincide.
       subroutine check_start_length(info, item)

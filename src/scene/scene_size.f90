@@ -5,7 +5,7 @@ module scene_size
    use scene, only: scene_t
    implicit none (type, external)
    private
-   public :: extent_of_scene, is_large, size_of_bodies, start_position
+   public :: extent_of_scene, is_large, size_of_bodies, start_direction, start_position
 
    integer, parameter :: most_dense = 50  !! bodies up to which implicit methods keep full matrices
 
@@ -67,6 +67,20 @@ contains
          end if
       end associate
    end function start_position
+
+   !> Where the deck lets a direction of a body in space point at the start.
+   pure function start_direction(scene, body, x) result(z)
+      type(scene_t), intent(in) :: scene  !! the scene, in space
+      integer, intent(in) :: body         !! the body, 0: ground
+      real(wp), intent(in) :: x(3)        !! (3) along the body's own axes, not zero [1]
+      real(wp) :: z(3)                    !! (3) unit vector, world frame [1]
+
+      z = x/norm2(x)
+      if (body == 0) return
+      associate (spatial => scene%bodies%spatial)
+         z = matmul(rotation_of_parameters(spatial%p(:, body)), matmul(z, spatial%own(:, :, body)))
+      end associate
+   end function start_direction
 
    !> Whether implicit methods keep their matrices sparse: a full one has (6 n)^2 entries for n bodies, each found by a difference.
    pure logical function is_large(scene)

@@ -56,6 +56,7 @@ contains
 
       type(sparse_start_t) :: sparse
       logical :: with_sparse
+      real(wp) :: largest
       real(wp), allocatable :: correction(:), ease(:), q_given(:), right(:), v_given(:)
       integer :: k, n
 
@@ -92,7 +93,8 @@ contains
       report%rate_changed = maxval(correction)
       report%changed_body = (maxloc(correction, dim=1) - 1)/linkage%coordinates%n_v + 1
       call rates(linkage, v, right)
-      if (maxval(abs(right)*linkage%solution%row_weight) > agreed*(maxval(abs(v)*coordinate_scale(linkage)) &
+      largest = maxval(max(abs(v), abs(v_given))*coordinate_scale(linkage))  ! where nothing is left free v is round-off alone
+      if (maxval(abs(right)*linkage%solution%row_weight) > agreed*(largest &
                                                           + maxval(abs(linkage%rows%phi_t)*linkage%solution%row_weight))) then
          call velocity_error(linkage, right, error)
       end if
@@ -333,14 +335,20 @@ contains
       type(linkage_t), intent(in) :: linkage     !! the system, rows evaluated
       type(error_t), allocatable, intent(out) :: error   !! the message
 
+      real(wp), parameter :: dead = 1.0e-6_wp  ! greatest entry of a row that no small change helps [1]
+      character(:), allocatable :: hint
       integer :: row
 
       row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
+      hint = "the bodies were moved as little as possible from where the deck puts them, without success"//new_line("a")// &
+             "  = check the points of this joint, the lengths of the loop, and the start positions"
+      if (linkage%rows%is_angle(row) .and. maxval(abs(linkage%rows%jac(:, row))) < dead) then
+         hint = "its axes stand at right angles where they should be parallel, or the other way round, and nothing tells "// &
+                "which way to turn"//new_line("a")//"  = give other axes, or turn one of its bodies in the deck"
+      end if
       call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
                      "' stays open by "//real_text(abs(linkage%rows%phi(row)), 4)// &
-                     trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")// &
-                     "  = the bodies were moved as little as possible from where the deck puts them, without success"// &
-                     new_line("a")//"  = check the points of this joint, the lengths of the loop, and the start positions")
+                     trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
 
    !> A driver that has no value or no rate at the start.

@@ -333,7 +333,7 @@ contains
          end do
          call report_ideal(system, plan%ideal, groups)
          call report_forces(system, t, plan%forces, groups)
-         call report_requests(system, plan, groups)
+         call report_requests(system, t, plan, groups)
          if (plan%energy%n > 0) energy = energy_of(system, y)
          do m = 1, plan%energy%n
             groups(plan%energy%group(m))%data(1, 1) = energy_value(energy, plan%energy%code(m), residual)

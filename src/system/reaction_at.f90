@@ -1,6 +1,6 @@
-!> The reaction of a joint at a point, along the axes of a body.
+!> The reaction of a joint, driver or spring at a point, along the axes of a body.
 !>
-!> With the load of the joint on its body, force F and moment M about where it tells its own, R:  M_P = M + (R - P) x F.
+!> With its load on the body, force F and moment M about where it tells its own, R:  M_P = M + (R - P) x F.
 !>
 !> Signs: what acts on the body of i, or on that of j. Source: Flores et al. (2008), eq. (2.24). Limits: none.
 module reaction_at
@@ -9,7 +9,8 @@ module reaction_at
    use linkage, only: linkage_t
    use mechanism, only: mechanism_t
    use motion, only: cross, motion_t, point_position
-   use requests, only: reaction_request_t, source_ideal, source_joint, source_loose, source_none
+   use requests, only: reaction_request_t, source_force, source_ideal, source_joint, source_loose, &
+      source_none
    use sight, only: place_t
    implicit none (type, external)
    private
@@ -17,7 +18,7 @@ module reaction_at
 
 contains
 
-   !> Find the joints of all reactions by their names.
+   !> Find what has the reactions by its name.
    subroutine bind_reactions(system)
       class(mechanism_t), intent(inout) :: system   !! the system, its joints are there
 
@@ -37,6 +38,14 @@ contains
                do i = 1, system%loose%sets(k)%set%n
                   if (system%loose%sets(k)%set%names(i)%s /= reaction%joint) cycle
                   reaction%source = source_loose
+                  reaction%slot = k
+                  reaction%item = i
+               end do
+            end do
+            do k = 1, size(system%loading%forces)
+               do i = 1, system%loading%forces(k)%set%n
+                  if (system%loading%forces(k)%set%names(i)%s /= reaction%joint) cycle
+                  reaction%source = source_force
                   reaction%slot = k
                   reaction%item = i
                end do
@@ -65,8 +74,9 @@ contains
    end subroutine bind_reactions
 
    !> Force and moment of a reaction; NaN if its joint is not there. No allocation.
-   subroutine find_reaction(system, reaction, force, moment)
+   subroutine find_reaction(system, t, reaction, force, moment)
       class(mechanism_t), intent(in) :: system            !! the system at a state, with all multipliers
+      real(wp), intent(in) :: t                           !! time [s]
       type(reaction_request_t), intent(in) :: reaction    !! what is asked
       real(wp), intent(out) :: force(3)                   !! (3) on the body, along the axes of the frame [N]
       real(wp), intent(out) :: moment(3)                  !! (3) on the body about the point, along the same axes [N.m]
@@ -88,6 +98,10 @@ contains
                force = -force
                moment = -moment
             end if
+         case (source_force)
+            associate (set => system%loading%forces(reaction%slot)%set)
+               call set%load_on(reaction%item, merge(2, 1, reaction%on_j), linkage%piece%inside(t), motion, force, moment, p)
+            end associate
          case default
             force = not_a_number()
             moment = force

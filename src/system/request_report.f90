@@ -100,8 +100,9 @@ contains
    end subroutine bind_requests
 
    !> Values of all that is bound. No allocation.
-   subroutine report_requests(system, plan, groups)
+   subroutine report_requests(system, t, plan, groups)
       type(mechanism_t), intent(in) :: system        !! the system at the state, with reactions where they are read
+      real(wp), intent(in) :: t                      !! time [s]
       type(reading_plan_t), intent(in) :: plan       !! what is read
       type(group_t), intent(inout) :: groups(:)      !! (groups) values
 
@@ -116,7 +117,7 @@ contains
       end do
       do m = 1, plan%reactions%n
          associate (values => groups(plan%reactions%group(m))%data(:, plan%reactions%item(m)))
-            call find_reaction(system, system%requests%reactions(plan%reactions%item(m)), force, moment)
+            call find_reaction(system, t, system%requests%reactions(plan%reactions%item(m)), force, moment)
             if (plan%reactions%code(m) == of_reaction_force) then
                values = force(:size(values))
             else

@@ -260,3 +260,12 @@ def test_pinball(gudgeon):
     momentum = 0.08 * found.item("bodies/velocity", "light") + 0.16 * found.item("bodies/velocity", "heavy")
     assert_close(momentum[after, :2], momentum[before - 1, :2], absolute=5e-3 * np.linalg.norm(momentum[before - 1]), what="momentum")
     assert found.summary["energy_residual_max"] < 1e-5 * found.summary["energy_max"]
+
+
+def test_sliding_at_a_limit_that_is_not_there(gudgeon_debug):
+    """A stop with one limit has a contact that never is: it slides at no speed, which is no 0/0 either."""
+    text = (ROOT / "inputs" / "pinball.deck").read_text()
+    directory = scratch()
+    deck = written(directory, changed(changed(text, "output", channels="end.sliding_speed", every="1 ms", figures=None), "analysis.dynamic", end="2 ms"))
+    call(gudgeon_debug, "run", deck, "--out", directory / "out", "--quiet")
+    assert np.all(Run(directory / "out").read("clearances/contacts/sliding_speed") == 0)

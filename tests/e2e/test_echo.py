@@ -114,12 +114,12 @@ def test_echo_of_guards(gudgeon):
 
 
 @pytest.mark.parametrize("way", ["procedure1", "procedure2"])
-def test_echo_of_a_deck_run_as_programs_of_old(gudgeon, way):
+def test_echo_of_a_deck_run_as_programs_of_old(gudgeon_debug, way):
     """What --legacy makes of a deck is a deck: limits with their units, no faces of sliders without a law."""
     for deck in (INPUTS / "slider_crank_dry.deck", INPUTS / "hard" / "wedged_slider.deck"):
         text = re.sub(r"(?m)^end( *)= .*", r"end\1= 0.1 ms", re.sub(r"(?m)^every( *)= .*", r"every\1= 0.1 ms", deck.read_text()))
         directory = scratch()
-        call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet", "--legacy", way, "--write", "numbers")
-        call(gudgeon, "check", directory / "out" / "deck.echo")
+        call(gudgeon_debug, "run", written(directory, text), "--out", directory / "out", "--quiet", "--legacy", way, "--write", "numbers")
+        call(gudgeon_debug, "check", directory / "out" / "deck.echo")
         echo = (directory / "out" / "deck.echo").read_text()
         assert re.search(r"(?m)^contact_onset += " + ("interpolate" if way == "procedure1" else "reject limit=1e-7m") + "$", echo)

@@ -1,10 +1,11 @@
-"""Adams datasets: five models with every statement that a deck can have, imported, run, and held against closed forms and scipy."""
+"""Adams datasets: models with every statement that a deck can have, imported, run, and held against closed forms and scipy."""
 
 import functools
 
 import h5py
 import numpy as np
 import pytest
+from published_series import AT_END
 from scipy.integrate import solve_ivp
 from support import ROOT, call, scratch, written
 
@@ -197,6 +198,16 @@ def test_motions(gudgeon):
     assert np.abs(column(run, "bodies", "position", "PART_9") - [6, 0, 0]).max() < 1e-10
     ball = column(run, "bodies", "position", "PART_10") - [6, 0, 0]
     assert np.abs(np.linalg.norm(ball, axis=1) - 0.1).max() < 1e-8
+
+
+@pytest.mark.parametrize("part, case, limit", [(2, "universal_3", 2e-3), (3, "distance_2", 2e-5), (4, "torsion_spring_1", 2e-5)])
+def test_tilted_markers(gudgeon, part, case, limit):
+    """Arms of a Hooke joint, a distance as a constraint, a rotational spring as Adams/View writes it: series of Adams itself."""
+    run, said = imported(gudgeon, "tilted", end="5s")
+    assert "GCON/1" not in said and "GCON/2: a deck has no constraints of one's own, but distances" in said
+    for quantity in ("position", "velocity", "acceleration"):
+        values = column(run, "bodies", quantity, f"PART_{part}")
+        assert np.abs(values[-1] - AT_END[case][quantity]).max() < limit*max(1.0, np.abs(values).max()), quantity
 
 
 def test_what_is_left_out_is_named_with_its_line(gudgeon):

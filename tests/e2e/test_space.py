@@ -463,3 +463,20 @@ every = 0.1 s
     with_turns = run.item("forces/angle", "spring")
     near(with_turns, 20 * np.sin(run.time), 1e-7, "angle")
     assert max(with_turns) > 6 * np.pi
+
+
+@pytest.mark.parametrize("columns, cells, start", [
+    ("e0 e1 e2 e3", "-0.8 0.3 0.1 0.2", (-0.8, 0.3, 0.1, 0.2)),
+    ("e0 e1", "0 -2", (0, -1, 0, 0)),
+    ("axis angle[deg]", '"0 0 1" 200', (-np.cos(np.radians(100)), 0, 0, -np.sin(np.radians(100)))),
+    ("sequence angle1[deg] angle2[deg] angle3[deg]", "zxz 180 90 180", (np.sqrt(0.5), -np.sqrt(0.5), 0, 0)),
+    ("axis angle[deg]", '"0 1 -1" -180', (0, 0, np.sqrt(0.5), -np.sqrt(0.5))),
+])
+@pytest.mark.parametrize("product", [0.0, 0.03])
+def test_sign_of_euler_parameters(gudgeon, columns, cells, start, product):
+    """Euler parameters begin as the deck has them, else with the first of them positive, principal axes or not, and do not jump."""
+    text = BAR.format(columns=f"ixy[kg.m^2] wx[rad/s] wz[rad/s] {columns}", moments="0.1 0.2 0.25", cells=f"{product} 9 4 {cells}")
+    run = run_text(gudgeon, changed(text, "output", every="10 ms"), end="1 s")
+    found = run.item("bodies/orientation", "bar")
+    assert found[0] == pytest.approx(np.array(start)/np.linalg.norm(start), abs=1e-12)
+    assert np.abs(np.diff(found, axis=0)).max() < 0.1

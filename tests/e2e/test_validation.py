@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 import pytest
-from published_series import AT_END, BETWEEN, SOURCE
+from published_series import ALSO, AT_END, BETWEEN, SOURCE
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj, ellipk
 from support import ROOT, Run, call, changed, scratch, written
@@ -21,8 +21,8 @@ J = 0.1 + 4.0    # moment of the bar about an end [kg.m^2]
 # its own error in these series, as the closed forms below show: the same pendulum, wrong by 3e-4 at 5 s
 COARSE = ("spherical_1", "universal_1", "universal_2", "universal_3")
 
-PLACES = {"joint force": "joints/force", "joint moment": "joints/moment", "spring force": "forces/force",
-          "spring moment": "forces/moment", "drive force": "drivers/force"}
+PLACES = {"joint force": "joints/force", "joint moment": "joints/moment", "spring force": "reactions/force",
+          "spring moment": "reactions/moment", "drive force": "reactions/force", "drive moment": "reactions/moment"}
 
 
 @functools.lru_cache(maxsize=None)
@@ -167,12 +167,29 @@ def test_reaction_along_the_joint(gudgeon):
     assert np.max(np.abs(run.item("joints/joint_moment", "pin")[:, 2])) < 1e-10
 
 
+def shown(value):
+    """A difference in the table: below the last printed digit nothing is left."""
+    return "0" if value < 1e-9 else f"{value:.0e}".replace("e-0", "e-")
+
+
 def main():
     """The table of docs/validation.md."""
+    columns = ["position", "velocity", "acceleration", "orientation", "angular_velocity", "angular_acceleration", "force", "moment"]
+    n = 0
+    print("| deck | series | position | velocity | acceleration | Euler parameters | angular velocity | angular acceleration | force | moment |")
+    print("|---"*10 + "|")
     for name in AT_END:
         kind, case = name.rsplit("_", 1)
-        of = differences(pathlib.Path(sys.argv[1]), name)
-        print(f"| {name} | {SOURCE[kind]}0{case} | " + ", ".join(f"{what} {value:.0e}" for what, value in of.items()) + " |")
+        cells = {}
+        for quantity, value in differences(pathlib.Path(sys.argv[1]), name).items():
+            who, what = (quantity.split(" ") + [None])[:2]
+            words = shown(value) + (f" ({who})" if what and who != "joint" else "")
+            key = what or who
+            cells[key] = f"{cells[key]}, {words}" if key in cells else words
+            n += 2 if name in ALSO else 1
+        series = [f"{SOURCE[kind]}0{case}", *([ALSO[name]] if name in ALSO else [])]
+        print("| " + " | ".join([name, ", ".join(path.split("/")[1] for path in series), *(cells[key] for key in columns)]) + " |")
+    print(f"\n{n} series")
 
 
 if __name__ == "__main__":

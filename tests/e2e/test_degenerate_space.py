@@ -1,0 +1,77 @@
+"""Decks of space in which directions, lengths or velocities are as bad as they can be: a message that says so, or the motion."""
+
+import numpy as np
+import pytest
+from support import Run, call, scratch, written
+
+DECK = """deck = 1
+[scene]
+title = "degenerate"
+space = spatial
+gravity = 0 0 -9.81 m/s^2
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[m] {columns}
+bar  1        0.1         0.2         0.15        0.5  {cells}
+[points]
+name  body    xi[m]
+wall  ground  0
+near  bar     -0.5
+far   bar     0.5
+{tables}
+[analysis.dynamic]
+end = 0.2 s
+energy_limit = 1e-3
+[output]
+every = 50 ms
+"""
+PIN = '[joint.revolute]\nname i j axis_i\npin wall near "0 1 0"\n'
+
+
+def run(program, tables, columns="", cells="", expect=0):
+    """Run a deck; its messages, and what is left of it."""
+    directory = scratch()
+    deck = written(directory, DECK.format(tables=tables, columns=columns, cells=cells))
+    done = call(program, "run", deck, "--out", directory / "out", expect=expect)
+    return done, Run(directory / "out") if expect == 0 else None
+
+
+@pytest.mark.parametrize("tables, words", [
+    ('[joint.universal]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "at right angles where they should be parallel, or the other"),
+    ('[joint.revolute]\nname i j axis_i axis_j\npin wall near "0 0 1" "1 0 0"\n', "at right angles where they should be parallel, or the other"),
+    ('[joint.perpendicular]\nname i j axis_i axis_j\npin wall near "0 0 1" "0 0 1"\n', "at right angles where they should be parallel, or the other"),
+    ('[joint.revolute_spherical]\nname i j axis_i\npin wall far "1 0 0"\n', "stays open by 0.5 m"),
+    ("[joint.distance]\nname i j\npin wall near\n", "the two points coincide at the start"),
+    (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "1 0 0" 5\n', "the axes of 'coil' are not parallel"),
+    (PIN + '[force.torsion_spring]\nname i j axis_i axis_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 -1 0" 5\n', "the axes of 'coil' are not parallel"),
+    ('[joint.revolute]\nname i j axis_i\npin wall near "0 0 0"\n', "all numbers are zero"),
+    ('[joint.revolute]\nname i j axis_i x_i\npin wall near "0 1 0" "0 -2 0"\n', "the reference direction of 'pin' lies along its axis"),
+    (PIN + '[force.torsion_spring]\nname i j axis_i x_j stiffness[N.m/rad]\ncoil ground bar "0 1 0" "0 1 0" 5\n', "the reference direction of 'coil' lies"),
+])
+def test_told(gudgeon_debug, tables, words):
+    """What cannot be put together is told by name."""
+    done, _ = run(gudgeon_debug, tables, expect=(3, 4))
+    assert words in done.stderr
+
+
+@pytest.mark.parametrize("size", ["1e-200", "1e200"])
+def test_length_of_directions(gudgeon_debug, size):
+    """A direction may have any length."""
+    _, other = run(gudgeon_debug, PIN.replace('"0 1 0"', f'"0 {size} 0"'))
+    _, plain = run(gudgeon_debug, PIN)
+    assert np.array_equal(other.read("bodies/position"), plain.read("bodies/position"))
+
+
+def test_held_body_with_a_velocity(gudgeon_debug):
+    """A body that is held altogether stays where it is, whatever velocity the deck gives it; its ledger is round-off and closes."""
+    done, found = run(gudgeon_debug, "[joint.rigid]\nname i j\ntie wall near\n", "vx[m/s] wy[rad/s] e0 e1 e2 e3", "1.3 0.7 0.3 0.5 0.1 0.2")
+    assert "was changed by 1.3 m/s" in done.stdout + done.stderr and "ledger" not in done.stdout
+    assert np.max(np.abs(found.read("bodies/velocity"))) < 1e-15
+    assert found.item("joints/force", "tie")[:, 2] == pytest.approx(-9.81 * np.ones(len(found.time)), abs=1e-12)
+
+
+def test_spring_through_its_own_end(gudgeon_debug):
+    """A spring whose points coincide at the start, on a slider: it pulls nowhere there, and the energy is kept."""
+    _, found = run(gudgeon_debug, '[joint.translational]\nname i j axis_i\nguide wall near "0 0 1"\n'
+                   "[force.spring]\nname i j stiffness[N/m] damping[N.s/m] free_length[m]\ncoil wall near 100 5 0.2\n")
+    assert np.all(np.isfinite(found.read("forces/force")))
+    assert found.summary["energy_residual_max"] < 1e-5 * found.summary["energy_max"]
