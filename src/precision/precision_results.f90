@@ -154,6 +154,7 @@ module precision_results
       integer :: wanted = error_motion                !! kind of error that is wanted and drawn
       real(wp) :: accuracy = 0.0_wp                   !! error wanted [1]
       real(wp) :: end = 0.0_wp                        !! of the motion [s]
+      logical :: is_stopped = .false.                 !! a condition of the deck ends it
       integer :: instants = 0                         !! compared, with the start
       type(reference_t) :: reference                  !! what all are compared with
       type(growth_t) :: growth                        !! of the distance of neighbouring starts
