@@ -57,6 +57,7 @@ module kept_channels
       logical, allocatable, private :: is_peaked(:)  !! (n) a normal force
    contains
       procedure :: start => start_channels
+      procedure :: wants => wants_channels
       procedure :: sample => sample_channels
       procedure :: further_row => row_of_channels
       procedure :: finish => finish_channels
@@ -98,6 +99,15 @@ contains
       end do
       allocate (self%magnitude(n_sort + size(self%further)), source=0.0_wp)
    end subroutine start_channels
+
+   !> Whether a value is read: the channels, what scales them, and what every kept run has.
+   pure logical function wants_channels(self, group, item) result(wants)
+      class(kept_channels_t), intent(in) :: self   !! the recorder
+      integer, intent(in) :: group                 !! its group in the catalogue
+      integer, intent(in) :: item                  !! number of the item in the group's room
+
+      wants = self%kind_of(group) > 0 .or. self%kept_run_t%wants(group, item)
+   end function wants_channels
 
    !> Number of the further kind of a quantity; a new one is added.
    integer function number_of_kind(self, group, g) result(n)

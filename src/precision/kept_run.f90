@@ -45,6 +45,7 @@ module kept_run
       type(catalogue_t), allocatable, private :: names  !! what was recorded, for the names of contacts
    contains
       procedure :: start => start_keeping
+      procedure :: wants => wants_kept
       procedure :: sample => keep_sample
       procedure :: event => keep_contact
       procedure :: progress => no_progress
@@ -102,6 +103,16 @@ contains
       end subroutine choose
 
    end subroutine start_keeping
+
+   !> Whether a value is read: what is not kept need not be found.
+   pure logical function wants_kept(self, group, item) result(wants)
+      class(kept_run_t), intent(in) :: self      !! the recorder
+      integer, intent(in) :: group               !! its group in the catalogue
+      integer, intent(in) :: item                !! number of the item in the group's room
+
+      wants = .false.
+      if (self%is_kept) wants = any(self%group == group .and. self%at(2, :) == item)
+   end function wants_kept
 
    !> Whether a quantity is the orientation of bodies in space.
    pure logical function is_orientation(group)
