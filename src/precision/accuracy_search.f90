@@ -33,7 +33,7 @@ module accuracy_search
    real(wp), parameter :: first_part = 3.0_wp        !! of the greatest difference allowed: for the first one [1]
    real(wp), parameter :: tightest_part = 1.0e-2_wp  !! of the tolerance, of a run of the same integrator that confirms [1]
    integer, parameter :: attempts = 4                !! tolerances of the other integrator
-   real(wp), parameter :: until_taken = 0.5_wp       !! part of the budget at whose end no tighter run is begun [1]
+   real(wp), parameter :: until_taken = 0.5_wp       !! part of the budget at whose end no third or further run is begun [1]
    real(wp), parameter :: dear = 4.0_wp              !! time of another integrator over that of the run's own, for a forecast [1]
    real(wp), parameter :: for_one = 0.6_wp           !! of the time left, that the first run of another integrator may take [1]
    real(wp), parameter :: much_looser = 1.0e2_wp     !! tolerance after one that was late, over its own [1]
@@ -85,16 +85,17 @@ contains
       type(search_t), intent(inout) :: search         !! two runs are found, or one, or none
 
       type(trial_t) :: last, next
-      real(wp) :: best(2), now(2), tolerance
+      real(wp) :: best(2), now(2), tolerance, until
       integer :: futile, k
 
       tolerance = max(finest, min(coarsest, 10.0_wp**floor(log10(first_part*search%limit))))
       best = [-1.0_wp, huge(1.0_wp)]
       futile = 0
       do k = 1, nint(-log10(least_tolerance)) + 1
-         if (last%is_there .and. rise*last%what%wall > budget%left(until_taken)) search%reason = no_time
+         until = merge(until_taken, 1.0_wp, search%coarser%is_there)
+         if (last%is_there .and. rise*last%what%wall > budget%left(until) - last%what%wall) search%reason = no_time
          if (search%reason /= "") return
-         call make_trial(job, budget, merge(1.0_wp, until_taken, k == 1), setting_t(method, "", ""), tolerance, search, next)
+         call make_trial(job, budget, until, setting_t(method, "", ""), tolerance, search, next)
          if (next%is_there) then
             if (.not. search%taken%is_there) search%taken = next
             if (last%is_there) then

@@ -419,9 +419,9 @@ def test_tumbling_is_regular(gudgeon):
 
 def test_time_that_ends_early(gudgeon):
     """A limit of processor time ends the search for the exponent, which is told up to there."""
-    text = changed(plain_deck([]), "analysis.dynamic", end="2 s", limit_cpu="1.5 s")
-    summary = run_with_horizon(gudgeon, text, expect=(0, 5))
+    text = changed(changed(plain_deck([]), "analysis.dynamic", end="2 s", limit_cpu="1 s"), "output", every="1 ms", figures=None)
+    summary = run_with_horizon(gudgeon, text, "--write", "numbers", expect=(0, 5))
     assert summary["exponent_cut"] is True and summary["exponent_reason"] == ""
     assert summary["exponent_to"] < 2 and summary["exponent_from"] == pytest.approx(0.25 * summary["exponent_to"])
     report = (summary["directory"] / "summary.txt").read_text()
-    assert "there its processor time was up" in report and "as far as was looked" in report or "digits" in report
+    assert "there its processor time was up" in report
