@@ -7,6 +7,7 @@
 module kept_channels
    use catalogue, only: catalogue_t, group_t, room_bodies, room_contacts, room_joints, room_requests
    use errors, only: error_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions
    use kinds, only: i8, wp
    use recorder, only: row_stop, summary_t
@@ -218,7 +219,9 @@ contains
          if (self%kind_of(g) == 0) cycle
          associate (magnitude => self%magnitude(self%kind_of(g)), group => catalogue%groups(g))
             do j = 1, size(group%data, 2)
+               if (.not. catalogue%item_has(g, j)) cycle
                do i = 1, size(group%data, 1)
+                  if (.not. ieee_is_finite(group%data(i, j))) cycle
                   x = abs(group%data(i, j))
                   if (x*factor_to(self, group, j) > magnitude) magnitude = x*factor_to(self, group, j)
                end do
