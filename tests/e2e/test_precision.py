@@ -462,3 +462,11 @@ def test_with_run_time_checks(gudgeon_debug):
     study = compared(gudgeon_debug, text, "--methods", "* verner.* verner.projection.*")
     assert study.summary["settings"] == 6 + 7 + 5
     assert study.summary["runs"] > 20
+
+
+@pytest.mark.parametrize("name, verb, options", [("pinball", "precision", ("--methods", "verner", "--budget", "4s")),
+                                                 ("crosshead", "run", ("--accuracy", "1e-3", "--budget", "8s", "--write", "numbers"))])
+def test_values_that_are_not_kept_are_not_found(gudgeon_debug, name, verb, options):
+    """The other side of a stop has no normal, and some items have not all channels: with run-time checks nothing of that is worked out."""
+    directory = scratch()
+    call(gudgeon_debug, verb, ROOT / "inputs" / f"{name}.deck", "--out", directory / "out", "--quiet", *options, expect=(0, 6))
