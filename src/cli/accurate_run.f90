@@ -7,7 +7,7 @@ module accurate_run
    use channels, only: list_scalars, match_word, select_channels, selection_t
    use errors, only: error_t, exit_audit, exit_integration, exit_usage, set_error
    use item, only: place_of
-   use kept_run, only: sort_of
+   use kept_run, only: numbers_of, sort_of
    use kinds, only: wp
    use load, only: loaded_t
    use mechanism_report, only: build_catalogue
@@ -160,7 +160,7 @@ contains
       n = 0
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
-            if (sort_of(group%room, group%channel%name) > 0) n = n + size(group%data)
+            if (sort_of(group%room, group%channel%name) > 0) n = n + numbers_of(group)*size(group%data, 2)
          end associate
       end do
    end function count_kept

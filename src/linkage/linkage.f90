@@ -52,7 +52,7 @@ module linkage
       procedure :: move => linkage_move, set_motion => linkage_set_motion
       procedure :: set_acceleration => linkage_set_acceleration, set_state => linkage_set_state
       procedure :: evaluate_rows => linkage_evaluate_rows, find_accelerations => linkage_find_accelerations
-      procedure :: solve_rows => linkage_solve_rows, add_change => linkage_add_change
+      procedure :: solve_rows => linkage_solve_rows, add_change => linkage_add_change, tidy => linkage_tidy
       procedure :: list_wanted => linkage_list_wanted, find_reactions => linkage_find_reactions
       procedure :: greatest_violation => linkage_greatest_violation
       procedure :: row_name => linkage_row_name
@@ -235,6 +235,19 @@ contains
          end do
       end associate
    end subroutine linkage_add_change
+
+   !> Take away what of a state is no part of the motion, as the length of Euler parameters: a change of nothing is added.
+   subroutine linkage_tidy(self, y)
+      class(linkage_t), intent(in) :: self          !! the linkage
+      real(wp), intent(inout), contiguous :: y(:)   !! (positions or more) state [any]
+
+      real(wp) :: nothing(self%coordinates%n_v, self%rows%n_unknown)
+
+      nothing = 0.0_wp
+      associate (n => self%rows%n_unknown)
+         call self%coordinates%add_change(n, nothing, y(:self%coordinates%n_q*n))
+      end associate
+   end subroutine linkage_tidy
 
    !> Greatest scaled violation of the solved rows, as they were evaluated.
    pure real(wp) function linkage_greatest_violation(self) result(worst)

@@ -28,6 +28,7 @@ contains
       n = size(horizon%t)
       call real_attribute(group, "after", horizon%after, status)
       call real_attribute(group, "end", horizon%t(n), status)
+      call long_attribute(group, "is_cut", int(merge(1, 0, horizon%is_cut), i8), status)
       call real_attribute(group, "tolerance", horizon%tolerance, status)
       call put(horizon%tangent, "exponent")
       call put(horizon%twin, "exponent_by_twin")

@@ -30,6 +30,7 @@ contains
       case (claim_window)
          call lines%line(asked//": reached up to "//until//", "//short(accuracy%error))
          call lines%line("           beyond "//until//" no digits are claimed: runs part there, first in "//worst_of(accuracy))
+         if (accuracy%reason /= "") call lines%line("           the search ended there: "//accuracy%reason)
       case (claim_reached)
          call lines%line(asked//": not reached, but "//short(accuracy%error)//" up to the end: "// &
                          accuracy%reason)

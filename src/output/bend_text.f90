@@ -1,7 +1,8 @@
 !> Where settings of a comparison do not do as they are asked, and why, in words.
 module bend_text
    use kinds, only: wp
-   use precision_results, only: bend_lost, bend_scatter, bend_steps, bend_t, bend_violation, ladder_t, precision_t, rung_done
+   use precision_results, only: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_t, bend_violation, ladder_t, &
+      precision_t, rung_done
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -76,6 +77,10 @@ contains
          words = "the constraint violation does not fall either: the way of holding sets both"
       case (bend_lost)
          words = "they are as large as the motion itself"
+      case (bend_short)
+         words = "they do not change at all: what makes them is shorter than any of these steps, as a contact that is grazed"
+      case (bend_luck)
+         words = "those of neighbouring runs scatter: in some of them errors of both signs cancel"
       case (bend_scatter)
          words = "no cause was found"
       end select

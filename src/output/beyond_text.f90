@@ -64,9 +64,26 @@ contains
 
       associate (n => ladder%statistics%n_run(s), apart => ladder%statistics%n_apart(s))
          words = to_text(apart)//" of "//to_text(n)//" apart from the reference"// &
-                 told(apart > 0 .and. apart <= 1 + nint(chance*n), "as chance has it")
+                 told(apart > 0 .and. by_chance(apart, n) > 1.001_wp*chance, "as chance has it")
       end associate
    end function apart_text
+
+   !> The probability that at least k of n runs of equal statistics are apart: one less the first terms of the binomial
+   !> distribution.
+   pure real(wp) function by_chance(k, n) result(probability)
+      integer, intent(in) :: k     !! runs that are apart, 1 or more
+      integer, intent(in) :: n     !! runs
+
+      real(wp) :: term
+      integer :: i
+
+      probability = 1.0_wp
+      term = (1.0_wp - chance)**n
+      do i = 0, k - 1
+         probability = probability - term
+         term = term*chance/(1.0_wp - chance)*real(n - i, wp)/real(i + 1, wp)
+      end do
+   end function by_chance
 
    !> A remark, if it holds.
    pure function told(is_so, remark) result(words)

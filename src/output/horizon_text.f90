@@ -31,6 +31,7 @@ contains
       else
          call lines%line("exponent   by the tangent not known: "//horizon%tangent%reason)
       end if
+      if (horizon%is_cut) call lines%line("           there its processor time was up: more of it goes on to the end of the motion")
       if (horizon%twin%reason == "") then
          call lines%line("           "//rate_text(horizon%twin%rate)//" by a twin, brought back "//to_text(horizon%n_renewed)// &
                          " times"//agreement(horizon))
@@ -43,9 +44,9 @@ contains
       if (horizon%n_together > 0) call lines%line("           "//to_text(horizon%n_together)// &
          " instants have several events: the tangent knows of the first only")
       if (horizon%tangent%reason /= "") return
-      call lines%line("           digits in double precision: "//digits_text(horizon%digits))
+      call lines%line("           digits in double precision: "//digits_text(horizon%digits, horizon%is_cut))
       if (horizon%asked > 0.0_wp) call lines%line("           digits of a run of tolerance "//to_text(horizon%asked)//": "// &
-                                                  digits_text(horizon%run_digits))
+                                                  digits_text(horizon%run_digits, horizon%is_cut))
    end subroutine add_horizon
 
    !> An exponent with its interval.
@@ -84,8 +85,9 @@ contains
    end function meaning
 
    !> Times up to which there are digits.
-   function digits_text(digits) result(words)
+   function digits_text(digits, is_cut) result(words)
       real(wp), intent(in) :: digits(:)           !! (k) times of k digits; NaN: beyond the end [s]
+      logical, intent(in) :: is_cut               !! that end is not the one of the motion
       character(:), allocatable :: words          !! one line
 
       integer :: k
@@ -96,7 +98,7 @@ contains
          if (digits(k) <= 0.0_wp) cycle
          words = words//", "//to_text(k)//" to "//real_text(digits(k), 3)//" s"
       end do
-      if (k > 0) words = words//", "//to_text(k)//" to the end"
+      if (k > 0) words = words//", "//to_text(k)//" "//trim(merge("as far as was looked", "to the end          ", is_cut))
       words = piece(words, 3)
    end function digits_text
 
@@ -115,6 +117,7 @@ contains
       end if
       call json%put_real("exponent_from", horizon%after)
       call json%put_real("exponent_to", horizon%t(size(horizon%t)))
+      call json%put_logical("exponent_cut", horizon%is_cut)
       call json%put_integer("exponent_jumps", int(horizon%n_crossed, i8))
       call json%put_integer("exponent_grazing", int(horizon%n_grazed, i8))
       call json%put_integer("exponent_together", int(horizon%n_together, i8))

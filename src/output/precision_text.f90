@@ -28,7 +28,8 @@ contains
 
       call lines%line(title)
       call lines%line("compared   "//to_text(size(study%ladders))//" settings on a motion of "//real_text(study%end, 6)// &
-                      " s, at "//to_text(study%instants)//" instants"//window_text(study))
+                      " s"//trim(merge(" that a condition ends", "                      ", study%is_stopped))//", at "// &
+                      to_text(study%instants)//" instants"//window_text(study))
       call lines%line("machine    "//study%machine%processor//"; "//study%machine%compiler)
       call lines%line("           "//flags_of(study%machine%flags))
       call add_reference(lines, study)

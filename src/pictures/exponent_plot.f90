@@ -9,7 +9,7 @@ module exponent_plot
    use plot_text, only: quoted
    use precision_rows, only: number
    use script_parts, only: colours, preamble
-   use text, only: real_text, to_text
+   use text, only: piece, real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
@@ -74,12 +74,13 @@ contains
       call lines%line("set xlabel "//quoted("time ["//time%symbol//"]"))
       call lines%line("set ylabel 'growth of a small change of the start [1]'")
       call lines%line("set format y '1e%+.0f'; e = log(10.)")
+      call add_tics(lines, horizon)
       call add_digits(lines, horizon, time)
       call lines%line("plot "//curve("($1*f)", "($2/e)", 1, "by the tangent, with jumps at "//to_text(horizon%n_crossed)// &
                                      " events", "linewidth 2")//", \")
       call lines%line("     "//curve("($1*f)", "($3/e)", 2, "by a twin, brought back "//to_text(horizon%n_renewed)//" times", &
                                      "linewidth 1.5 dashtype 2"))
-      call lines%line("unset arrow; unset label; set format y '%g'; set key top right")
+      call lines%line("unset arrow; unset label; set format y '%g'; set ytics autofreq; set key top right")
       call lines%line("set ylabel 'mean exponent so far, without the transient [1/s]'")
       call lines%line("set xrange ["//number(horizon%after*time%factor)//":"//number(end*time%factor)//"]")
       call add_interval(lines, horizon)
@@ -90,6 +91,37 @@ contains
       call lines%line("unset output")
       script = lines%get()
    end function exponent_script
+
+   !> Tics of the growth, whose logarithm is drawn since it may be greater than any number: whole decades, of few of them 1, 2 and 5
+   !> too.
+   subroutine add_tics(lines, horizon)
+      type(buffer_t), intent(inout) :: lines    !! the script
+      type(horizon_t), intent(in) :: horizon    !! what is known
+
+      integer, parameter :: few = 3                                 ! decades that have tics between
+      integer, parameter :: most = 8                                ! tics
+      integer, parameter :: between(3) = [1, 2, 5]                  ! parts of a decade [1]
+      character(:), allocatable :: tics
+      real(wp) :: high, low
+      integer :: decade, k
+
+      associate (growth => [horizon%tangent%growth, horizon%twin%growth]/log(10.0_wp))
+         low = minval(growth, mask=ieee_is_finite(growth))
+         high = maxval(growth, mask=ieee_is_finite(growth))
+      end associate
+      if (high - low > real(few, wp)) then
+         call lines%line("set ytics "//to_text(1 + int((high - low)/real(most, wp))))
+         return
+      end if
+      tics = ""
+      do decade = floor(low), ceiling(high)
+         do k = 1, size(between)
+            tics = tics//", '"//real_text(real(between(k), wp)*10.0_wp**decade, 2)//"' "// &
+                   number(real(decade, wp) + log10(real(between(k), wp)))
+         end do
+      end do
+      call lines%line("set ytics ("//piece(tics, 3)//")")
+   end subroutine add_tics
 
    !> Marks of the times up to which there are digits.
    subroutine add_digits(lines, horizon, time)

@@ -13,7 +13,8 @@ module precision_plots
    use plot_text, only: quoted
    use horizon_plot, only: horizon_rows, horizon_script
    use precision_rows, only: front_of, least_error, number, numbers_of
-   use precision_results, only: error_ledger, error_names, precision_t, rung_done, rung_failed, rung_other
+   use precision_results, only: error_ledger, error_names, precision_t, rung_done, rung_failed, rung_other, &
+      rung_unrun
    use script_parts, only: colours, preamble
    use text, only: append_text, real_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -158,13 +159,11 @@ contains
       character(*), intent(in) :: low           !! lower end of a bar, blank: there is none
       logical, intent(in) :: with_titles        !! curves stand in the legend
 
-      character(:), allocatable :: colour, title
+      character(:), allocatable :: colour
       integer :: k
 
       do k = 1, size(study%ladders)
          colour = "linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
-         title = "notitle"
-         if (with_titles) title = "title "//quoted(study%ladders(k)%name//merge(" (steps)", "        ", study%ladders(k)%is_fixed))
          call lines%line(merge("plot ", "     ", k == 1)//block(k)//picked(x, "$"//at_state//"==1", y)// &
                          " with lines linewidth 1 "//colour//" notitle, \")
          call lines%line("     "//block(k)//picked(x, "$"//at_state//"==1 && $"//at_below//"==1", y)// &
@@ -176,7 +175,13 @@ contains
                             " with yerrorbars pointtype 0 linewidth 1 "//colour//" notitle, \")
          end if
          call lines%line("     "//block(k)//picked(x, "$"//at_state//"==1 && $"//at_below//"==0", y)// &
-                         " with points pointtype 7 pointsize 0.9 "//colour//" "//title//", \")
+                         " with points pointtype 7 pointsize 0.9 "//colour//" notitle, \")
+         associate (ladder => study%ladders(k))
+            if (.not. with_titles .or. all(ladder%rungs%state /= rung_done .and. ladder%rungs%state /= rung_other)) cycle
+            ! an entry of its own: curves all of whose points are grey have one too
+            call lines%line("     keyentry with points pointtype 7 pointsize 0.9 "//colour//" title "// &
+                            quoted(ladder%name//trim(merge(" (steps)", "        ", ladder%is_fixed)))//", \")
+         end associate
       end do
    end subroutine add_curves
 
@@ -198,18 +203,23 @@ contains
       words = "(("//condition//") ? $"//x//" : NaN):"//y
    end function picked
 
-   !> Failures at the right edge, each reason of a setting once in the legend.
+   !> Failures at the right edge, each reason of a setting once in the legend, and the settings no run of which was made.
    subroutine add_failures(lines, study)
       type(buffer_t), intent(inout) :: lines    !! the script
       type(precision_t), intent(in) :: study    !! results
 
-      character(:), allocatable :: edge, told
+      character(:), allocatable :: colour, edge, told
       integer :: i, k, n
 
       edge = number(10.0_wp*largest_error(study))
       do k = 1, size(study%ladders)
          told = ""
+         colour = "linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"'"
          associate (rungs => study%ladders(k)%rungs)
+            if (all(rungs%state == rung_unrun)) then
+               call lines%line("     keyentry with points pointtype 1 pointsize 1 "//colour//" title "// &
+                               quoted(study%ladders(k)%name//" not run: "//rungs(1)%reason)//", \")
+            end if
             n = count(rungs%state == rung_failed)
             if (n == 0) cycle
             do i = 1, size(rungs)
@@ -219,7 +229,7 @@ contains
             if (n > 1) told = told//" ("//to_text(n)//" runs)"
             call lines%line("     "//block(k)//"(($"//at_state//"==2) ? "//edge//" : NaN):(($"//at_cpu//">0) ? $"//at_cpu// &
                             "*f : "//number(smallest_cpu(study))//"*f) with points pointtype 2 pointsize 1.3 linewidth 2 "// &
-                            "linecolor rgb '"//colours(mod(k - 1, size(colours)) + 1)//"' title "//quoted(told)//", \")
+                            colour//" title "//quoted(told)//", \")
          end associate
       end do
    end subroutine add_failures
@@ -258,7 +268,7 @@ contains
       call lines%line("unset arrow; unset label; unset object")
       if (any_ledger(study)) call panel("residual of the energy ledger [1], of the largest energy", &
                                         "CPU time of the solution ["//cpu%symbol//"]", "$"//at_cpu//"*f", at_ledger)
-      call lines%line("set key inside top left vertical Left reverse samplen 1.5 spacing 1.1 font ',12' opaque")
+      call lines%line("set key inside bottom right vertical Left reverse samplen 1.5 spacing 1.1 font ',12' opaque")
       call panel("tolerance asked [1], or step [s]", label, "$"//at_error, at_asked, "x with lines linewidth 1 dashtype 2 "// &
                  "linecolor rgb '#404040' title 'error = tolerance', ")
       call lines%line("unset key")

@@ -10,6 +10,7 @@ module precision_rows
    public :: front_of, least_error, number, numbers_of
 
    real(wp), parameter :: least_error = 1.0e-17_wp   !! drawn for an error of nothing [1]
+   real(wp), parameter :: least_below = 0.1_wp       !! of the reference's own error, drawn for what is less: it cannot be told [1]
 
 contains
 
@@ -75,6 +76,7 @@ contains
 
       x = rung%error(study%wanted)
       if (ieee_is_finite(x)) x = max(x, least_error)
+      if (rung%is_below) x = max(x, least_below*study%reference%bar(study%wanted))
       ledger = rung%error(error_ledger)
       if (ieee_is_finite(ledger)) ledger = max(ledger, least_error)
       line = number(rung%asked)//" "//number(x)//" "//number(rung%cpu)//" "//number(rung%cpu_least)//" "// &

@@ -33,6 +33,10 @@ module accuracy_search
    real(wp), parameter :: first_part = 3.0_wp        !! of the greatest difference allowed: for the first one [1]
    real(wp), parameter :: tightest_part = 1.0e-2_wp  !! of the tolerance, of a run of the same integrator that confirms [1]
    integer, parameter :: attempts = 4                !! tolerances of the other integrator
+   real(wp), parameter :: until_taken = 0.5_wp       !! part of the budget at whose end no third or further run is begun [1]
+   real(wp), parameter :: dear = 4.0_wp              !! time of another integrator over that of the run's own, for a forecast [1]
+   real(wp), parameter :: for_one = 0.6_wp           !! of the time left, that the first run of another integrator may take [1]
+   real(wp), parameter :: much_looser = 1.0e2_wp     !! tolerance after one that was late, over its own [1]
    real(wp), parameter :: rise = 1.6_wp              !! of the time of a run over that of the one before, for a forecast [1]
    real(wp), parameter :: idle = 0.5_wp              !! of the difference before: it no longer falls [1]
    integer, parameter :: patience = 2                !! pairs of runs in which nothing is gained before the search ends
@@ -81,16 +85,17 @@ contains
       type(search_t), intent(inout) :: search         !! two runs are found, or one, or none
 
       type(trial_t) :: last, next
-      real(wp) :: best(2), now(2), tolerance
+      real(wp) :: best(2), now(2), tolerance, until
       integer :: futile, k
 
       tolerance = max(finest, min(coarsest, 10.0_wp**floor(log10(first_part*search%limit))))
       best = [-1.0_wp, huge(1.0_wp)]
       futile = 0
       do k = 1, nint(-log10(least_tolerance)) + 1
-         if (last%is_there .and. rise*last%what%wall > time_left(budget, last)) search%reason = no_time
+         until = merge(until_taken, 1.0_wp, search%coarser%is_there)
+         if (last%is_there .and. rise*last%what%wall > budget%left(until) - last%what%wall) search%reason = no_time
          if (search%reason /= "") return
-         call make_trial(job, budget, setting_t(method, "", ""), tolerance, search, next)
+         call make_trial(job, budget, until, setting_t(method, "", ""), tolerance, search, next)
          if (next%is_there) then
             if (.not. search%taken%is_there) search%taken = next
             if (last%is_there) then
@@ -141,7 +146,7 @@ contains
             call confirm_by(trim(others(k)), own%asked)
          end do
          if (best(1) < pair(1) .and. own%asked > same*least_tolerance) then
-            call take(own%setting%method, max(least_tolerance, tightest_part*own%asked))
+            call take(own%setting%method, max(least_tolerance, tightest_part*own%asked), 1.0_wp)
          end if
       end associate
       if (best(1) >= pair(1) .and. pair(2) <= search%limit) search%reason = ""
@@ -149,45 +154,57 @@ contains
 
    contains
 
-      !> Runs of an integrator, tighter from one to the next; looser where it fails.
+      !> Runs of an integrator, tighter from one to the next; looser where it fails, or where there is no time for more.
       subroutine confirm_by(name, first)
          character(*), intent(in) :: name   !! the integrator
          real(wp), intent(in) :: first      !! its first tolerance [1]
 
-         real(wp) :: tolerance
-         integer :: i
-         logical :: has_ended
+         real(wp) :: forecast, tolerance
+         integer :: i, looser
+         logical :: has_ended, was_late
 
          tolerance = first
+         forecast = dear*search%taken%what%wall
+         looser = 0
+         do while (forecast > time_left(budget, search%taken) .and. tolerance < coarsest)
+            tolerance = tolerance/step
+            forecast = forecast/rise
+            looser = looser + 1
+         end do
          has_ended = .false.
-         do i = 1, attempts
-            call take(name, tolerance)
+         was_late = .false.
+         do i = 1, attempts + looser
+            call take(name, tolerance, merge(1.0_wp, for_one, has_ended .or. was_late))
             if (best(1) >= pair(1)) return
             if (next%is_there) then
                has_ended = .true.
                if (tolerance <= same*least_tolerance) return
                tolerance = max(least_tolerance, step*tolerance)
             else
-               if (has_ended) return
-               tolerance = tolerance/step
+               if (has_ended .or. (next%is_late .and. was_late)) return
+               was_late = was_late .or. next%is_late
+               tolerance = tolerance*merge(much_looser, 1.0_wp/step, next%is_late)
             end if
          end do
       end subroutine confirm_by
 
       !> A run, if there is time for it.
-      subroutine take(name, tolerance)
+      subroutine take(name, tolerance, part)
          character(*), intent(in) :: name       !! the integrator
          real(wp), intent(in) :: tolerance      !! its tolerance [1]
+         real(wp), intent(in) :: part           !! of the time left, that it may take [1]
 
          type(trial_t) :: fresh
-         real(wp) :: now(2)
+         real(wp) :: left, now(2)
 
-         if (next%is_there .and. rise*next%what%wall > time_left(budget, search%taken)) then
+         left = time_left(budget, search%taken)
+         if (left <= 0.0_wp .or. (next%is_there .and. rise*next%what%wall > left)) then
             search%reason = no_time
             next = fresh
+            next%is_late = .true.
             return
          end if
-         call make_trial(job, budget, setting_t(name, "", ""), tolerance, search, next)
+         call make_trial(job, budget, budget%part_after(part*left), setting_t(name, "", ""), tolerance, search, next)
          if (.not. next%is_there) return
          now = agreement(search%taken%run, next%run, search)
          if (.not. is_better(now, best)) return

@@ -17,6 +17,7 @@ module accuracy_trial
    !> A run of the search.
    type :: trial_t
       logical :: is_there = .false.            !! it came to its end
+      logical :: is_late = .false.             !! its time was up
       type(reference_t) :: what                !! its setting, tolerance and time; not its motion
       type(kept_channels_t) :: run             !! its channels and motion
    end type trial_t
@@ -37,9 +38,10 @@ module accuracy_trial
 contains
 
    !> Make a run. One that is late ends the search.
-   subroutine make_trial(job, budget, setting, tolerance, search, trial)
+   subroutine make_trial(job, budget, until, setting, tolerance, search, trial)
       type(job_t), intent(inout) :: job               !! what runs share
       type(time_budget_t), intent(in) :: budget       !! the time
+      real(wp), intent(in) :: until                   !! part of the budget at which its time is up [1]
       type(setting_t), intent(in) :: setting          !! its integrator
       real(wp), intent(in) :: tolerance               !! its tolerance [1]
       type(search_t), intent(inout) :: search         !! counts runs
@@ -55,10 +57,11 @@ contains
       trial%run%stride = search%stride
       trial%run%arm = arms_of(job)
       trial%run%wants_contact_rows = job%with_contact_rows
-      job%cpu = shorter(budget%cpu_left(1.0_wp), job)
+      job%cpu = shorter(budget%cpu_left(until), job)
       call run_setting(job, setting, tolerance, trial%run, outcome)
       trial%what%wall = budget%elapsed() - begun
       trial%is_there = outcome%reason == ""
+      trial%is_late = outcome%is_late
       search%runs = search%runs + 1
       if (outcome%is_late) search%reason = no_time
       if (.not. (trial%is_there .or. outcome%is_late .or. search%taken%is_there) .and. tolerance <= same*least_tolerance) then

@@ -2,11 +2,12 @@
 !>
 !> Differences of channels are measured by the scale of their kind: of positions, velocities and reactions as in `run_difference`
 !> (velocities and reactions of all rows), of all else the greatest magnitude of what has the same unit in the same room of the
-!> catalogue (what turns counts at the greatest radius of gyration), of energies the ledger's yardstick.
+!> catalogue (what turns counts at the greatest radius of gyration), of energies the ledger's yardstick. Angles that jump by a turn
+!> differ by less than half a turn; as long as they go all round they have no extremes.
 module channel_difference
-   use catalogue, only: n_rooms
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kept_channels, only: class_energy, class_force, class_length, class_rate, kept_channels_t, n_class
+   use kept_channels, only: class_acceleration, class_energy, class_force, class_length, class_other, class_power, class_rate, &
+      kept_channels_t
    use kept_run, only: n_sort, sort_positions, sort_reactions, sort_velocities
    use kinds, only: wp
    use run_difference, only: scales_of
@@ -19,6 +20,8 @@ module channel_difference
    real(wp), parameter :: floor_rate = 1.0e-3_wp    !! rates of contacts that have settled are what the tolerance leaves of them
    real(wp), parameter :: floor_force = 1.0e-9_wp   !! forces that vanish
    real(wp), parameter :: not_alike = 1.0e100_wp   !! difference of what is a number in one run only [any]
+   real(wp), parameter :: turn = 8.0_wp*atan(1.0_wp) !! a whole one [rad]
+   real(wp), parameter :: all_round = 0.75_wp*turn  !! range from which an angle goes all round [rad]
 
 contains
 
@@ -30,8 +33,8 @@ contains
       real(wp), intent(in) :: end                    !! time of the motion [s]
       real(wp), allocatable :: scale(:)              !! (kinds) in their units [any]
 
-      real(wp) :: floors(n_class)
-      integer :: class, k, room
+      real(wp) :: floors(class_other)
+      integer :: k
 
       scale = run%magnitude
       scale(:n_sort) = scales_of(run, size_of_scene, end)
@@ -42,13 +45,14 @@ contains
       floors(class_length) = floor_length*scale(sort_positions)
       floors(class_rate) = floor_rate*scale(sort_velocities)
       floors(class_force) = floor_force*scale(sort_reactions)
-      do room = 1, n_rooms
-         do class = 1, n_class
-            k = n_sort + (room - 1)*n_class + class
+      floors(class_acceleration) = floors(class_rate)/end
+      floors(class_power) = floors(class_force)*scale(sort_velocities)
+      do k = n_sort + 1, size(scale)
+         associate (class => run%further(k - n_sort)%class)
             scale(k) = max(scale(k), floors(class))
             if (class == class_energy) scale(k) = run%summary%quality%energy_max
             if (scale(k) <= 0.0_wp) scale(k) = 1.0_wp
-         end do
+         end associate
       end do
    end function channel_scales
 
@@ -67,8 +71,13 @@ contains
 
       do i = 1, min(run%n, other%n)
          do k = 1, size(run%kind)
-            d = max(apart(run%series%x(k, i), other%series%x(k, i)), apart(run%series%low(k, i), other%series%low(k, i)), &
-                    apart(run%series%high(k, i), other%series%high(k, i)))
+            d = apart(run%series%x(k, i), other%series%x(k, i))
+            if (run%goes_round(k)) d = min(d, abs(turn - d))
+            if (.not. is_round(k, run%series%high(k, i) - run%series%low(k, i), other%series%high(k, i) - &
+                               other%series%low(k, i))) then
+               d = max(d, apart(run%series%low(k, i), other%series%low(k, i)), &
+                       apart(run%series%high(k, i), other%series%high(k, i)))
+            end if
             call raise(i, k, d)
          end do
       end do
@@ -76,11 +85,21 @@ contains
       if (abs(run%n - other%n) > 1) by_instant(min(run%n, other%n) + 1:) = not_alike
       if (run%n == 0 .or. run%n /= other%n) return
       do k = 1, size(run%kind)   ! rows behind the last instant
+         if (is_round(k, run%series%most(k) - run%series%least(k), other%series%most(k) - other%series%least(k))) cycle
          d = max(apart(run%series%least(k), other%series%least(k)), apart(run%series%most(k), other%series%most(k)))
          call raise(run%n, k, d)
       end do
 
    contains
+
+      !> Whether a channel is an angle that has gone all round in one of the runs, from its range in each.
+      logical function is_round(k, range, other_range)
+         integer, intent(in) :: k              !! number of the channel
+         real(wp), intent(in) :: range         !! of the values so far [any]
+         real(wp), intent(in) :: other_range   !! the same of the other run [any]
+
+         is_round = run%goes_round(k) .and. max(range, other_range) > all_round
+      end function is_round
 
       !> Raise the differences of an instant and of a channel.
       subroutine raise(i, k, d)

@@ -2,15 +2,16 @@
 !>
 !> The exponent is the mean rate at which ln of a small change grows,
 !> $$ \lambda = \frac{1}{T} \ln \frac{|w(t_0 + T)|}{|w(t_0)|}, $$
-!> behind a transient, with an interval of 95 % from the slopes over batches of equal length. Where |w| changes by no more than t^2
-!> would over the stretch, the exponent is not told from zero: regular motions grow like a power of time. An error e made at any
-!> time has grown to e R(t) at most, R the greatest ratio of |w(t)| to |w(s)| of any s before: up to e R(t) = 10^-k there can be
-!> k digits.
+!> behind a transient, with an interval of 95 % from the slopes over batches of equal length. Where swings of |w| keep step with
+!> the batches, all of these slopes are wrong alike: then the slope of the whole stretch is not within the interval, and it is
+!> taken, with what both differ by as half of its interval. Where |w| changes by no more than t^2 would over the stretch, the
+!> exponent is not told from zero: regular motions grow like a power of time. An error e made at any time has grown to e R(t) at
+!> most, R the greatest ratio of |w(t)| to |w(s)| of any s before: up to e R(t) = 10^-k there can be k digits.
 !>
 !> Source: G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9-30; batches: see `batch_means`.
 !> Limits: the interval knows of what varies within the stretch; it is that of an attractor if the stretch has gone all over it.
 module exponent
-   use batch_means, only: estimate_t, mean_of_series
+   use batch_means, only: estimate_t, mean_of_series, means_of_batches
    use growth, only: n_digit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: eps, not_a_number, wp
@@ -46,6 +47,7 @@ module exponent
       integer :: n_renewed = 0                      !! times that the twin was brought near again
       real(wp) :: digits(n_digit) = 0.0_wp          !! (k) time up to which doubles can have k digits; NaN: beyond [s]
       real(wp) :: run_digits(n_digit) = 0.0_wp      !! (k) the same of a run of tolerance `asked` [s]
+      logical :: is_cut = .false.                   !! the instants end where the processor time was up
       logical :: with_twin = .false.                !! the twin was asked for
       logical :: is_agreed = .false.                !! both methods are known, and agree within their intervals
    end type horizon_t
@@ -58,6 +60,7 @@ contains
       real(wp), intent(in) :: after                     !! end of the transient [s]
       type(exponent_t), intent(inout) :: exponent       !! growth is set; the rate follows
 
+      real(wp), allocatable :: slopes(:)
       integer :: first, n
 
       n = size(t)
@@ -70,7 +73,14 @@ contains
       end if
       associate (g => exponent%growth(first:), at => t(first:))
          n = size(g)
-         exponent%rate = mean_of_series((g(2:) - g(:n - 1))/(at(2:) - at(:n - 1)), is_increment=.true.)
+         slopes = (g(2:) - g(:n - 1))/(at(2:) - at(:n - 1))
+      end associate
+      exponent%rate = mean_of_series(slopes, is_increment=.true.)
+      associate (rate => exponent%rate, whole => means_of_batches(slopes, 1, is_increment=.true.))
+         if (abs(rate%value - whole(1)) > rate%half) then
+            rate%half = abs(rate%value - whole(1))
+            rate%value = whole(1)
+         end if
       end associate
       if (ieee_is_finite(exponent%rate%half)) return
       exponent%reason = "there are too few instants behind the transient"

@@ -27,6 +27,7 @@ module exponent_runs
    real(wp), parameter :: horizon_tolerance = 1.0e-10_wp   !! of the motions [1]
    real(wp), parameter :: distance = 1.0e-7_wp             !! of the twin, of the scales [1]
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
+   integer, parameter :: fewest_instants = 64              !! reached before the processor time was up, for an exponent up to there
    real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one wanted, from which it is brought back [1]
    character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a twin that is put back
 
@@ -83,8 +84,12 @@ contains
          logs(:, k) = tangent%lengths(mover%system)
       end do
       if (allocated(error)) then
-         horizon%tangent%reason = first_line(error%message)
-         return
+         if (.not. mover%is_late .or. k - 1 < fewest_instants) then
+            horizon%tangent%reason = first_line(error%message)
+            return
+         end if
+         call cut(horizon, k - 1)
+         logs = logs(:, :k - 1)
       end if
       horizon%n_crossed = tangent%n_crossed
       horizon%n_grazed = tangent%n_grazed
@@ -98,7 +103,19 @@ contains
       call compare(horizon)
    end subroutine find_horizon
 
-   !> Exponent by a twin.
+   !> Leave out the instants that were not reached; the transient is the same part of the others.
+   subroutine cut(horizon, n)
+      type(horizon_t), intent(inout) :: horizon          !! planned
+      integer, intent(in) :: n                           !! instants that were reached
+
+      horizon%after = horizon%after*horizon%t(n)/horizon%t(size(horizon%t))
+      horizon%t = horizon%t(:n)
+      horizon%tangent%growth = horizon%tangent%growth(:n)
+      horizon%twin%growth = horizon%twin%growth(:n)
+      horizon%is_cut = .true.
+   end subroutine cut
+
+   !> Exponent by a twin. Where its processor time is up before the last instant, behind half of them, both exponents end there.
    subroutine horizon_with_twin(job, horizon)
       type(job_t), intent(inout) :: job                  !! scene, settings, processor time
       type(horizon_t), intent(inout) :: horizon          !! planned; exponent of the twin follows
@@ -143,21 +160,35 @@ contains
          apart = distances_of(base, twin, first%scale)
          level = level + log(d/max(apart(1), apart(2)/first%pace(base%system)))
       end do
-      if (allocated(error)) horizon%twin%reason = first_line(error%message)
+      if (allocated(error)) then
+         if ((base%is_late .or. twin%is_late) .and. k - 1 >= max(fewest_instants, size(horizon%t)/2)) then
+            call cut(horizon, k - 1)
+            logs = logs(:, :k - 1)
+            if (horizon%tangent%reason == "") call find_exponent(horizon%t, horizon%after, horizon%tangent)
+         else
+            horizon%twin%reason = first_line(error%message)
+         end if
+      end if
       if (horizon%twin%reason == "") horizon%twin%growth = growth_of(logs, first%pace(base%system))
       call find_exponent(horizon%t, horizon%after, horizon%twin)
       call compare(horizon)
    end subroutine horizon_with_twin
 
    !> How far two motions of one mechanism are apart in positions, and in rates [1 and s^-1].
-   pure function distances_of(a, b, scale) result(d)
+   function distances_of(a, b, scale) result(d)
       type(mover_t), intent(in) :: a           !! a motion
       type(mover_t), intent(in) :: b           !! another one
       real(wp), intent(in) :: scale(:)         !! (positions + rates) what differences are measured by [any]
       real(wp) :: d(2)                         !! (2) greatest of positions and of rates [1]
 
-      associate (nq => a%system%linkage%n_position, x => a%method%step%y1(:size(scale)), y => b%method%step%y1(:size(scale)))
-         d = [maxval(abs(y(:nq) - x(:nq))/scale(:nq)), maxval(abs(y(nq + 1:) - x(nq + 1:))/scale(nq + 1:))]
+      real(wp), allocatable :: x(:), y(:)
+
+      x = a%method%step%y1
+      y = b%method%step%y1
+      call a%system%linkage%tidy(x)
+      call b%system%linkage%tidy(y)
+      associate (nq => a%system%linkage%n_position, n => size(scale))
+         d = [maxval(abs(y(:nq) - x(:nq))/scale(:nq)), maxval(abs(y(nq + 1:n) - x(nq + 1:n))/scale(nq + 1:))]
       end associate
    end function distances_of
 

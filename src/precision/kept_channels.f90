@@ -2,24 +2,35 @@
 !>
 !> Extremes are those of the output instants, and of the row at which a condition ends the run; of normal forces those of all
 !> rows, whose peaks are located (which other rows a contact has depends on the steps). Values are kept at the output instants,
-!> or at each of a whole number of them. Every channel has a kind, by which its differences are measured (`channel_difference`).
+!> or at each of a whole number of them. Every channel has a kind, by which its differences are measured (`channel_difference`):
+!> what has the same unit in the same room; of requests that are no lengths, rates, forces or energies each is a kind of its own.
 module kept_channels
-   use catalogue, only: catalogue_t, group_t, n_rooms, room_bodies, room_contacts
+   use catalogue, only: catalogue_t, group_t, room_bodies, room_contacts, room_joints, room_requests
    use errors, only: error_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kept_run, only: kept_run_t, n_sort, sort_of
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions
    use kinds, only: i8, wp
    use recorder, only: row_stop, summary_t
    implicit none (type, external)
    private
-   public :: class_energy, class_force, class_length, class_rate, kept_channels_t, n_class
+   public :: channel_kind_t, class_acceleration, class_energy, class_force, class_length, class_other, class_power, class_rate, &
+      kept_channels_t
 
    integer, parameter :: class_length = 1  !! m, rad
    integer, parameter :: class_rate = 2    !! m/s, rad/s
    integer, parameter :: class_force = 3   !! N, N.m
    integer, parameter :: class_energy = 4  !! J
-   integer, parameter :: class_other = 5   !! accelerations, powers
-   integer, parameter :: n_class = 5       !! classes of units
+   integer, parameter :: class_acceleration = 5  !! m/s^2, rad/s^2
+   integer, parameter :: class_power = 6   !! W
+   integer, parameter :: class_other = 7   !! all else, each unit by itself
+
+   !> A kind of channels behind the sorts: what is measured by one scale.
+   type :: channel_kind_t
+      integer :: room = 0                         !! of the catalogue
+      integer :: class = class_other              !! of its unit
+      integer :: group = 0                        !! quantity of a request, which is a kind of its own; else 0
+      character(:), allocatable :: unit           !! of a unit by itself
+   end type channel_kind_t
 
    !> Values of the channels, and their extremes.
    type :: series_t
@@ -35,7 +46,9 @@ module kept_channels
    type, extends(kept_run_t) :: kept_channels_t
       integer, allocatable :: asked(:, :)         !! (3, n) group, component, item of the channels
       integer :: stride = 1                       !! output instants from one that is kept to the next
-      integer, allocatable :: kind(:)             !! (n) kind of each channel: a sort, or one of the further ones
+      integer, allocatable :: kind(:)             !! (n) kind of each channel: a sort, or n_sort and the number of a further one
+      type(channel_kind_t), allocatable :: further(:)  !! (any) the further kinds
+      logical, allocatable :: goes_round(:)       !! (n) an angle that jumps by a turn
       real(wp), allocatable :: factor_of(:)       !! (n) to the unit of its kind [any]
       real(wp), allocatable :: magnitude(:)       !! (kinds) greatest magnitude, in the unit of the kind [any]
       type(series_t) :: series                    !! values of the channels
@@ -45,6 +58,7 @@ module kept_channels
       logical, allocatable, private :: is_peaked(:)  !! (n) a normal force
    contains
       procedure :: start => start_channels
+      procedure :: wants => wants_channels
       procedure :: sample => sample_channels
       procedure :: further_row => row_of_channels
       procedure :: finish => finish_channels
@@ -64,25 +78,59 @@ contains
       n = size(self%asked, 2)
       allocate (self%kind(n), source=0)
       allocate (self%factor_of(n), source=1.0_wp)
-      allocate (self%magnitude(n_sort + n_rooms*n_class), source=0.0_wp)
+      allocate (self%further(0))
       allocate (self%series%x(n, size(self%t)), self%series%low(n, size(self%t)), self%series%high(n, size(self%t)), source=0.0_wp)
       allocate (self%series%least(n), source=huge(1.0_wp))
       allocate (self%series%most(n), source=-huge(1.0_wp))
       allocate (self%kind_of(size(catalogue%groups)), source=0)
-      allocate (self%is_peaked(n), source=.false.)
+      allocate (self%is_peaked(n), self%goes_round(n), source=.false.)
       do g = 1, size(catalogue%groups)
          self%kind_of(g) = sort_of(catalogue%groups(g)%room, catalogue%groups(g)%channel%name)
       end do
       do k = 1, n
          g = self%asked(1, k)
          associate (group => catalogue%groups(g))
-            if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + (group%room - 1)*n_class + class_of(group%channel%unit)
+            if (self%kind_of(g) == 0) self%kind_of(g) = n_sort + number_of_kind(self, group, g)
             self%kind(k) = self%kind_of(g)
             self%factor_of(k) = factor_to(self, group, self%asked(3, k))
             self%is_peaked(k) = group%room == room_contacts .and. group%channel%name == "normal_force"
+            self%goes_round(k) = (group%room == room_contacts .and. group%channel%name == "contact_angle") .or. &
+                                 (group%room == room_joints .and. group%channel%name == "angle")
          end associate
       end do
+      allocate (self%magnitude(n_sort + size(self%further)), source=0.0_wp)
    end subroutine start_channels
+
+   !> Whether a value is read: the channels, what scales them, and what every kept run has.
+   pure logical function wants_channels(self, group, item) result(wants)
+      class(kept_channels_t), intent(in) :: self   !! the recorder
+      integer, intent(in) :: group                 !! its group in the catalogue
+      integer, intent(in) :: item                  !! number of the item in the group's room
+
+      wants = self%kind_of(group) > 0 .or. self%kept_run_t%wants(group, item)
+   end function wants_channels
+
+   !> Number of the further kind of a quantity; a new one is added.
+   integer function number_of_kind(self, group, g) result(n)
+      class(kept_channels_t), intent(inout) :: self   !! the recorder
+      type(group_t), intent(in) :: group              !! the quantity
+      integer, intent(in) :: g                        !! its number in the catalogue
+
+      type(channel_kind_t) :: kind
+
+      kind = channel_kind_t(room=group%room, class=class_of(group%channel%unit), unit="")
+      if (kind%class == class_other) then
+         kind%unit = group%channel%unit
+         if (group%room == room_requests) kind%group = g
+      end if
+      do n = 1, size(self%further)
+         associate (other => self%further(n))
+            if (other%room == kind%room .and. other%class == kind%class .and. other%group == kind%group .and. &
+                other%unit == kind%unit) return
+         end associate
+      end do
+      self%further = [self%further, kind]
+   end function number_of_kind
 
    !> Class of a unit.
    pure integer function class_of(unit)
@@ -93,11 +141,14 @@ contains
       case ("m/s", "rad/s"); class_of = class_rate
       case ("N", "N.m"); class_of = class_force
       case ("J"); class_of = class_energy
+      case ("m/s^2", "rad/s^2"); class_of = class_acceleration
+      case ("W"); class_of = class_power
       case default; class_of = class_other
       end select
    end function class_of
 
-   !> What makes angles ways, and moments forces: the radius of gyration of a body, elsewhere the greatest one.
+   !> What makes angles ways, and moments forces: the radius of gyration of a body, elsewhere the greatest one. A turn of a
+   !> radian changes Euler parameters by a half at most.
    pure real(wp) function factor_to(self, group, item) result(factor)
       class(kept_channels_t), intent(in) :: self     !! the recorder
       type(group_t), intent(in) :: group             !! a quantity
@@ -105,6 +156,9 @@ contains
 
       factor = 1.0_wp
       if (group%channel%unit == "N.m") factor = 1.0_wp/maxval(self%arm)
+      if (sort_of(group%room, group%channel%name) == sort_positions .and. group%channel%unit == "1") then
+         factor = 2.0_wp*self%arm(item)
+      end if
       if (index(group%channel%unit, "rad") /= 1) return
       factor = maxval(self%arm)
       if (group%room == room_bodies) factor = self%arm(item)
@@ -165,9 +219,10 @@ contains
          if (self%kind_of(g) == 0) cycle
          associate (magnitude => self%magnitude(self%kind_of(g)), group => catalogue%groups(g))
             do j = 1, size(group%data, 2)
+               if (.not. catalogue%item_has(g, j)) cycle
                do i = 1, size(group%data, 1)
+                  if (.not. ieee_is_finite(group%data(i, j))) cycle
                   x = abs(group%data(i, j))
-                  if (ieee_is_nan(x)) cycle  ! an item whose kind does not have the channel
                   if (x*factor_to(self, group, j) > magnitude) magnitude = x*factor_to(self, group, j)
                end do
             end do

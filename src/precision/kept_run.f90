@@ -1,21 +1,25 @@
 !> A recorder that keeps a run in memory: positions, velocities and reactions at the output instants, and all contacts.
 !>
 !> All lengths of a sort have one unit, so that they can be compared with one scale: an angle of a body counts as the way of a
-!> point at its radius of gyration, a moment as a force at the greatest of these radii.
+!> point at its radius of gyration, a moment as a force at the greatest of these radii. Of the orientation of a body in space the
+!> ways of three such points are kept, one on each of its own axes: the columns of the rotation times the radius. They do not know
+!> the sign of Euler parameters.
 module kept_run
-   use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts, room_drivers, room_joints
+   use catalogue, only: catalogue_t, group_t, room_bodies, room_clearances, room_contacts, room_drivers, room_joints
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp
    use recorder, only: event_t, recorder_t, summary_t
+   use rotations, only: rotation_of_parameters
    implicit none (type, external)
    private
-   public :: contact_t, kept_run_t, n_sort, sort_of, sort_positions, sort_reactions, sort_velocities
+   public :: contact_t, kept_run_t, n_sort, numbers_of, sort_of, sort_positions, sort_reactions, sort_velocities
 
    integer, parameter :: sort_positions = 1   !! positions and angles of bodies [m]
    integer, parameter :: sort_velocities = 2  !! velocities and angular velocities of bodies [m/s]
    integer, parameter :: sort_reactions = 3   !! forces and moments of joints, drivers and joints with clearance [N]
    integer, parameter :: n_sort = 3           !! number of sorts
+   integer, parameter :: n_place = 9          !! coordinates of three points that tell the orientation of a body
 
    !> A contact that began.
    type :: contact_t
@@ -41,6 +45,7 @@ module kept_run
       type(catalogue_t), allocatable, private :: names  !! what was recorded, for the names of contacts
    contains
       procedure :: start => start_keeping
+      procedure :: wants => wants_kept
       procedure :: sample => keep_sample
       procedure :: event => keep_contact
       procedure :: progress => no_progress
@@ -84,13 +89,13 @@ contains
             if (sort == 0) return
             do item = 1, catalogue%rooms(group%room)%n
                if (.not. catalogue%item_has(g, item)) cycle
-               do component = 1, group%channel%components
+               do component = 1, numbers_of(group)
                   self%n = self%n + 1
                   if (pass == 1) cycle
                   self%sort(self%n) = sort
                   self%group(self%n) = g
                   self%at(:, self%n) = [component, item]
-                  if (index(group%channel%name, "ang") == 1) self%factor(self%n) = self%arm(item)
+                  if (index(group%channel%name, "ang") == 1 .or. is_orientation(group)) self%factor(self%n) = self%arm(item)
                   if (group%channel%name == "moment") self%factor(self%n) = 1.0_wp/maxval(self%arm)
                end do
             end do
@@ -98,6 +103,30 @@ contains
       end subroutine choose
 
    end subroutine start_keeping
+
+   !> Whether a value is read: what is not kept need not be found.
+   pure logical function wants_kept(self, group, item) result(wants)
+      class(kept_run_t), intent(in) :: self      !! the recorder
+      integer, intent(in) :: group               !! its group in the catalogue
+      integer, intent(in) :: item                !! number of the item in the group's room
+
+      wants = .false.
+      if (self%is_kept) wants = any(self%group == group .and. self%at(2, :) == item)
+   end function wants_kept
+
+   !> Whether a quantity is the orientation of bodies in space.
+   pure logical function is_orientation(group)
+      type(group_t), intent(in) :: group   !! the quantity
+
+      is_orientation = group%room == room_bodies .and. group%channel%name == "orientation"
+   end function is_orientation
+
+   !> Numbers that are kept of one item of a quantity.
+   pure integer function numbers_of(group) result(n)
+      type(group_t), intent(in) :: group   !! the quantity
+
+      n = merge(n_place, group%channel%components, is_orientation(group))
+   end function numbers_of
 
    !> Sort of a channel of a room, 0 if it is not kept.
    pure integer function sort_of(room, name) result(sort)
@@ -107,7 +136,7 @@ contains
       sort = 0
       select case (room)
       case (room_bodies)
-         if (name == "position" .or. name == "angle") sort = sort_positions
+         if (name == "position" .or. name == "angle" .or. name == "orientation") sort = sort_positions
          if (name == "velocity" .or. name == "angular_velocity") sort = sort_velocities
       case (room_joints, room_drivers, room_clearances)
          if (name == "force" .or. name == "moment" .or. name == "tension") sort = sort_reactions
@@ -134,7 +163,14 @@ contains
       self%n = self%n + 1
       self%t(self%n) = t
       do k = 1, size(self%sort)
-         self%values(k, self%n) = self%factor(k)*catalogue%groups(self%group(k))%data(self%at(1, k), self%at(2, k))
+         associate (group => catalogue%groups(self%group(k)), at => self%at(:, k))
+            if (.not. is_orientation(group)) then
+               self%values(k, self%n) = self%factor(k)*group%data(at(1), at(2))
+            else if (at(1) == 1) then
+               self%values(k:k + n_place - 1, self%n) = self%factor(k)* &
+                                                      reshape(rotation_of_parameters(group%data(:, at(2))), [n_place])
+            end if
+         end associate
       end do
    end subroutine keep_sample
 

@@ -15,6 +15,7 @@ module mover
    use run_tally, only: run_tally_t
    use setting_run, only: job_t, prepare_run
    use tangent, only: tangent_t
+   use text, only: real_text
    use tangent_events, only: cross_events, cross_instant
    implicit none (type, external)
    private
@@ -28,6 +29,7 @@ module mover
       type(run_tally_t) :: tally                        !! what it adds up
       type(kept_run_t) :: nothing                       !! records nothing
       type(cpu_budget_t) :: budget                      !! processor time left
+      logical :: is_late = .false.                      !! that time was up
    contains
       procedure :: start
       procedure :: advance
@@ -70,8 +72,12 @@ contains
 
       do while (self%method%t < until)
          call advance_part(self%part, self%tally, error, until)
-         if (.not. allocated(error) .and. self%budget%is_spent()) call self%budget%refuse(self%method%t, error)
          if (allocated(error)) return
+         self%is_late = self%budget%is_spent()
+         if (self%is_late) then
+            call set_error(error, exit_integration, "its processor time was up at t = "//real_text(self%method%t, 4)//" s")
+            return
+         end if
          if (present(tangent)) then
             call tangent%follow(self%system, self%method, status)
             if (status /= 0) then

@@ -3,15 +3,17 @@
 !> Errors that the reference does not hide (`precision_choice`) are taken by decades of what was asked; in each the median, of two
 !> runs at least. A ladder is bent where its median falls by less than `least_fall` over two decades: a tenth of what it does in
 !> proportion, and more than single runs scatter. Neighbouring stretches are one. The cause is what does not change either: the
-!> steps, when stability, events or instants set them, or the constraint violation; or errors are as large as the motion itself.
+!> steps, when stability, events or instants set them, or the constraint violation; or errors are as large as the motion itself; or
+!> they do not change at all while the steps do, since what makes them is shorter than any step, as a contact that is grazed; or
+!> those of neighbouring runs scatter widely, since in some of them errors of both signs cancel.
 !>
 !> Limits: ladders that are too short for three decades of two runs are not judged.
 module precision_bends
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use precision_choice, only: hidden_below
-   use precision_results, only: bend_lost, bend_scatter, bend_steps, bend_t, bend_violation, error_violation, ladder_t, median, &
-      precision_t, rung_done
+   use precision_results, only: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_t, bend_violation, &
+      error_violation, ladder_t, median, precision_t, rung_done
    implicit none (type, external)
    private
    public :: find_bends
@@ -19,6 +21,8 @@ module precision_bends
    real(wp), parameter :: least_fall = 3.0_wp      !! of the median over two decades [1]
    real(wp), parameter :: same_steps = 1.4_wp      !! numbers of steps, over two decades, that are nearly the same [1]
    real(wp), parameter :: lost = 0.1_wp            !! error of a motion that has nothing left of what it should be [1]
+   real(wp), parameter :: same_error = 0.01_wp     !! part of an error that may change over two decades where it is the same [1]
+   real(wp), parameter :: by_luck = 10.0_wp        !! ratio of errors of one decade from which they scatter widely [1]
    integer, parameter :: fewest = 2                !! runs of a decade
 
    !> The runs of a decade.
@@ -27,6 +31,8 @@ module precision_bends
       integer :: first = 0               !! rung, the coarsest of them
       integer :: last = 0                !! rung, the finest of them
       real(wp) :: error = 0.0_wp         !! median of their errors [1]
+      real(wp) :: least = 0.0_wp         !! least error [1]
+      real(wp) :: most = 0.0_wp          !! greatest error [1]
       real(wp) :: steps = 0.0_wp         !! median of their numbers of steps [1]
       real(wp) :: violation = 0.0_wp     !! median of the constraint violations [m]
    end type decade_t
@@ -60,7 +66,7 @@ contains
       do k = 1, size(decades) - 2
          if (any(decades(k:k + 2)%n < fewest)) cycle
          if (decades(k)%error > least_fall*decades(k + 2)%error) cycle
-         bend%cause = cause_of(decades(k), decades(k + 2))
+         bend%cause = cause_of(decades(k:k + 2))
          bend%first = decades(k)%first
          bend%last = decades(k + 2)%last
          if (last > 0 .and. k <= last + 2) then
@@ -103,21 +109,26 @@ contains
             decades(k)%first = findloc(is_in, .true., dim=1)
             decades(k)%last = findloc(is_in, .true., dim=1, back=.true.)
             decades(k)%error = median(pack([(rungs(i)%error(kind), i=1, size(rungs))], is_in))
+            decades(k)%least = minval([(rungs(i)%error(kind), i=1, size(rungs))], mask=is_in)
+            decades(k)%most = maxval([(rungs(i)%error(kind), i=1, size(rungs))], mask=is_in)
             decades(k)%steps = median(pack(real(rungs%count%steps, wp), is_in))
             decades(k)%violation = median(pack([(rungs(i)%error(error_violation), i=1, size(rungs))], is_in))
          end do
       end associate
    end function decades_of
 
-   !> Why errors do not fall from one decade to another.
-   pure integer function cause_of(coarse, fine)
-      type(decade_t), intent(in) :: coarse   !! the first decade
-      type(decade_t), intent(in) :: fine     !! the last one
+   !> Why errors do not fall from the first to the last of three decades.
+   pure integer function cause_of(decades)
+      type(decade_t), intent(in) :: decades(3)   !! (3) the decades
 
-      cause_of = bend_scatter
-      if (fine%violation > 0.0_wp .and. coarse%violation <= least_fall*fine%violation) cause_of = bend_violation
-      if (fine%steps <= same_steps*coarse%steps) cause_of = bend_steps
-      if (fine%error > lost) cause_of = bend_lost
+      associate (coarse => decades(1), fine => decades(3))
+         cause_of = bend_scatter
+         if (any(decades%most > by_luck*decades%least)) cause_of = bend_luck
+         if (fine%violation > 0.0_wp .and. coarse%violation <= least_fall*fine%violation) cause_of = bend_violation
+         if (abs(coarse%error - fine%error) <= same_error*fine%error) cause_of = bend_short
+         if (fine%steps <= same_steps*coarse%steps) cause_of = bend_steps
+         if (fine%error > lost) cause_of = bend_lost
+      end associate
    end function cause_of
 
 end module precision_bends

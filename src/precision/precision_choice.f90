@@ -27,7 +27,7 @@ contains
             is_good = ladder%rungs%state == rung_done
             is_good = is_good .and. error > hidden_below(study) .and. error > 0.0_wp .and. error < coarse
             call drop_floor(error, is_good)
-            ladder%order = -slope(log(pack(real(ladder%rungs%count%steps, wp), is_good)), log(pack(error, is_good)))
+            ladder%order = order_of(pack(real(ladder%rungs%count%steps, wp), is_good), pack(error, is_good))
             ladder%exponent = slope(log(pack(ladder%rungs%asked, is_good)), log(pack(error, is_good)))
             ladder%ratio = not_a_number()
             if (.not. ladder%is_fixed) ladder%ratio = median(pack(error/ladder%rungs%asked, is_good))
@@ -35,6 +35,20 @@ contains
          end associate
       end do
    end subroutine find_orders
+
+   !> Order that errors show over numbers of steps; none where it is not their number that makes the errors, since it hardly
+   !> changes.
+   pure real(wp) function order_of(steps, error) result(order)
+      real(wp), intent(in) :: steps(:)    !! (n) numbers of steps [1]
+      real(wp), intent(in) :: error(:)    !! (n) errors [1]
+
+      real(wp), parameter :: least_change = 1.5_wp  ! of the number of steps, from the fewest to the most [1]
+
+      order = not_a_number()
+      if (size(steps) == 0) return
+      if (maxval(steps) < least_change*minval(steps)) return
+      order = -slope(log(steps), log(error))
+   end function order_of
 
    !> Leave out what lies behind the least error of a ladder: there round-off grows with the number of steps.
    pure subroutine drop_floor(error, is_good)

@@ -45,7 +45,8 @@ module precision_reference
 
 contains
 
-   !> Find the reference, what confirms it, and up to when it is known well enough.
+   !> Find the reference, what confirms it, and up to when it is known well enough. Where a condition ends it, all motion ends at
+   !> its last instant.
    subroutine find_reference(job, budget, until, finest, study, kept, reference)
       type(job_t), intent(inout) :: job                  !! what runs share
       type(time_budget_t), intent(in) :: budget          !! the time
@@ -67,6 +68,12 @@ contains
       if (.not. reference%is_there) call tightest_of(study, kept, "", reference)
       if (.not. reference%is_there) return
       study%reference%what = described(reference)
+      associate (last => reference%run%t(reference%run%n))
+         study%is_stopped = last < study%end*(1.0_wp - 1.0e-9_wp)
+         if (study%is_stopped) study%end = last
+         if (study%is_stopped) study%instants = reference%run%n
+         study%reference%window = study%end
+      end associate
       study%reference%is_poor = reference%setting%method /= "verner" .or. &
                                 reference%asked > 1.01_wp*max(least_tolerance, tighter*finest)
       reference%scale = scales_of(reference%run, size_of(job), study%end)
@@ -77,7 +84,7 @@ contains
 
    contains
 
-      !> A run at a tenth of the finest tolerance, or as near to it as the method comes.
+      !> A run at a tenth of the finest tolerance, or as near to it as the method comes, and as the runs of its ladder let hope.
       subroutine run_tight(name, part)
          character(*), intent(in) :: name  !! of the integrator
          real(wp), intent(in) :: part      !! of the budget that may be spent [1]
@@ -89,7 +96,7 @@ contains
 
          second = fresh
          second%setting = setting_t(name, "", "")
-         second%asked = max(least_tolerance, tighter*finest)
+         second%asked = least_in_time(study, name, max(least_tolerance, tighter*finest), budget%left(part))
          do k = 1, attempts
             if (budget%left(part) <= 0.0_wp) return
             second%run = fresh%run
@@ -137,6 +144,40 @@ contains
       end function is_nearer
 
    end subroutine find_reference
+
+   !> The least tolerance, decades above the one wanted, for which there is time, from what the tightest run of the integrator took
+   !> and the one a decade before it; the one wanted where there is no such run, or no tolerance below it for which there is time.
+   pure real(wp) function least_in_time(study, name, wanted, time) result(tolerance)
+      type(precision_t), intent(in) :: study    !! with its ladders
+      character(*), intent(in) :: name          !! of the integrator
+      real(wp), intent(in) :: wanted            !! tolerance [1]
+      real(wp), intent(in) :: time              !! that is left [s]
+
+      real(wp), parameter :: usual = 1.3_wp     ! time of a run over that of one with ten times the tolerance [1]
+      real(wp), parameter :: least = 1.2_wp     ! the same, at least [1]
+      real(wp) :: rise
+      integer :: before, i, k
+
+      tolerance = wanted
+      do k = 1, size(study%ladders)
+         associate (rungs => study%ladders(k)%rungs)
+            if (study%ladders(k)%setting%method /= name .or. study%ladders(k)%is_fixed) cycle
+            i = findloc(rungs%state == rung_done .or. rungs%state == rung_other, .true., dim=1, back=.true.)
+            if (i == 0) cycle
+            before = findloc((rungs%state == rung_done .or. rungs%state == rung_other) .and. &
+                             rungs%asked > 9.0_wp*rungs(i)%asked, .true., dim=1, back=.true.)
+            rise = usual
+            if (before > 0) then
+               rise = max(least, (rungs(i)%wall/rungs(before)%wall)**(1.0_wp/log10(rungs(before)%asked/rungs(i)%asked)))
+            end if
+            do while (rungs(i)%wall*rise**log10(rungs(i)%asked/tolerance) > time .and. tolerance < rungs(i)%asked)
+               tolerance = 10.0_wp*tolerance
+            end do
+            if (tolerance >= rungs(i)%asked) tolerance = wanted
+            return
+         end associate
+      end do
+   end function least_in_time
 
    !> Radii of gyration of the bodies of a scene.
    function arms_of(job) result(arm)

@@ -8,7 +8,7 @@ module precision_results
    implicit none (type, external)
    private
    public :: bend_t, ladder_t, precision_t, rung_t, statistics_t
-   public :: bend_lost, bend_scatter, bend_steps, bend_violation
+   public :: bend_lost, bend_luck, bend_scatter, bend_short, bend_steps, bend_violation
    public :: error_ledger, error_motion, error_names, error_onsets, error_peaks, error_positions, error_reactions, &
       error_restitution, error_units, error_velocities, error_violation, error_words, n_compared, n_error
    public :: rung_done, rung_failed, rung_other, rung_states, rung_unrun
@@ -97,8 +97,10 @@ module precision_results
 
    integer, parameter :: bend_scatter = 0     !! no cause is known
    integer, parameter :: bend_steps = 1       !! the steps do not change either
-   integer, parameter :: bend_lost = 3        !! errors are of the size of the motion itself
    integer, parameter :: bend_violation = 2   !! the constraint violation does not fall either
+   integer, parameter :: bend_lost = 3        !! errors are of the size of the motion itself
+   integer, parameter :: bend_short = 4       !! errors do not change at all: what makes them is shorter than all steps
+   integer, parameter :: bend_luck = 5        !! errors of neighbouring runs scatter: those of some cancel
 
    !> A stretch of a ladder over which errors do not fall.
    type :: bend_t
@@ -154,6 +156,7 @@ module precision_results
       integer :: wanted = error_motion                !! kind of error that is wanted and drawn
       real(wp) :: accuracy = 0.0_wp                   !! error wanted [1]
       real(wp) :: end = 0.0_wp                        !! of the motion [s]
+      logical :: is_stopped = .false.                 !! a condition of the deck ends it
       integer :: instants = 0                         !! compared, with the start
       type(reference_t) :: reference                  !! what all are compared with
       type(growth_t) :: growth                        !! of the distance of neighbouring starts

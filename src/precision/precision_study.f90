@@ -11,14 +11,14 @@ module precision_study
    use precision_bends, only: find_bends
    use precision_choice, only: choose_best, find_orders
    use precision_info, only: setting_t, settings_of
-   use precision_reference, only: arms_of, find_reference, kept_ladder_t, measure_all, measure_rung, reference_t
-   use precision_results, only: error_ledger, error_violation, ladder_t, median, precision_t, rung_done, rung_failed, &
-      rung_other, rung_t, rung_unrun
+   use precision_ladders, only: least_rise, new_ladders, run_ladders, run_rung
+   use precision_reference, only: find_reference, kept_ladder_t, measure_all, measure_rung, reference_t
+   use precision_results, only: median, precision_t, rung_done, rung_other, rung_t
    use precision_statistics, only: take_statistics
    use precision_twins, only: run_twins
    use progress, only: progress_t
    use scene, only: scene_t
-   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting, shorter
+   use setting_run, only: job_t, outcome_t, run_setting
    use stop_condition, only: stop_t
    use text, only: text_t
    use time_budget, only: time_budget_t
@@ -28,17 +28,12 @@ module precision_study
    public :: study_precision
 
    ! parts of the budget at whose end the phases end [1]
-   real(wp), parameter :: until_ladders = 0.45_wp      !! runs that are compared
    real(wp), parameter :: until_reference = 0.65_wp    !! the reference and what confirms it
    real(wp), parameter :: until_twins = 0.75_wp        !! twins
    real(wp), parameter :: until_tangent = 0.80_wp      !! the exponent by the tangent
    real(wp), parameter :: until_exponent = 0.85_wp     !! the exponent by a twin
    real(wp), parameter :: until_times = 0.95_wp        !! rounds of timing
    real(wp), parameter :: until_choice = 1.0_wp        !! the choice, run once more
-   real(wp), parameter :: least_rise = 1.1_wp          !! of the time of a run over that of the rung before, for a forecast [1]
-   real(wp), parameter :: most_rise = 3.0_wp           !! the same [1]
-
-   character(*), parameter :: no_time = "no time was left in the budget"  !! why a run was not made
 
 contains
 
@@ -102,7 +97,7 @@ contains
       type(time_budget_t), intent(in) :: budget          !! the time
       type(precision_t), intent(inout) :: study          !! its horizon is set
 
-      call plan_horizon(job%scene%settings%precision%item_t, study%end, study%horizon)
+      call plan_horizon(job%scene%settings%precision%item_t, job%plan%end, study%horizon)
       if (job%scene%settings%precision%number("perturbation") <= 0.0_wp) return
       job%cpu = budget%cpu_left(until_tangent)
       call find_horizon(job, study%horizon)
@@ -125,181 +120,6 @@ contains
       job%plan%strobes = [real(wp) ::]
       job%stop = stop
    end subroutine new_job
-
-   !> Ladders of tolerances; those of steps wait for what the others tell.
-   subroutine new_ladders(scene, settings, study)
-      type(scene_t), intent(in) :: scene               !! the scene
-      type(setting_t), intent(in) :: settings(:)       !! (n) settings
-      type(precision_t), intent(inout) :: study        !! ladders are made
-
-      real(wp) :: coarsest, finest
-      integer :: i, k, n, per_decade
-
-      associate (asked => scene%settings%precision)
-         per_decade = nint(asked%number("per_decade"))
-         coarsest = asked%number("coarsest")
-         allocate (study%ladders(size(settings)))
-         do k = 1, size(settings)
-            associate (ladder => study%ladders(k))
-               ladder%setting = settings(k)
-               ladder%name = settings(k)%word()
-               ladder%is_fixed = has_fixed_steps(settings(k))
-               finest = coarsest*10.0_wp**(-asked%number("step_decades"))
-               if (.not. ladder%is_fixed) finest = min(coarsest, asked%number("finest"))
-               n = 1 + floor(per_decade*log10(coarsest/finest) + 1.0e-6_wp)
-               allocate (ladder%rungs(n))
-               do i = 1, n
-                  ladder%rungs(i)%asked = coarsest*10.0_wp**(-real(i - 1, wp)/per_decade)
-                  if (ladder%is_fixed) ladder%rungs(i)%asked = 10.0_wp**(-real(i - 1, wp)/per_decade)
-                  ladder%rungs(i)%reason = no_time
-                  ladder%rungs(i)%error = not_a_number()
-                  ladder%rungs(i)%cpu = not_a_number()
-                  allocate (ladder%rungs(i)%rounds(0))
-               end do
-            end associate
-         end do
-      end associate
-   end subroutine new_ladders
-
-   !> All runs that are compared, rung by rung, the coarse ones of all ladders first. Each ladder has an equal share of the time;
-   !> what some leave over goes to the others then.
-   subroutine run_ladders(job, budget, display, study, kept)
-      type(job_t), intent(inout) :: job                             !! what runs share
-      type(time_budget_t), intent(in) :: budget                     !! the time
-      type(progress_t), intent(inout) :: display                    !! shows how far it is
-      type(precision_t), intent(inout) :: study                     !! rungs are filled, but for their errors
-      type(kept_ladder_t), allocatable, intent(out) :: kept(:)      !! (ladders) the runs
-
-      logical :: is_over(size(study%ladders))
-      integer :: i, k, most, pass
-      real(wp) :: spent(size(study%ladders)), share
-
-      allocate (kept(size(study%ladders)))
-      most = 0
-      do k = 1, size(kept)
-         allocate (kept(k)%runs(size(study%ladders(k)%rungs)))
-         most = max(most, size(kept(k)%runs))
-      end do
-      is_over = .false.
-      spent = 0.0_wp
-      share = budget%left(until_ladders)/real(max(1, size(kept)), wp)
-      do k = 1, size(kept)
-         if (.not. study%ladders(k)%is_fixed) call climb(1, k)
-      end do
-      call set_steps(job, budget, study)
-      do pass = 1, 2
-         do i = 1, most
-            do k = 1, size(kept)
-               call climb(i, k)
-            end do
-            if (pass == 1) call display%update(0.35_wp*real(i, wp)/real(most, wp))
-         end do
-         is_over = .false.
-         share = huge(1.0_wp)
-      end do
-
-   contains
-
-      !> One rung of a ladder, if there is one and time for it.
-      subroutine climb(i, k)
-         integer, intent(in) :: i  !! the rung
-         integer, intent(in) :: k  !! the ladder
-
-         real(wp) :: time
-
-         if (i > size(kept(k)%runs) .or. is_over(k)) return
-         if (study%ladders(k)%rungs(i)%state /= rung_unrun) return
-         time = forecast(study%ladders(k), i)
-         is_over(k) = time > budget%left(until_ladders) .or. spent(k) + time > share
-         if (is_over(k)) return
-         job%cpu = shorter(budget%cpu_left(until_ladders), job)
-         call run_rung(job, budget, study%ladders(k)%setting, study%ladders(k)%rungs(i), kept(k)%runs(i), is_over(k))
-         spent(k) = spent(k) + study%ladders(k)%rungs(i)%wall
-      end subroutine climb
-
-   end subroutine run_ladders
-
-   !> How long a rung may take, from the rungs before it.
-   pure real(wp) function forecast(ladder, i) result(time)
-      type(ladder_t), intent(in) :: ladder  !! the ladder
-      integer, intent(in) :: i              !! the rung
-
-      time = 0.0_wp
-      if (i < 2) return
-      time = ladder%rungs(i - 1)%wall*least_rise
-      if (i < 3) return
-      if (ladder%rungs(i - 2)%wall <= 0.0_wp) return
-      time = ladder%rungs(i - 1)%wall*max(least_rise, min(most_rise, ladder%rungs(i - 1)%wall/ladder%rungs(i - 2)%wall))
-   end function forecast
-
-   !> Run a rung and keep its motion.
-   subroutine run_rung(job, budget, setting, rung, run, is_late)
-      type(job_t), intent(inout) :: job               !! what runs share
-      type(time_budget_t), intent(in) :: budget       !! the time
-      type(setting_t), intent(in) :: setting          !! the ladder's
-      type(rung_t), intent(inout) :: rung             !! costs are set
-      type(kept_run_t), intent(inout) :: run          !! the motion
-      logical, intent(out) :: is_late                 !! it failed because its time was up
-
-      type(outcome_t) :: outcome
-      real(wp) :: begun
-
-      begun = budget%elapsed()
-      run%arm = arms_of(job)
-      call run_setting(job, setting, rung%asked, run, outcome)
-      rung%wall = budget%elapsed() - begun
-      is_late = outcome%is_late
-      rung%reason = outcome%reason
-      if (is_late) rung%reason = "not ready when its time in the budget was up"
-      rung%state = merge(rung_done, rung_failed, rung%reason == "")
-      rung%setup = outcome%setup
-      associate (summary => outcome%summary)
-         rung%cpu = summary%cpu_seconds
-         rung%cpu_least = summary%cpu_seconds
-         rung%count%steps = summary%count%steps
-         rung%count%rejected = summary%count%rejected_steps
-         rung%count%evaluations = summary%count%rhs_evaluations - summary%count%output_evaluations
-         if (rung%state /= rung_done) return
-         rung%error(error_violation) = summary%quality%violation_max
-         if (summary%quality%has_ledger .and. summary%quality%energy_max > 0.0_wp) then
-            rung%error(error_ledger) = summary%quality%energy_residual_max/summary%quality%energy_max
-         end if
-      end associate
-   end subroutine run_rung
-
-   !> Steps of the ladders with fixed ones: from the deck's, or from the mean step of the first variable ladder's first run, brought
-   !> to a whole number of quarter decades; without such a run from that of `verner`.
-   subroutine set_steps(job, budget, study)
-      type(job_t), intent(inout) :: job                  !! what runs share
-      type(time_budget_t), intent(in) :: budget          !! the time
-      type(precision_t), intent(inout) :: study          !! steps are set
-
-      type(kept_run_t) :: nothing
-      type(outcome_t) :: outcome
-      real(wp) :: longest
-      integer :: k
-
-      if (.not. any(study%ladders%is_fixed)) return
-      longest = job%scene%settings%precision%number("longest_step")
-      if (longest <= 0.0_wp) then
-         longest = study%end/100.0_wp
-         do k = size(study%ladders), 1, -1
-            if (.not. study%ladders(k)%is_fixed .and. study%ladders(k)%rungs(1)%count%steps > 0) then
-               longest = study%end/real(study%ladders(k)%rungs(1)%count%steps, wp)
-            end if
-         end do
-         if (all(study%ladders%is_fixed)) then
-            nothing%is_kept = .false.
-            job%cpu = shorter(budget%cpu_left(until_ladders), job)
-            call run_setting(job, setting_t("verner", "", ""), job%scene%settings%precision%number("coarsest"), nothing, outcome)
-            if (outcome%summary%count%steps > 0) longest = study%end/real(outcome%summary%count%steps, wp)
-         end if
-         longest = 10.0_wp**(real(nint(4.0_wp*log10(longest)), wp)/4.0_wp)
-      end if
-      do k = 1, size(study%ladders)
-         if (study%ladders(k)%is_fixed) study%ladders(k)%rungs%asked = longest*study%ladders(k)%rungs%asked
-      end do
-   end subroutine set_steps
 
    !> Time all runs that ended, round by round.
    subroutine time_rounds(job, budget, rounds, display, study)

@@ -6,7 +6,8 @@
 !> the interpolant of each step; w goes from end to end of it by the classical Runge-Kutta method, in as many parts as it takes.
 !> Forces may jump at events, and these are at the ends of steps: there the products are those a thousandth of the step inside, and
 !> the states beside are so near that the event is not between.
-!> What happens at events and instants is in `tangent_events`. Directions that constraints forbid are taken away by `project`.
+!> What happens at events and instants is in `tangent_events`. Directions that constraints forbid, and those that are no motion (the
+!> length of Euler parameters, which does not decay as changes of a damped motion do), are taken away by `project`.
 !>
 !> Lengths: |w_q| is the greatest of the changes of positions over the scales of the error norm, |w_v| that of rates.
 !> Source: P. C. Mueller, Chaos, Solitons & Fractals 5 (1995) 1671-1681 (exponents of systems that are not smooth).
@@ -224,7 +225,7 @@ contains
       end do
    end subroutine give_speeds
 
-   !> Take away what constraints forbid: the difference of the states beside, each brought onto them.
+   !> Take away what constraints forbid, and what is no motion: the difference of the states beside, each brought onto them.
    subroutine project(self, system, method, status)
       class(tangent_t), intent(inout) :: self       !! the direction
       type(mechanism_t), intent(inout) :: system    !! the system
@@ -235,7 +236,9 @@ contains
       real(wp) :: length, part
 
       status = 0
-      if (system%linkage%rows%n_solve == 0) return
+      associate (coordinates => system%linkage%coordinates)
+         if (system%linkage%rows%n_solve == 0 .and. coordinates%n_q == coordinates%n_v) return
+      end associate
       length = maxval(abs(self%w(:size(self%scale)))/self%scale)
       if (.not. length > 0.0_wp) return
       associate (y => method%step%y1, m => system%n - system%n_quadrature)
@@ -244,6 +247,8 @@ contains
          self%minus = y - part*self%w
          call system%mend(method%t, self%plus, status)
          if (status == 0) call system%mend(method%t, self%minus, status)
+         call system%linkage%tidy(self%plus)
+         call system%linkage%tidy(self%minus)
          if (status == 0) self%w(:m) = (self%plus(:m) - self%minus(:m))/(2.0_wp*part)
          call system%evaluate(method%t, y, self%y, status)
       end associate

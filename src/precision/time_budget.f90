@@ -21,6 +21,7 @@ module time_budget
       procedure, public :: elapsed
       procedure, public :: left
       procedure, public :: cpu_left
+      procedure, public :: part_after
    end type time_budget_t
 
 contains
@@ -68,5 +69,14 @@ contains
       if (self%elapsed() < 0.1_wp) share = 1.0_wp
       cpu_left = max(1.0e-3_wp, share*self%left(part))
    end function cpu_left
+
+   !> The part of the budget that will be over when some more time is; without a limit all of it.
+   real(wp) function part_after(self, time) result(part)
+      class(time_budget_t), intent(in) :: self  !! the time
+      real(wp), intent(in) :: time              !! from now on [s]
+
+      part = 1.0_wp
+      if (self%limit > 0.0_wp) part = (self%elapsed() + time)/self%limit
+   end function part_after
 
 end module time_budget

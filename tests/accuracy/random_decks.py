@@ -187,12 +187,68 @@ def falls(dice):
     return text
 
 
+SPACE = "deck = 1\n[scene]\nspace = spatial\ngravity = 0 0 -9.81 m/s^2\n"
+SOLIDS = "name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[m] y[m] z[m] wx[rad/s] wy[rad/s] wz[rad/s]"
+PLACES = "name body xi[m] eta[m] zeta[m]"
+
+
+def solid(dice, name, place, spin):
+    """A row of a body with three moments of inertia that a body can have, turning at the start."""
+    mass = dice.number(0.2, 3.0)
+    squares = [dice.number(0.002, 0.02) for _ in range(3)]
+    moments = [f"{mass*(sum(squares) - square):.4g}" for square in squares]
+    return (name, mass, *moments, *place, *(dice.number(-spin, spin) for _ in range(3)))
+
+
+def solids_on_springs(dice):
+    """Free bodies in space on springs and dampers, to the ground and to each other."""
+    n = dice.count(1, 3)
+    bodies, points, coils = [], [("o", "ground", 0, 0, 0)], []
+    for k in range(n):
+        bodies.append(solid(dice, f"b{k}", (dice.number(-0.3, 0.3), dice.number(-0.3, 0.3), -0.4*(k + 1)), 5.0))
+        points += [(f"{end}{k}", f"b{k}", *(dice.number(-0.15, 0.15) for _ in range(3))) for end in "lr"]
+        for end in "lr"[:dice.count(1, 2)]:
+            coils.append((f"coil{end}{k}", "o" if k == 0 else f"r{k - 1}", f"{end}{k}", dice.power(1.5, 3.0), dice.choice((0, dice.power(-1.0, 1.0))),
+                          dice.number(0.1, 0.3)))
+    return (SPACE + table("bodies", SOLIDS, bodies) + table("points", PLACES, points) +
+            table("force.spring", "name i j stiffness[N/m] damping[N.s/m] free_length[m]", coils) + ends(dice.number(0.3, 1.5), dice.choice(("", "*"))))
+
+
+def hung_solids(dice, is_loose=False):
+    """Bodies in space that hang on ball joints one on the other, the first one in a socket with clearance or not."""
+    n = dice.count(1, 3)
+    bodies, points, place = [], [("o", "ground", 0, 0, 0)], (0.0, 0.0, 0.0)
+    for k in range(n):
+        arm = [dice.number(-0.3, 0.3), dice.number(-0.3, 0.3), dice.number(-0.3, -0.1)]
+        bodies.append(solid(dice, f"b{k}", tuple(x + a for x, a in zip(place, arm)), 0.0))
+        points += [(f"t{k}", f"b{k}", *(-a for a in arm)), (f"d{k}", f"b{k}", *arm)]
+        place = tuple(x + 2.0*a for x, a in zip(place, arm))
+    joints = [(f"ball{k}", "o" if k == 0 else f"d{k - 1}", f"t{k}") for k in range(1 if is_loose else 0, n)]
+    text = SPACE + table("bodies", SOLIDS, bodies) + table("points", PLACES, points)
+    if joints:
+        text += table("joint.spherical", "name i j", joints)
+    if is_loose:
+        law = dice.choice(LAWS)
+        text += table("material", "name young[GPa] poisson", [("steel", 207, 0.3)])
+        text += table(f"contact.{law}", "name" + ("" if law == "hertz" else " restitution"),
+                      [("law",) if law == "hertz" else ("law", dice.number(0.4, 0.95))])
+        text += table("clearance.spherical", "name bearing journal bearing_radius[mm] clearance[mm] material law",
+                      [("socket", "o", "t0", 10, dice.number(0.05, 0.5), "steel", "law")])
+    return text + ends(dice.number(0.02, 0.08) if is_loose else dice.number(0.3, 1.5))
+
+
+def loose_solids(dice):
+    """The same with a socket that is loose."""
+    return hung_solids(dice, True)
+
+
 FAMILIES = (chain, loop, springs, loose, rubbing, falls)
+IN_SPACE = (solids_on_springs, hung_solids, loose_solids)
 
 
-def make(number, seed=1):
+def make(number, seed=1, families=FAMILIES):
     """Deck `number` of a seed."""
     dice = Dice([seed, number])
-    family = FAMILIES[number % len(FAMILIES)]
+    family = families[number % len(families)]
     text = family(dice)
     return Deck(f"{family.__name__} {number}", text, dice.power(-8.0, -3.0))

@@ -357,6 +357,60 @@ def test_the_budget_is_kept(gudgeon, seconds):
     assert all(row["reason"] == "no time was left in the budget" for row in study.rows if row["state"] == "not run")
 
 
+def test_slow_ladders_leave_time_for_others(gudgeon):
+    """A stiff film: explicit methods get nowhere in this time, and leave enough for those that do."""
+    text = no_figures(text_of(ROOT / "inputs" / "journal_bearing.deck"))
+    study = compared(gudgeon, text, "--methods", "verner dop853 adams bdf ida", "--budget", "8s")
+    assert study.summary["confirmed_by"]
+    assert all(any(row["state"] == "done" for row in study.ladder(name)) for name in ("bdf", "ida"))
+    assert not any(row["state"] == "done" for name in ("verner", "adams") for row in study.ladder(name))
+
+
+def precession(t, moments, spin):
+    """Rotation of a body with i_x = i_y on which nothing acts: about its angular momentum, after one about its axis."""
+
+    def turn(axis, angle):
+        axis = np.asarray(axis)/np.linalg.norm(axis)
+        cross = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+        return np.eye(3) + math.sin(angle)*cross + (1 - math.cos(angle))*cross @ cross
+
+    momentum = np.array(moments)*np.array(spin)
+    about_axis = spin[2]*(1 - moments[2]/moments[0])
+    return turn(momentum, np.linalg.norm(momentum)/moments[0]*t) @ turn([0, 0, 1], about_axis*t)
+
+
+def rotation(p):
+    """Rotation matrix of Euler parameters."""
+    w, x, y, z = p
+    return np.array([[1 - 2*(y*y + z*z), 2*(x*y - w*z), 2*(x*z + w*y)], [2*(x*y + w*z), 1 - 2*(x*x + z*z), 2*(y*z - w*x)],
+                     [2*(x*z - w*y), 2*(y*z + w*x), 1 - 2*(x*x + y*y)]])
+
+
+def test_orientation_in_space_is_a_position(gudgeon):
+    """A top that turns on the spot: its errors of position are those of its orientation, by a closed form."""
+    moments, spin, end = (0.02, 0.02, 0.03), (1.5, 0.0, 4.0), 6.0
+    text = f"""deck = 1
+[scene]
+space = spatial
+gravity = 0 0 0 m/s^2
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] wx[rad/s] wy[rad/s] wz[rad/s]
+top  2        {moments[0]} {moments[1]} {moments[2]} {spin[0]} {spin[1]} {spin[2]}
+[analysis.dynamic]
+end = {end} s
+[output]
+every = {end/200} s
+"""
+    study = compared(gudgeon, text + ladders(1, coarsest="1e-4", finest="1e-8", instants=200), "--methods", "verner")
+    for row in study.ladder("verner")[:3]:
+        directory = scratch()
+        call(gudgeon, "run", written(directory, text), "--tolerance", repr(row["asked"]), "--out", directory / "out", "--quiet")
+        run = Run(directory / "out", None)
+        truth = np.array([precession(t, moments, spin) for t in run.time])
+        error = np.abs(np.array([rotation(p) for p in run.item("bodies/orientation", "top")]) - truth).max()
+        assert_close(row["positions"], error/np.ptp(truth, axis=0).max(), relative=1e-3, what=row["asked"])
+
+
 def test_nothing_runs_to_its_end(gudgeon):
     """Then there is no reference, and the exit code says so; the reasons are in the tables."""
     text = no_figures(text_of(HARD / "a01_simple_pendulum.deck"))
@@ -408,3 +462,11 @@ def test_with_run_time_checks(gudgeon_debug):
     study = compared(gudgeon_debug, text, "--methods", "* verner.* verner.projection.*")
     assert study.summary["settings"] == 6 + 7 + 5
     assert study.summary["runs"] > 20
+
+
+@pytest.mark.parametrize("name, verb, options", [("pinball", "precision", ("--methods", "verner", "--budget", "4s")),
+                                                 ("crosshead", "run", ("--accuracy", "1e-3", "--budget", "8s", "--write", "numbers"))])
+def test_values_that_are_not_kept_are_not_found(gudgeon_debug, name, verb, options):
+    """The other side of a stop has no normal, and some items have not all channels: with run-time checks nothing of that is worked out."""
+    directory = scratch()
+    call(gudgeon_debug, verb, ROOT / "inputs" / f"{name}.deck", "--out", directory / "out", "--quiet", *options, expect=(0, 6))

@@ -77,3 +77,31 @@ def test_causes_are_named(gudgeon, name, words):
     call(gudgeon, "precision", written(directory, text), "--methods", "verner", "--out", directory / "out", "--quiet")
     bends = json.loads((directory / "out" / "summary.json").read_text())["bends"]
     assert any(words in line for line in bends), bends
+
+
+@pytest.mark.parametrize(
+    "name, method, words",
+    [
+        ("hard/grazed_plane", "rk4", "they do not change at all: what makes them is shorter than any of these steps"),
+        ("bouncing_ball", "ida", "those of neighbouring runs scatter: in some of them errors of both signs cancel"),
+    ],
+)
+def test_causes_of_other_methods_are_named(gudgeon, name, method, words):
+    """A contact of 28 us that no fixed step is shorter than; a run of `ida` whose errors at two bounces cancel."""
+    directory = scratch()
+    text = deck_text(ROOT / "inputs" / f"{name}.deck").split("[precision]")[0] + "\n[precision]\nrounds = 1\nperturbation = 0\n"
+    call(gudgeon, "precision", written(directory, text), "--methods", method, "--out", directory / "out", "--quiet")
+    bends = json.loads((directory / "out" / "summary.json").read_text())["bends"]
+    assert any(words in line for line in bends), bends
+    assert not any("no cause" in line for line in bends), bends
+    if method == "rk4":
+        duration = [float(line.split()[9]) for line in grazing(gudgeon)]
+        steps = [float(row["asked"]) for row in csv.DictReader((directory / "out" / "precision.csv").open())]
+        assert max(duration) < min(steps)
+
+
+def grazing(program):
+    """The contacts of the ball that grazes a plane, rows of events.dat."""
+    directory = scratch()
+    call(program, "run", ROOT / "inputs" / "hard" / "grazed_plane.deck", "--tolerance", "1e-12", "--out", directory / "out", "--quiet")
+    return [line for line in (directory / "out" / "events.dat").read_text().splitlines() if line and not line.startswith("#")]

@@ -1,11 +1,11 @@
 !> Differences of runs by channels, their scales, and the first contact that is another one, on runs made by hand.
 module test_channel_difference
-   use catalogue, only: n_rooms
+   use catalogue, only: room_clearances, room_energy
    use channel_difference, only: channel_scales, set_differences
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kept_channels, only: kept_channels_t, n_class
+   use kept_channels, only: channel_kind_t, class_energy, class_other, kept_channels_t
    use kept_run, only: contact_t, n_sort, sort_positions, sort_reactions, sort_velocities
    use kinds, only: not_a_number, wp
    use run_difference, only: first_other_contact
@@ -14,6 +14,8 @@ module test_channel_difference
    public :: run_test_channel_difference
 
    integer, parameter :: n_instant = 4  !! instants of the runs
+   integer, parameter :: n_kind = n_sort + 3  !! kinds of channels: three further ones
+   real(wp), parameter :: pi = acos(-1.0_wp)  !! half a turn [rad]
 
 contains
 
@@ -23,6 +25,7 @@ contains
 
       call suite%test("by_instant_and_channel", test_by_instant_and_channel)
       call suite%test("values_that_are_none", test_values_that_are_none)
+      call suite%test("angles_that_go_round", test_angles_that_go_round)
       call suite%test("scales", test_scales)
       call suite%test("first_other_contact", test_first_other_contact)
    end subroutine run_test_channel_difference
@@ -37,6 +40,9 @@ contains
       run%t = [(real(i - 1, wp), i=1, n_instant)]
       run%kind = [sort_positions, sort_reactions]
       run%factor_of = [1.0_wp, 0.5_wp]
+      run%goes_round = [.false., .false.]
+      run%further = [channel_kind_t(room_energy, class_energy, 0, ""), channel_kind_t(room_clearances, class_other, 0, "Pa"), &
+                     channel_kind_t(room_clearances, class_other, 0, "m^3/s")]
       run%sort = [sort_positions, sort_velocities]
       allocate (run%values(2, n_instant), run%series%x(2, n_instant), source=0.0_wp)
       run%values(1, :) = run%t
@@ -47,14 +53,14 @@ contains
       run%series%high = run%series%x
       run%series%least = [0.0_wp, 0.0_wp]
       run%series%most = run%series%x(:, n_instant)
-      allocate (run%magnitude(n_sort + n_rooms*n_class), source=0.0_wp)
+      allocate (run%magnitude(n_kind), source=0.0_wp)
    end subroutine new_run
 
    subroutine test_by_instant_and_channel(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(kept_channels_t) :: a, b
-      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + n_rooms*n_class)
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_kind)
       integer :: worst(n_instant)
 
       call new_run(a)
@@ -81,7 +87,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(kept_channels_t) :: a, b
-      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_sort + n_rooms*n_class)
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_kind)
       integer :: worst(n_instant)
 
       call new_run(a)
@@ -102,6 +108,52 @@ contains
       call check_true(error, all(by_instant(3:) > 1.0e90_wp), "a run that ends much earlier")
    end subroutine test_values_that_are_none
 
+   !> An angle that jumps from pi to -pi is not a turn off where one run is before the jump and the other behind it.
+   subroutine test_angles_that_go_round(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: apart = 1.0e-9_wp  ! of the runs [rad]
+      type(kept_channels_t) :: a, b
+      real(wp) :: by_channel(2), by_instant(n_instant), scale(n_kind)
+      integer :: i, worst(n_instant)
+
+      call new_run(a)
+      a%factor_of = 1.0_wp
+      a%goes_round(1) = .true.
+      a%series%x(1, :) = [0.0_wp, 0.9_wp*pi, pi - apart/2.0_wp, -0.5_wp*pi]
+      b = a
+      b%series%x(1, 3) = -pi + apart/2.0_wp
+      do i = 1, n_instant
+         call bound(a, i)
+         call bound(b, i)
+      end do
+      a%series%least = a%series%low(:, n_instant)
+      b%series%least = b%series%low(:, n_instant)
+      a%series%most = a%series%high(:, n_instant)
+      b%series%most = b%series%high(:, n_instant)
+      scale = 1.0_wp
+      by_instant = 0.0_wp
+      by_channel = 0.0_wp
+      worst = 0
+      call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
+      call check_close(error, by_instant(3), apart, 1.0e-5_wp*apart, "across the jump")
+      a%goes_round(1) = .false.
+      call set_differences(a, b, scale, 9.0_wp, by_instant, by_channel, worst)
+      call check_true(error, by_instant(3) > 6.0_wp, "what is no such angle is a turn off")
+
+   contains
+
+      !> Extremes so far.
+      subroutine bound(run, i)
+         type(kept_channels_t), intent(inout) :: run  !! a run
+         integer, intent(in) :: i                     !! instant
+
+         run%series%low(1, i) = minval(run%series%x(1, :i))
+         run%series%high(1, i) = maxval(run%series%x(1, :i))
+      end subroutine bound
+
+   end subroutine test_angles_that_go_round
+
    subroutine test_scales(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -112,10 +164,12 @@ contains
       a%summary%quality%energy_max = 7.0_wp
       a%magnitude(sort_velocities) = 4.0_wp   ! a row between two instants
       a%magnitude(sort_reactions) = 30.0_wp
+      a%magnitude(n_sort + 2:) = [2.0e6_wp, 3.0e-6_wp]   ! a pressure and a flow of the same joint
       scale = channel_scales(a, 5.0_wp, 3.0_wp)
       call check_close(error, scale(:n_sort), [3.0_wp, 4.0_wp, 30.0_wp], 1.0e-14_wp, "range of positions, greatest of the others")
       call check_true(error, all(scale > 0.0_wp), "every kind has a scale")
-      call check_true(error, count(abs(scale - 7.0_wp) < 1.0e-12_wp) == n_rooms, "energies by the largest energy, in every room")
+      call check_close(error, scale(n_sort + 1:), [7.0_wp, 2.0e6_wp, 3.0e-6_wp], 1.0e-9_wp, &
+                       "energies by the largest energy, each other unit by itself")
    end subroutine test_scales
 
    subroutine test_first_other_contact(error)

@@ -220,6 +220,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
       type(precision_t) :: study
+      integer :: k
 
       call make_study(study)
       call find_orders(study)
@@ -227,6 +228,10 @@ contains
       call check_true(error, ieee_is_nan(study%ladders(1)%exponent), "steps have no proportionality")
       call check_close(error, study%ladders(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality")
       call check_close(error, study%ladders(2)%ratio, 20.0_wp, 1.0e-9_wp, "error over tolerance")
+      study%ladders(2)%rungs%count%steps = [(100 + k, k=1, 13)]
+      call find_orders(study)
+      call check_true(error, ieee_is_nan(study%ladders(2)%order), "errors that something else than the steps makes have no order")
+      call check_close(error, study%ladders(2)%exponent, 1.0_wp, 1.0e-9_wp, "proportionality all the same")
    end subroutine test_order
 
    !> Two ladders: fixed steps 10^-k/4 of a method of order 4 with a floor of round-off, a cheaper one of tolerances.
