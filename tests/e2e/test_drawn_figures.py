@@ -114,6 +114,71 @@ def test_space_in_four_views(gudgeon, tmp_path):
     np.testing.assert_allclose(lines[10][1] - lines[10][0], [-0.0749111544, -0.085], atol=1e-5)
 
 
+def test_labels_of_views_are_in_the_picture(gudgeon, tmp_path):
+    """Each view of a scene that is wide in one and high in another has its label within the frame, above what it shows."""
+    text = changed((DECK.parent / "pinball.deck").read_text(encoding="utf-8"), "analysis.dynamic", end="1 ms")
+    script = (run(gudgeon, tmp_path, text, "mechanism(t=0s)") / "mechanism.t.0s.gp").read_text(encoding="utf-8")
+    (x0, x1), (y0, y1) = (map(float, re.search(rf"set {axis}range \[(.*):(.*)\]", script).groups()) for axis in "xy")
+    labels = re.findall(r"set label '(\w, \w)' at (\S+), (\S+) center", script)
+    assert [name for name, _, _ in labels] == ["x, z", "y, z", "x, y"]
+    for _, x, y in labels:
+        assert x0 < float(x) < x1 and y0 < float(y) < y1
+
+
+def test_walls_of_a_guide_touch_what_slides(gudgeon, tmp_path):
+    """The piston of [shapes] is 18 mm high: so far apart are the walls of its guide."""
+    text = changed(DECK.read_text(encoding="utf-8"), "analysis.dynamic", end="1 ms")
+    frame = strokes(run(gudgeon, tmp_path, text, "mechanism(t=1ms)") / "mechanism.t.1ms.dat")[0]
+    walls = [line for line in frame["ground"] if len(line) == 2 and np.ptp(line[:, 0]) > 0.02 and np.ptp(line[:, 1]) < 1e-9]
+    piston = max(frame["body"], key=lambda line: line[:, 0].mean())
+    np.testing.assert_allclose(sorted(wall[0, 1] for wall in walls), [piston[:, 1].min(), piston[:, 1].max()], atol=1e-6)
+
+
+def test_a_disc_shows_its_turn(gudgeon, tmp_path):
+    """The diameter of a disc that rolls down an incline is turned by the way over the radius, in every position."""
+    deck = (DECK.parent / "incline.deck").read_text(encoding="utf-8")
+    found = strokes(run(gudgeon, tmp_path, deck, "strip(n=6)") / "strip.n.6.dat")[0]["line"]
+    rims, diameters = ([line for line in found if len(line) == n] for n in (49, 2))
+    assert len(rims) == len(diameters) == 6
+    centres = np.array([line[:-1].mean(axis=0) for line in rims])
+    turns = np.unwrap([np.arctan2(*(line[0] - line[1])[::-1]) for line in diameters])
+    assert np.allclose([line.mean(axis=0) for line in diameters], centres, atol=1e-6)
+    np.testing.assert_allclose(turns - turns[0], np.hypot(*(centres - centres[0]).T) / 0.05, atol=0.02)
+
+
+ELEMENT = """deck = 1
+[scene]
+gravity = 0 0 m/s^2
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
+cart  1         1                1     0     1
+[points]
+name  body    xi[m]  eta[m]
+post  ground  0      0
+eye   cart    0      0
+[force.spring]
+name  i     j    stiffness[N/m]  damping[N.s/m]  law
+line  post  eye  STIFFNESS       2               LAW
+[analysis.dynamic]
+end = 0.1 s
+[output]
+every = 0.1 s
+"""
+
+
+@pytest.mark.parametrize(("stiffness", "law", "lines"), [(5, "{0 N}", 1), (0, "{3 N/m*x}", 1), (0, "{0 N}", 4), (0, "-", 4)])
+def test_springs_and_dampers(gudgeon, tmp_path, stiffness, law, lines):
+    """A spring is one line with a zigzag, a damper a piston in a cylinder; a wall stands across it where it is fixed."""
+    text = ELEMENT.replace("STIFFNESS", str(stiffness)).replace("LAW", law)
+    frame = strokes(run(gudgeon, tmp_path, text, "mechanism(t=0s)") / "mechanism.t.0s.dat")[0]
+    assert len(frame["symbol"]) == lines
+    ends = np.concatenate(frame["symbol"])
+    assert np.isclose(ends[:, 0].min(), 0) and np.isclose(ends[:, 0].max(), 1) and np.ptp(ends[:, 1]) > 0.01
+    wall = frame["ground"][0]
+    assert np.allclose(wall[:, 0], 0) and np.isclose(wall[:, 1].sum(), 0) and np.ptp(wall[:, 1]) > 0.02
+    assert all(line[:, 0].max() < 1e-9 for line in frame["ground"]), "hatched behind the wall"
+
+
 @pytest.mark.parametrize(
     ("figure", "message"),
     [
