@@ -102,7 +102,7 @@ contains
                            triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"//triple(mark%axis)//",w:["// &
                            number(symbols%ways(1, k))//","//number(symbols%ways(2, k))//"],h:"//number(symbols%walls(k))//",l:"// &
                            to_text(symbols%loose(k))//",g:["//number(mark%gaps(1))//","//number(mark%gaps(2))//"],n:"// &
-                           number(mark%half_length)//",aj:"//triple(mark%axis_j)//"},")
+                           number(mark%half_length)//",aj:"//triple(mark%axis_j)//",q:"//to_text(symbols%load(k))//"},")
          end associate
       end do
       call page%line("],")
@@ -128,6 +128,10 @@ contains
          call page%add("],f:[")
          do j = 1, size(list(k)%f, 2)
             call page%add(triple(list(k)%f(:, j))//",")
+         end do
+         call page%add("],g:[")
+         do j = 1, size(list(k)%load, 2)
+            call page%add(triple(list(k)%load(:, j))//",")
          end do
          call page%line("]},")
       end do

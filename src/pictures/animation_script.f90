@@ -89,7 +89,7 @@ module animation_script
       "  const n=flat(V,e.map((v,k)=>v-o[k])),l=Math.hypot(...n);if(l>0.1)s+=plane(p[0],[-n[1]/l,n[0]/l],m.w)}", &
       " if(m.k==5){const e=m.l?flat(V,f.e[m.l-1]):[0,0],g=D.magnified;s+=stand()+disc(p[0],0.034*S,'#fff4d6')", &
       "  +disc([p[0][0]+g*e[0],p[0][1]+g*e[1]],0.021*S,'#9fb4c7')}", &
-      " if(m.l&&D.force){const w=flat(V,f.f[m.l-1]).map(v=>v*0.25*S/D.force);s+=arrow(p[1],w)}return s}", &
+      " if((m.l||m.q)&&D.force)s+=arrow(p[1],flat(V,m.l?f.f[m.l-1]:f.g[m.q-1]).map(v=>v*0.25*S/D.force));return s}", &
       "function scene(){const V=axes(),f=D.frames[at];let s='',t='';if(!box)box=measure(V);D.parts.forEach(p=>{", &
       "  const q=p.s.map(v=>flat(V,world(f,p.b,v)));p.k.forEach(k=>{const g=k.v.map(i=>q[i]);if(k.f)t+=", &
       "   `<polygon points='${path(g)}' fill='${colour(p.b)}' fill-opacity='0.12' stroke='${colour(p.b)}", &

@@ -94,7 +94,7 @@ contains
       plot%unit = choose_unit("m", maxval(plot%extents%greatest - plot%extents%least))
       plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
       call new_symbols(catalogue, drawing, list, plot%symbols)
-      if (figure%kind == figure_strip) plot%symbols%force = largest_force(list(size(list):))  ! joints are drawn at the last
+      if (figure%kind == figure_strip) plot%symbols%force = largest_force(plot%symbols, list(size(list):))  ! as drawn
       if (figure%kind == figure_coupler) plot%symbols%force = 0.0_wp
       plot%symbols%scale = plot%unit%factor
       plot%cell = plot%extents%greatest - plot%extents%least
@@ -177,6 +177,7 @@ contains
 
       call script%line("set size ratio -1")
       call script%line("set key noautotitle")
+      call script%line("set style textbox opaque margins 0.4,0.4 noborder")
       associate (e => plot%extents, factor => plot%unit%factor)
          call script%line("set xrange ["//real_text(factor*e%least(1), 6)//":"//real_text(factor*e%greatest(1), 6)//"]")
          call script%line("set yrange ["//real_text(factor*e%least(2), 6)//":"//real_text(factor*e%greatest(2), 6)//"]")
@@ -280,7 +281,7 @@ contains
             words = "t = "//time_text(list(1)%t)//words
          end if
       end if
-      call script%line("set label "//quoted(words)//" at graph 0.01, graph 0.975 front font ',13'")
+      call script%line("set label "//quoted(words)//" at graph 0.01, graph 0.965 front boxed font ',13'")
       if (plot%cells > 1) then
          do f = 1, size(list)
             at = [plot%extents%least(1), plot%extents%greatest(2)] + &
@@ -317,7 +318,7 @@ contains
       call script%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
       call frame_lines(script, plot)
       if (len(short_legend(plot%symbols)) > 0) then
-         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.01, graph 0.97 front")
+         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.01, graph 0.96 front boxed")
       end if
       unit = choose_unit("s", list(size(list))%t)
       call script%add("times = '")
@@ -326,7 +327,7 @@ contains
       end do
       call script%line("'")
       call script%line("do for [f=0:"//to_text(size(list) - 1)//"] {")
-      call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.99, graph 0.97 right front")
+      call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.985, graph 0.96 right front boxed")
       call plot_lines(script, figure%name, "f*"//to_text(n_style), 2, has_style)
       call script%line("}")
       call script%line("unset output")

@@ -4,8 +4,8 @@
 !> in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the symbol.
 !> The ground is hatched where joints stand on it.
 module scene_strokes
-   use drawing, only: drawing_t, in_files, mark_bearing, mark_damper, mark_link, mark_pin, mark_plane, mark_slide, mark_spring, &
-      mark_t
+   use drawing, only: drawing_t, in_files, mark_bearing, mark_damper, mark_link, mark_pin, mark_plane, mark_slide, &
+      mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
    use scene_views, only: projected, view_t
@@ -47,6 +47,7 @@ module scene_strokes
       real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: least and greatest place of j along the axis [m]
       real(wp), allocatable :: walls(:)           !! (marks) of slides: from the middle of the guide to its walls [m]
       integer, allocatable :: loose(:)            !! (marks) number of the joint with clearance, 0: none
+      integer, allocatable :: load(:)             !! (marks) of a load: number of the force element, 0: none
    end type symbols_t
 
    !> What is drawn.
@@ -161,10 +162,25 @@ contains
          call add_disc(canvas, style_hole, symbols, p(:, 1), radius)
          call add_disc(canvas, style_journal, symbols, p(:, 1) + symbols%magnified*e, journal_part*radius)
       end select
-      if (loose == 0 .or. .not. symbols%force > 0.0_wp) return
-      e = (projected(view, frame%f(:, loose)) - view%shift)*arrow_size*symbols%size/symbols%force
+      if (.not. symbols%force > 0.0_wp) return
+      e = (projected(view, force_at(symbols, frame, number)) - view%shift)*arrow_size*symbols%size/symbols%force
       call draw_arrow(canvas, symbols, p(:, 2), e)
    end subroutine draw_mark
+
+   !> The force that is drawn at a mark, zero if none is.
+   pure function force_at(symbols, frame, number) result(force)
+      type(symbols_t), intent(in) :: symbols   !! which joint or load a mark is
+      type(frame_t), intent(in) :: frame       !! forces
+      integer, intent(in) :: number            !! the mark
+      real(wp) :: force(3)                     !! (3) world frame [N]
+
+      force = 0.0_wp
+      if (symbols%loose(number) > 0) then
+         force = frame%f(:, symbols%loose(number))
+      else if (symbols%load(number) > 0) then
+         force = frame%load(:, symbols%load(number))
+      end if
+   end function force_at
 
    !> Hatching where a joint stands on the ground.
    subroutine draw_support(canvas, symbols, p)

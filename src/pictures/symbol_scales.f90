@@ -1,7 +1,7 @@
 !> Sizes of the symbols of a drawn mechanism, and what they tell of its motion: ways of slides, forces, magnified clearances.
 module symbol_scales
-   use catalogue, only: catalogue_t, room_clearances
-   use drawing, only: drawing_t, mark_bearing, mark_plane, mark_slide, mark_t
+   use catalogue, only: catalogue_t, room_clearances, room_forces
+   use drawing, only: drawing_t, mark_bearing, mark_load, mark_plane, mark_slide, mark_t
    use frames, only: frame_t
    use kinds, only: wp
    use scene_strokes, only: bearing_size, journal_part, symbols_t
@@ -26,8 +26,8 @@ contains
 
       symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
       symbols%magnified = magnification(drawing, symbols%size)
-      symbols%force = largest_force(list)
       allocate (symbols%ways(2, drawing%n_mark), symbols%loose(drawing%n_mark))
+      allocate (symbols%load(drawing%n_mark), source=0)
       symbols%ways = 0.0_wp
       symbols%loose = 0
       allocate (symbols%walls(drawing%n_mark), source=least_wall*symbols%size)
@@ -36,6 +36,7 @@ contains
             do i = 1, size(names)
                if (names(i)%s == mark%name) symbols%loose(k) = i
             end do
+            if (mark%kind == mark_load) symbols%load(k) = number_of(catalogue, mark%name)
             if (mark%kind /= mark_slide .and. mark%kind /= mark_plane) cycle
             symbols%ways(:, k) = [huge(1.0_wp), -huge(1.0_wp)]
             do f = 1, size(list)
@@ -56,6 +57,7 @@ contains
             symbols%walls(k) = max(symbols%walls(k), half_width(drawing, list, mark, symbols%size))
          end associate
       end do
+      symbols%force = largest_force(symbols, list)
    end subroutine new_symbols
 
    !> The diagonal of the box in which the centres of mass of all bodies are, with the size of the largest outline.
@@ -78,6 +80,16 @@ contains
       end do
       length = norm2(greatest - least) + 2.0_wp*radius
    end function extent_of_motion
+
+   !> Number of a force element among those of the run, 0: it is none of them.
+   pure integer function number_of(catalogue, name) result(number)
+      type(catalogue_t), intent(in) :: catalogue    !! what was recorded
+      character(*), intent(in) :: name              !! of the element
+
+      do number = size(catalogue%rooms(room_forces)%names), 1, -1
+         if (catalogue%rooms(room_forces)%names(number)%s == name) return
+      end do
+   end function number_of
 
    !> Half the width of what slides in a guide of the plane, across the guide; 0 where it turns in it or is far too wide.
    pure real(wp) function half_width(drawing, list, mark, size_of_symbols) result(width)
@@ -127,9 +139,10 @@ contains
       if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*size/clearance
    end function magnification
 
-   !> The greatest force of the joints with clearance in some frames.
-   pure real(wp) function largest_force(list) result(force)
-      type(frame_t), intent(in) :: list(:)  !! (n) frames
+   !> The greatest force of the joints with clearance, and of the loads that are drawn, in some frames.
+   pure real(wp) function largest_force(symbols, list) result(force)
+      type(symbols_t), intent(in) :: symbols  !! which loads are drawn
+      type(frame_t), intent(in) :: list(:)    !! (n) frames
 
       integer :: i, k
 
@@ -137,6 +150,9 @@ contains
       do k = 1, size(list)
          do i = 1, size(list(k)%f, 2)
             force = max(force, norm2(list(k)%f(:, i)))
+         end do
+         do i = 1, size(symbols%load)
+            if (symbols%load(i) > 0) force = max(force, norm2(list(k)%load(:, symbols%load(i))))
          end do
       end do
    end function largest_force

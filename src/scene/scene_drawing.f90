@@ -5,10 +5,11 @@
 !> their axes; of loose joints in space they are balls.
 !>
 !> A joint is a mark at its two points: what it leaves of the freedom says which; a row whose points are apart at the start is a
-!> link, of a force a spring, or a damper where nothing is elastic in it. Rows that name joints (drivers) are not drawn.
+!> link, of a force a spring, or a damper where nothing is elastic in it. A force at one point is a mark there. Rows that name
+!> joints (drivers) are not drawn.
 module scene_drawing
    use drawing, only: add_mark, add_part, add_stroke, drawing_t, in_files, mark_bearing, mark_damper, mark_guide, mark_link, &
-      mark_pin, mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
+      mark_load, mark_pin, mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
    use body_outline, only: distinct_points, outline, same_place
    use item, only: find_place, item_t, place_of
    use kind_info, only: kind_info_t, leaves_angles, leaves_more, leaves_turn, leaves_way
@@ -246,6 +247,7 @@ contains
          do i = 1, size(tables(k)%items)
             associate (item => tables(k)%items(i), info => tables(k)%info)
                tie = tie_of(scene, info, item)
+               if (are_forces .and. tie%n == 1) call add_load(item, tie, drawing)
                if (tie%n < 2 .or. tie%by_joint .or. all(tie%point == 0) .or. info%is_start_only) cycle
                mark = mark_t()
                mark%name = item%name
@@ -267,6 +269,22 @@ contains
          end do
       end do
    end subroutine add_marks
+
+   !> A force at a point.
+   subroutine add_load(item, tie, drawing)
+      type(item_t), intent(in) :: item             !! the row
+      type(tie_t), intent(in) :: tie               !! what it ties
+      type(drawing_t), intent(inout) :: drawing    !! gets a mark, if the row names a point
+
+      type(mark_t) :: mark
+
+      if (tie%point(1) == 0) return
+      mark%kind = mark_load
+      mark%name = item%name
+      mark%body = tie%body(1)
+      mark%s = spread(drawing%s(:, tie%point(1)), 2, 2)
+      call add_mark(drawing, mark)
+   end subroutine add_load
 
    !> Gaps, length and direction of what slides in a loose guide; nothing of one that is not loose.
    subroutine measure_slide(scene, item, tie, mark)

@@ -179,6 +179,24 @@ def test_springs_and_dampers(gudgeon, tmp_path, stiffness, law, lines):
     assert all(line[:, 0].max() < 1e-9 for line in frame["ground"]), "hatched behind the wall"
 
 
+def test_loads_are_arrows(gudgeon, tmp_path):
+    """A force at a point, 3 t and 4 t, is an arrow from there, whose length goes with it; the picture states the longest."""
+    text = ELEMENT.replace("STIFFNESS", "5").replace("LAW", "-").replace("every = 0.1 s", "every = 10 ms")
+    text += "[force.point]\nname point fx fy\npush eye {30 N/s*t} {40 N/s*t}\n"
+    folder = run(gudgeon, tmp_path, text, "animation(n=6, last=50ms)")
+    found = strokes(folder / "animation.n.6.last.50ms.dat")
+    arrows = np.array([frame["arrow"][0][1] - frame["arrow"][0][0] for frame in found])
+    sizes = np.hypot(*arrows.T)
+    np.testing.assert_allclose(arrows / sizes[:, None], np.tile([0.6, 0.8], (6, 1)), atol=1e-3)
+    np.testing.assert_allclose(sizes / sizes[-1], np.arange(5, 11) / 10, rtol=1e-3)
+    with h5py.File(tmp_path / "run" / "run.h5") as file:
+        row = np.argmin(abs(file["time"][:] - 0.1))
+        np.testing.assert_allclose(found[-1]["arrow"][0][0], file["bodies/position"][row, 0], atol=1e-4)
+    assert "longest arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
+    assert "the longest 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+    assert "g:[[" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("figure", "message"),
     [
