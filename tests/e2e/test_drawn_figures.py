@@ -51,8 +51,8 @@ def test_strip_over_the_last_turn(gudgeon, tmp_path):
 
 def test_animation(gudgeon, tmp_path):
     """As many pictures as asked for in the GIF and in the page, at their times; text of the deck stays text."""
-    folder = run(gudgeon, tmp_path, changed(CRANK, "scene", title=f'"{TITLE}"'), "animation(n=12, last = 1 turns of motor)")
-    name = "animation.n.12.last.1turnsofmotor"
+    folder = run(gudgeon, tmp_path, changed(CRANK, "scene", title=f'"{TITLE}"'), "animation(n=12, last = 1 turn of motor)")
+    name = "animation.n.12.last.1turnofmotor"
     found = strokes(folder / f"{name}.dat")
     assert len(found) == 12
     turn = 2 * np.pi / 7
@@ -202,6 +202,8 @@ def test_loads_are_arrows(gudgeon, tmp_path):
     [
         ("coupler(tipp)", "unknown point 'tipp'"),
         ("coupler()", "write mechanism("),
+        ("animaton", "did you mean 'animation'?"),
+        ("mecanism(t=2ms)", "did you mean 'mechanism'?"),
         ("mechanism(t=2s)", "not among what is written"),
         ("mechanism(t=2ms,1ms)", "instants must increase"),
         ("mechanism(t=2)", "no time of a run"),
