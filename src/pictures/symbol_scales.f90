@@ -20,8 +20,8 @@ contains
       type(frame_t), intent(in) :: list(:)          !! (n) frames
       type(symbols_t), intent(out) :: symbols       !! scales
 
-      real(wp), parameter :: of_way = 0.3_wp  ! size of symbols over the extent of the motion, at least [1]
-      real(wp) :: across, along, axis(3), x(3, 2)
+      real(wp), parameter :: of_way = 0.5_wp  ! size of symbols over the extent of the motion, at least [1]
+      real(wp) :: across, along, axis(3), half(2), x(3, 2)
       integer :: f, i, k
 
       symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
@@ -54,7 +54,9 @@ contains
                symbols%ways(:, k) = [min(symbols%ways(1, k), across), max(symbols%ways(2, k), along)]
             end do
             if (drawing%is_spatial .or. mark%kind /= mark_slide) cycle
-            symbols%walls(k) = max(symbols%walls(k), half_width(drawing, list, mark, symbols%size))
+            half = half_sides(drawing, list, mark, symbols%size)
+            symbols%walls(k) = max(symbols%walls(k), half(2))
+            symbols%ways(:, k) = symbols%ways(:, k) + [-half(1), half(1)]
          end associate
       end do
       symbols%force = largest_force(symbols, list)
@@ -91,37 +93,37 @@ contains
       end do
    end function number_of
 
-   !> Half the width of what slides in a guide of the plane, across the guide; 0 where it turns in it or is far too wide.
-   pure real(wp) function half_width(drawing, list, mark, size_of_symbols) result(width)
+   !> Half the sides of what slides in a guide of the plane, along and across it; 0 where it turns in it or is far too wide.
+   pure function half_sides(drawing, list, mark, size_of_symbols) result(half)
       type(drawing_t), intent(in) :: drawing         !! outlines
       type(frame_t), intent(in) :: list(:)           !! (n) frames
       type(mark_t), intent(in) :: mark               !! the slide
       real(wp), intent(in) :: size_of_symbols        !! of the scene [m]
+      real(wp) :: half(2)                            !! (2) along and across [m]
 
       real(wp), parameter :: steady = 0.05_wp        ! turn that is none [rad]
-      real(wp), parameter :: widest = 0.25_wp        ! of the size of the scene [1]
-      real(wp) :: across(3), turn(3, 3)
-      integer :: j, k
+      real(wp), parameter :: widest = 0.5_wp         ! of the size of the scene [1]
+      real(wp) :: axes(3, 2), turn(3, 3)
+      integer :: i, j, k
 
-      width = 0.0_wp
+      half = 0.0_wp
       do k = 1, size(list)
-         turn = matmul(transpose(list(k)%a(:, :, mark%body(1))), list(k)%a(:, :, mark%body(2)))
-         if (k == 1) across = matmul([-mark%axis(2), mark%axis(1), 0.0_wp], turn)
-         if (abs(dot_product(matmul(turn, across), mark%axis)) > steady) then
-            width = 0.0_wp
-            return
-         end if
+         turn = matmul(transpose(list(k)%a(:, :, mark%body(2))), list(k)%a(:, :, mark%body(1)))
+         if (k == 1) axes = matmul(turn, reshape([mark%axis, -mark%axis(2), mark%axis(1), 0.0_wp], [3, 2]))
+         if (abs(dot_product(axes(:, 2), matmul(turn, mark%axis))) > steady) return
       end do
       do k = 1, drawing%n_part
          associate (part => drawing%parts(k))
             if (part%body /= mark%body(2) .or. .not. any(part%strokes%is_face)) cycle
             do j = 1, size(part%s, 2)
-               width = max(width, abs(dot_product(across, part%s(:, j) - mark%s(:, 2))))
+               do i = 1, 2
+                  half(i) = max(half(i), abs(dot_product(axes(:, i), part%s(:, j) - mark%s(:, 2))))
+               end do
             end do
          end associate
       end do
-      if (width > widest*size_of_symbols) width = 0.0_wp
-   end function half_width
+      if (half(2) > widest*size_of_symbols) half = 0.0_wp
+   end function half_sides
 
    !> Factor by which eccentricities are magnified: the largest clearance fills the gap of the symbol.
    pure real(wp) function magnification(drawing, size) result(factor)
