@@ -206,6 +206,7 @@ contains
       character(:), allocatable :: nearest
       integer :: k
       type(phrase_t) :: phrase
+      type(text_t), allocatable :: calls(:)
 
       call read_phrase(word, phrase, message, bad)
       if (len(message) > 0) then
@@ -216,9 +217,8 @@ contains
       call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
       if (starts_with(message, unknown_channel) .and. bad == word) then
          message = "unknown figure"//piece(message, len(unknown_channel) + 1)
-         k = index(word//"(", "(")
-         nearest = nearest_word(word(:k - 1), [(text_t(call_words(k)(:len_trim(call_words(k)) - 1)), &
-                                                k=figure_portrait, figure_animation)])
+         calls = [(text_t(piece(call_words(k), 1, index(call_words(k), "(") - 1)), k=figure_portrait, figure_animation)]
+         nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
          if (len(nearest) > 0 .and. .not. starts_with(hint, "did you mean")) hint = "did you mean '"//nearest//"'? "//hint
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
                 "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
