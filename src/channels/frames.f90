@@ -1,9 +1,10 @@
-!> Pictures of a motion at some instants, kept while it goes on: places of bodies, forces and eccentricities of loose joints, paths.
+!> Pictures of a motion at some instants, kept while it goes on: places of bodies, forces and eccentricities of loose joints, loads,
+!> paths.
 !>
 !> A picture is that of the output instant nearest to the time asked for. A path has a place for each row of the window, and is
 !> thinned as it grows: memory does not grow with the run. Where two rows of a loose joint become one, the greater force stays.
 module frames
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t, room_clearances, room_forces
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use scene_poses, only: pose_reader_t
@@ -37,6 +38,7 @@ module frames
       real(wp), allocatable :: a(:, :, :)   !! (3, 3, 0:bodies) own frames to the world's [1]
       real(wp), allocatable :: f(:, :)      !! (3, joints with clearance) forces on the journals, world frame [N]
       real(wp), allocatable :: e(:, :)      !! (3, joints with clearance) eccentricities, world frame [m]
+      real(wp), allocatable :: load(:, :)   !! (3, force elements) forces on their first bodies, world frame [N]
    end type frame_t
 
    !> What is followed from row to row.
@@ -59,6 +61,8 @@ module frames
       type(track_t), allocatable :: tracks(:)             !! (figures) paths
       integer, private :: eccentricity = 0                !! group of the catalogue
       integer, private :: n_joint = 0                     !! joints with clearance
+      integer, private :: force = 0                       !! group of the catalogue
+      integer, private :: n_force = 0                     !! force elements
       logical :: is_wanted = .false.                      !! there are figures that want something
    contains
       procedure :: start
@@ -90,6 +94,8 @@ contains
       call self%reader%bind(catalogue)
       self%eccentricity = catalogue%find_group(room_clearances, "eccentricity")
       self%n_joint = size(catalogue%rooms(room_clearances)%names)
+      self%force = catalogue%find_group(room_forces, "force")
+      self%n_force = size(catalogue%rooms(room_forces)%names)
    end subroutine start
 
    !> Whether a group of the catalogue is read.
@@ -98,7 +104,7 @@ contains
       integer, intent(in) :: group               !! number of the group
 
       reads = self%is_wanted
-      if (reads) reads = self%reader%reads(group) .or. group == self%eccentricity
+      if (reads) reads = self%reader%reads(group) .or. group == self%eccentricity .or. group == self%force
    end function reads
 
    !> An output instant.
@@ -130,11 +136,14 @@ contains
 
       frame%t = t
       allocate (frame%r(3, 0:self%reader%n_body), frame%a(3, 3, 0:self%reader%n_body))
-      allocate (frame%f(3, self%n_joint), frame%e(3, self%n_joint))
+      allocate (frame%f(3, self%n_joint), frame%e(3, self%n_joint), frame%load(3, self%n_force))
       call self%reader%frames(catalogue, frame%r, frame%a)
       do k = 1, self%n_joint
          frame%f(:, k) = vector_of(catalogue, self%reader%joint_force, k)
          frame%e(:, k) = vector_of(catalogue, self%eccentricity, k)
+      end do
+      do k = 1, self%n_force
+         frame%load(:, k) = vector_of(catalogue, self%force, k)
       end do
    end subroutine take_frame
 
@@ -238,6 +247,7 @@ contains
                call tape%put(reshape(frame%a, [size(frame%a)]))
                call tape%put(reshape(frame%f, [size(frame%f)]))
                call tape%put(reshape(frame%e, [size(frame%e)]))
+               call tape%put(reshape(frame%load, [size(frame%load)]))
             end associate
          end do
          associate (track => self%tracks(k))
@@ -282,7 +292,7 @@ contains
       integer :: k
 
       allocate (frame%r(3, 0:self%reader%n_body), frame%a(3, 3, 0:self%reader%n_body))
-      allocate (frame%f(3, self%n_joint), frame%e(3, self%n_joint))
+      allocate (frame%f(3, self%n_joint), frame%e(3, self%n_joint), frame%load(3, self%n_force))
       call tape%get(frame%t)
       do k = 0, self%reader%n_body
          call tape%get(frame%r(:, k))
@@ -295,6 +305,9 @@ contains
       end do
       do k = 1, self%n_joint
          call tape%get(frame%e(:, k))
+      end do
+      do k = 1, self%n_force
+         call tape%get(frame%load(:, k))
       end do
    end subroutine load_frame
 

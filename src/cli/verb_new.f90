@@ -7,7 +7,7 @@ module verb_new
    private
    public :: new_deck
 
-   character(*), parameter :: template(*) = [character(104) :: &
+   character(*), parameter :: template(*) = [character(112) :: &
       "# A slider-crank whose pin is loose in the slider. Run it:   gudgeon run NAME.deck", &
       "# What every table and key means:   gudgeon help   gudgeon help joint revolute", &
       "deck = 1", &
@@ -71,7 +71,8 @@ module verb_new
       "[output]", &
       "every       = 20 us", &
       "channels    = *", &
-      "figures     = slider.velocity slider.acceleration motor.moment gudgeon.orbit"]
+      "figures     = slider.velocity slider.acceleration motor.moment gudgeon.orbit animation(last = 1 turns of motor)", &
+      "report      = on                   # one page of everything; figures too: mechanism  strip(n=8)  coupler(small)"]
       !! lines of the deck
 
 contains

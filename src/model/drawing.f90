@@ -9,7 +9,7 @@ module drawing
    private
    public :: add_mark, add_part, add_stroke, drawing_t, mark_t, part_t, round_part, start_part, stroke_t
    public :: in_both, in_files, in_pictures
-   public :: mark_bearing, mark_guide, mark_link, mark_pin, mark_plane, mark_slide, mark_spring
+   public :: mark_bearing, mark_damper, mark_guide, mark_link, mark_load, mark_pin, mark_plane, mark_slide, mark_spring
 
    integer, parameter :: in_both = 0      !! a stroke for files and pictures
    integer, parameter :: in_files = 1     !! a stroke for files only
@@ -22,6 +22,8 @@ module drawing
    integer, parameter :: mark_bearing = 5  !! a loose joint: a journal or ball in a bearing or socket
    integer, parameter :: mark_guide = 6    !! another loose joint
    integer, parameter :: mark_plane = 7    !! a plane that a body may touch
+   integer, parameter :: mark_damper = 8   !! a damper or actuator between two points, without a spring
+   integer, parameter :: mark_load = 9     !! a force at a point of body j
 
    integer, parameter :: n_round = 48  !! sides of what is drawn for a circle
 
@@ -48,6 +50,9 @@ module drawing
       real(wp) :: axis(3) = 0.0_wp          !! (3) of a slide; normal of a plane; own frame of i, zero: none [1]
       real(wp) :: radius = 0.0_wp           !! of a bearing: of its hole; 0: not known [m]
       real(wp) :: clearance = 0.0_wp        !! of a bearing: radial clearance [m]
+      real(wp) :: gaps(2) = 0.0_wp          !! (2) of a loose slide: on the side of R90 axis, and on the other; 0: not loose [m]
+      real(wp) :: half_length = 0.0_wp      !! of a loose slide: of what slides [m]
+      real(wp) :: axis_j(3) = 0.0_wp        !! (3) of a loose slide: direction of its length, own frame of j [1]
    end type mark_t
 
    !> What a scene looks like.
@@ -99,7 +104,7 @@ contains
       call move_alloc(grown, part%strokes)
    end subroutine add_stroke
 
-   !> A circle across an axis, as a face.
+   !> A circle across an axis, as a face; in pictures with a diameter if it is about the centre of mass, so that its turn is seen.
    subroutine round_part(part, body, centre, across, radius)
       type(part_t), intent(out) :: part    !! the part
       integer, intent(in) :: body          !! its body
@@ -108,6 +113,7 @@ contains
       real(wp), intent(in) :: radius       !! its radius [m]
 
       real(wp), parameter :: turn = 8.0_wp*atan(1.0_wp)
+      real(wp), parameter :: concentric = 1.0e-6_wp  ! distance of the centres, of the radius [1]
       real(wp) :: angle, s(3, n_round)
       integer :: k
 
@@ -117,6 +123,7 @@ contains
       end do
       call start_part(part, body, s)
       call add_stroke(part, [(k, k=1, n_round)], .true., in_both)
+      if (norm2(centre) < concentric*radius) call add_stroke(part, [1, 1 + n_round/2], .false., in_pictures)
    end subroutine round_part
 
    !> Add a part to a drawing.

@@ -18,36 +18,39 @@ module extremes_text
 
 contains
 
-   !> The table of the channels for people.
+   !> The table of the channels for people, without those that are zero all the time.
    subroutine channel_table(lines, extremes, catalogue)
       type(buffer_t), intent(inout) :: lines        !! the summary
       type(extremes_t), intent(in) :: extremes      !! what was gathered
       type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
 
       character(:), allocatable :: name
-      integer :: k, n, width
+      integer, allocatable :: list(:)
+      integer :: i, k, n, width
 
-      n = min(size(extremes%channels), most_lines)
-      if (n == 0) return
+      if (size(extremes%channels) == 0) return
+      list = pack([(k, k=1, size(extremes%channels))], [(.not. extremes%is_nothing(k), k=1, size(extremes%channels))])
+      n = size(list)
+      list = list(:min(n, most_lines))
       width = len("extremes")
-      do k = 1, n
-         width = max(width, min(len(full_name(extremes, catalogue, k)), widest_name))
+      do i = 1, size(list)
+         width = max(width, min(len(full_name(extremes, catalogue, list(i))), widest_name))
       end do
       call lines%line("")
       call lines%line("extremes"//repeat(" ", width + 3)//right("least")//right("at [s]")//right("greatest")//right("at [s]")// &
                       right("mean")//right("rms"))
-      do k = 1, n
+      do i = 1, size(list)
+         k = list(i)
          name = full_name(extremes, catalogue, k)
          associate (one => extremes%of(k))
             call lines%line("           "//name//repeat(" ", max(width - len(name), 0))//right(real_text(one%least, 5))// &
                             right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
-                            right(real_text(one%greatest_time, 6))//right(real_text(extremes%mean(k), 5))// &
+                            right(real_text(one%greatest_time, 6))//right(real_text(extremes%shown_mean(k), 5))// &
                             right(real_text(extremes%rms(k), 5)))
          end associate
       end do
-      if (size(extremes%channels) > n) then
-         call lines%line("           "//to_text(size(extremes%channels) - n)//" more in summary.json and in run.h5, /extremes")
-      end if
+      if (n > size(list)) call lines%line("           "//to_text(n - size(list))//" more in summary.json and in run.h5, /extremes")
+      if (size(extremes%channels) > n) call lines%line("           "//to_text(size(extremes%channels) - n)//" that are always zero")
    end subroutine channel_table
 
    !> The table of the loose joints for people: greatest values, each with its time, that of a speed being the onset.

@@ -111,7 +111,7 @@ contains
             unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, max(abs(one%least), abs(one%greatest)))
             call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"// &
                             unit%symbol//"</td>"//cell(one%least, unit)//cell(one%least_time, time)//cell(one%greatest, unit)// &
-                            cell(one%greatest_time, time)//cell(extremes%mean(k), unit)//cell(extremes%rms(k), unit)//"</tr>")
+                            cell(one%greatest_time, time)//cell(extremes%shown_mean(k), unit)//cell(extremes%rms(k), unit)//"</tr>")
          end associate
       end do
       call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")

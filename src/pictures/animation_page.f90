@@ -11,9 +11,9 @@ module animation_page
    use html_text, only: escaped
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
-   use scene_plot, only: new_symbols
    use scene_legends, only: long_legend
    use scene_strokes, only: symbols_t
+   use symbol_scales, only: new_symbols
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -100,7 +100,9 @@ contains
          associate (mark => drawing%marks(k))
             call page%line("{k:"//to_text(mark%kind)//",b:["//to_text(mark%body(1))//","//to_text(mark%body(2))//"],s:["// &
                            triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"//triple(mark%axis)//",w:["// &
-                           number(symbols%ways(1, k))//","//number(symbols%ways(2, k))//"],l:"//to_text(symbols%loose(k))//"},")
+                           number(symbols%ways(1, k))//","//number(symbols%ways(2, k))//"],h:"//number(symbols%walls(k))//",l:"// &
+                           to_text(symbols%loose(k))//",g:["//number(mark%gaps(1))//","//number(mark%gaps(2))//"],n:"// &
+                           number(mark%half_length)//",aj:"//triple(mark%axis_j)//",q:"//to_text(symbols%load(k))//"},")
          end associate
       end do
       call page%line("],")
@@ -126,6 +128,10 @@ contains
          call page%add("],f:[")
          do j = 1, size(list(k)%f, 2)
             call page%add(triple(list(k)%f(:, j))//",")
+         end do
+         call page%add("],g:[")
+         do j = 1, size(list(k)%load, 2)
+            call page%add(triple(list(k)%load(:, j))//",")
          end do
          call page%line("]},")
       end do

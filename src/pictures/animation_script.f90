@@ -27,7 +27,7 @@ module animation_script
       "<input id='slider' type='range' min='0' value='0' aria-label='time'>", &
       "", &
       "<span id='time'></span><select id='view' aria-label='view'></select><select id='joint' aria-label='joint'></select></nav>", &
-      "<main><svg id='scene'></svg><div id='side'><svg id='zoom' viewBox='0 0 400 400'></svg>", &
+      "<main><svg id='scene'></svg><div id='side'><svg id='zoom' viewBox='0 0 400 420'></svg>", &
       "<svg id='force' viewBox='0 0 400 240'></svg></div></main><p id='legend'></p>", &
       "<script>"]
 
@@ -64,40 +64,61 @@ module animation_script
       "function spring(a,b){const p=[a],n=12,d=[b[0]-a[0],b[1]-a[1]],l=Math.hypot(...d)||1;for(let k=0;k<n;k++){", &
       "  const u=0.15+0.7*k/(n-1),o=k&&k<n-1?0.02*S*(k%2?1:-1):0;p.push([a[0]+u*d[0]-o*d[1]/l,a[1]+u*d[1]+o*d[0]/l])}", &
       " return line([...p,b],'#404040',0.004)}", &
-      "function guide(p,u,w,fixed){const n=[-u[1],u[0]],l=Math.hypot(...n);if(l<0.1)return'';let s='';[-1,1].forEach(k=>{", &
-      "  const o=[k*0.0425*S*n[0]/l,k*0.0425*S*n[1]/l],e=t=>[p[0]+t*u[0]+o[0],p[1]+t*u[1]+o[1]],a=w[0]-0.09*S,b=w[1]+0.09*S;", &
+      "function damper(a,b){const d=[b[0]-a[0],b[1]-a[1]],l=Math.hypot(...d)||1,at=(u,o)=>[a[0]+u*d[0]-o*0.02*S*d[1]/l,", &
+      "  a[1]+u*d[1]+o*0.02*S*d[0]/l];return[[a,at(0.25,0)],[at(0.75,1),at(0.25,1),at(0.25,-1),at(0.75,-1)],", &
+      "  [at(0.55,0.8),at(0.55,-0.8)],[at(0.55,0),b]].map(p=>line(p,'#404040',0.004)).join('')}", &
+      "function wall(p,q){const d=[q[0]-p[0],q[1]-p[1]],l=Math.hypot(...d);if(!l)return'';const u=[d[0]/l,d[1]/l],h=0.04*S;", &
+      " const e=k=>[p[0]-k*h*u[1],p[1]+k*h*u[0]];let s=line([e(-1),e(1)],'#707070',0.003);", &
+      " for(let k=-1;k<=1;k+=0.4){const b=e(k);", &
+      "  s+=line([b,[b[0]-0.4*h*(u[0]-u[1]),b[1]-0.4*h*(u[1]+u[0])]],'#707070',0.002)}return s}", &
+      "function guide(p,u,w,h,fixed){const n=[-u[1],u[0]],l=Math.hypot(...n);if(l<0.1)return'';let s='';[-1,1].forEach(k=>{", &
+      "  const o=[k*h*n[0]/l,k*h*n[1]/l],e=t=>[p[0]+t*u[0]+o[0],p[1]+t*u[1]+o[1]],a=w[0]-0.09*S,b=w[1]+0.09*S;", &
       "  s+=line([e(a),e(b)],'#707070',0.003);for(let t=a;fixed&&t<b;t+=0.02*S){const q=e(t);", &
-      "   s+=line([q,[q[0]+0.4*o[0]-0.012*S*u[0],q[1]+0.4*o[1]-0.012*S*u[1]]],'#707070',0.002)}});return s}", &
+      "   s+=line([q,[q[0]+0.017*S*k*n[0]/l-0.012*S*u[0],q[1]+0.017*S*k*n[1]/l-0.012*S*u[1]]],'#707070',0.002)}});return s}", &
       "function plane(p,u,w){const a=w[0]-0.2*S,b=w[1]+0.2*S,e=t=>[p[0]+t*u[0],p[1]+t*u[1]];", &
       " let s=line([e(a),e(b)],'#707070',0.003);for(let t=a;t<b;t+=0.02*S){const q=e(t);", &
       "  s+=line([q,[q[0]-0.015*S*(u[0]+u[1]),q[1]-0.015*S*(u[1]-u[0])]],'#707070',0.002)}return s}", &
       "function mark(V,f,m){const p=m.s.map((s,k)=>flat(V,world(f,m.b[k],s)));let s='';const stand=()=>{", &
       "  const k=m.b.indexOf(0);return k<0?'':ground(p[k])};", &
-      " if(m.k==1)s+=stand()+disc(p[1],0.014*S,'#fff');if(m.k==3)s+=line(p,'#404040',0.004)+p.map(q=>disc(q,0.014*S,", &
+      " if(m.k==1)s+=stand()+disc(p[1],0.014*S,'#fff');if(m.k==3)s+=stand()+line(p,'#404040',0.004)+p.map(q=>disc(q,0.014*S,", &
       "'#fff')).join('');", &
-      " if(m.k==4)s+=spring(...p);if(m.k==2){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
-      "  s+=guide(p[0],flat(V,e.map((v,k)=>v-o[k])),m.w,!m.b[0])}", &
+      " if(m.k==4||m.k==8)s+=m.b.map((b,k)=>b?'':wall(p[k],p[1-k])).join('')+(m.k==4?spring(...p):damper(...p));", &
+      " if(m.k==2){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
+      "  s+=guide(p[0],flat(V,e.map((v,k)=>v-o[k])),m.w,m.h,!m.b[0])}", &
       " if(m.k==7){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
       "  const n=flat(V,e.map((v,k)=>v-o[k])),l=Math.hypot(...n);if(l>0.1)s+=plane(p[0],[-n[1]/l,n[0]/l],m.w)}", &
       " if(m.k==5){const e=m.l?flat(V,f.e[m.l-1]):[0,0],g=D.magnified;s+=stand()+disc(p[0],0.034*S,'#fff4d6')", &
       "  +disc([p[0][0]+g*e[0],p[0][1]+g*e[1]],0.021*S,'#9fb4c7')}", &
-      " if(m.l&&D.force){const w=flat(V,f.f[m.l-1]).map(v=>v*0.25*S/D.force);s+=arrow(p[1],w)}return s}", &
+      " if((m.l||m.q)&&D.force)s+=arrow(p[1],flat(V,m.l?f.f[m.l-1]:f.g[m.q-1]).map(v=>v*0.25*S/D.force));return s}", &
       "function scene(){const V=axes(),f=D.frames[at];let s='',t='';if(!box)box=measure(V);D.parts.forEach(p=>{", &
       "  const q=p.s.map(v=>flat(V,world(f,p.b,v)));p.k.forEach(k=>{const g=k.v.map(i=>q[i]);if(k.f)t+=", &
       "   `<polygon points='${path(g)}' fill='${colour(p.b)}' fill-opacity='0.12' stroke='${colour(p.b)}", &
       "' stroke-width='${0.007*S}'/>`;", &
       "   else t+=line(g,colour(p.b),0.009,`stroke-linecap='round'`)})});D.marks.forEach(m=>s+=mark(V,f,m));", &
       " $('scene').setAttribute('viewBox',box.join(' '));$('scene').innerHTML=t+s}", &
+      "function slide(V,f,m,J,text){const way=(b,x)=>flat(V,world({r:f.r.map(()=>0),a:f.a},b,x)),u=way(m.b[0],m.a);", &
+      " const v=way(m.b[1],m.aj),l=Math.hypot(...u),w=Math.hypot(...v),n=[u[1]/l,-u[0]/l],e=flat(V,f.e[m.l-1]);", &
+      " if(l<0.3||w<0.3)return text(6,16,J.name+': seen along its axis');", &
+      " const g=55/Math.max(...m.g),tilt=(n[0]*v[0]+n[1]*v[1])/w*m.n*g*Math.sign(u[0]*v[0]+u[1]*v[1]),o=g*(n[0]*e[0]+n[1]*e[1]);", &
+      " const box=p=>`<polygon points='${path(p)}' fill='#9fb4c7' stroke='#404040'/>`,a=138-o+tilt,b=138-o-tilt;", &
+      " const side=(y,h)=>`<rect x='0' y='${Math.min(y,y+h)}' width='400' height='30' fill='#ddd'/>", &
+      "<path d='M0 ${y}H400' stroke='#404040'/>`;", &
+      " return side(138-g*m.g[0],-30)+side(278+g*m.g[1],30)+text(6,16,J.name)", &
+      "  +box([[70,a],[330,b],[330,b+140],[70,a+140]])", &
+      "  +text(394,16,'gaps '+unit(m.g[0],'m')+', '+unit(m.g[1],'m'),'end')", &
+      "  +text(200,412,'gaps and tilt are magnified, across the guide','middle')}", &
       "function zoom(){const J=D.loose[+$('joint').value];if(!J)return;const k=+$('joint').value,V=axes(),T=D.track;", &
       " const text=(x,y,w,a)=>`<text x='${x}' y='${y}' font-size='13' text-anchor='${a||'start'}' fill='#333'>${w}</text>`;", &
+      " const m=D.marks.find(m=>m.k==2&&m.l==k+1&&m.n>0);", &
       " if(J.c>0){const big=T.e[k].reduce((u,v)=>Math.max(u,Math.hypot(...v)),J.c),g=130/big,R=185,r=R-J.c*g;", &
       "  const c=(x,y,q,fill)=>`<circle cx='${x}' cy='${y}' r='${q}' fill='${fill}' stroke='#404040'/>`;", &
       "  const e=flat(V,D.frames[at].e[k]).map(v=>v*g),now=D.frames[at].t;", &
       "const p=T.e[k].filter((v,i)=>T.t[i]<=now).slice(-400);", &
-      "  $('zoom').innerHTML=c(200,200,R,'#fff4d6')+c(200+e[0],200+e[1],r,'#9fb4c7')+`<polyline points='${path(p.map(v=>{", &
-      "   const q=flat(V,v);return[200+g*q[0],200+g*q[1]]}))}' fill='none' stroke='#d1495b'/>`+", &
-      "   c(200+e[0],200+e[1],4,'#d1495b')+text(6,16,J.name)+text(394,394,'path of the journal, which is drawn smaller','end')+", &
-      "   text(6,394,'clearance '+J.cw)}else $('zoom').innerHTML=text(6,16,J.name+': no round joint');", &
+      "  $('zoom').innerHTML=c(200,208,R,'#fff4d6')+c(200+e[0],208+e[1],r,'#9fb4c7')+`<polyline points='${path(p.map(v=>{", &
+      "   const q=flat(V,v);return[200+g*q[0],208+g*q[1]]}))}' fill='none' stroke='#d1495b'/>`+", &
+      "   c(200+e[0],208+e[1],4,'#d1495b')+text(6,16,J.name)+text(394,16,'clearance '+J.cw,'end')+", &
+      "   text(200,412,'path of the journal, which is drawn smaller','middle')}", &
+      " else $('zoom').innerHTML=m?slide(V,D.frames[at],m,J,text):text(6,16,J.name+': drawn at the left only');", &
       " const F=T.f[k],top=F.reduce((u,v)=>Math.max(u,v),0)||1,t0=T.t[0],t1=T.t[T.t.length-1];", &
       " const X=t=>45+345*(t-t0)/(t1-t0||1),Y=f=>200-170*f/top,now=D.frames[at].t;", &
       " $('force').innerHTML=`<polyline points='${path(F.map((v,i)=>[X(T.t[i]),Y(v)]))}' fill='none' stroke='#1f6fb4'/>`", &

@@ -13,10 +13,10 @@ module curve_panels
    use text, only: real_text, replace, text_t
    implicit none (type, external)
    private
-   public :: constant, make_panel, panel_t, shown, stands_on_zero
+   public :: constant, make_panel, panel_t, range_of, shown
 
    real(wp), parameter :: narrow = 1.0e-4_wp        !! span of an ordinate beside its values: below it less a round value [1]
-   real(wp), parameter :: constant = 1.0e-13_wp     !! the same: less is round-off [1]
+   real(wp), parameter :: constant = 1.0e-12_wp     !! the same: less is round-off [1]
    integer, parameter :: most_overlaid = 3          !! more curves are drawn without those of the ideal twin
 
    !> A panel as it is drawn.
@@ -81,21 +81,18 @@ contains
 
          type(display_unit_t) :: own
          character(:), allocatable :: round
-         real(wp) :: high, low
+         real(wp) :: range(2)
          integer :: status
 
-         low = min(minval(pack(panel%curves%y_range(1), panel%side == side)), &
-                   minval(pack(panel%ideal%y_range(1), panel%ideal_side == side)))
-         high = max(maxval(pack(panel%curves%y_range(2), panel%side == side)), &
-                    maxval(pack(panel%ideal%y_range(2), panel%ideal_side == side)))
-         if (high - low > narrow*max(abs(low), abs(high)) .or. high - low <= constant*max(abs(low), abs(high))) return
+         range = range_of(panel, side)
+         if (range(2) - range(1) > narrow*largest(range) .or. range(2) - range(1) <= constant*largest(range)) return
          if (allocated(words%y(side)%unit%symbol)) return
          own = panel%unit(side)
-         round = real_text(own%factor*0.5_wp*(low + high), 4)
+         round = real_text(own%factor*0.5_wp*sum(range), 4)
          read (round, *, iostat=status) panel%less(side)
          if (status /= 0) return
          panel%less(side) = panel%less(side)/own%factor
-         panel%unit(side) = choose_unit(words%y(side)%si, max(abs(low - panel%less(side)), abs(high - panel%less(side))))
+         panel%unit(side) = choose_unit(words%y(side)%si, largest(range - panel%less(side)))
          if (side == 1) then
             panel%label = with_unit(panel%quantity(side)%s//" less "//trim(round//" "//own%symbol), panel%unit(side))
          else
@@ -169,16 +166,16 @@ contains
       unit = choose_unit(axis%si, extent)
    end function shown
 
-   !> Whether nothing is negative and something is as good as zero: then zero is the lower edge.
-   pure logical function stands_on_zero(curves)
-      type(curve_t), intent(in) :: curves(:)  !! (n) curves of the run
+   !> Least and greatest value of an ordinate, curves of the twin among them.
+   pure function range_of(panel, side) result(range)
+      type(panel_t), intent(in) :: panel  !! the panel
+      integer, intent(in) :: side         !! 1 left, 2 right
+      real(wp) :: range(2)                !! (2) SI [any]
 
-      real(wp), parameter :: near = 0.05_wp    ! of the greatest value [1]
-      real(wp), parameter :: unseen = 1.0e-3_wp  ! of the greatest value: less than a pixel [1]
-      real(wp) :: least
-
-      least = minval(curves%y_range(1))
-      stands_on_zero = least >= -unseen*maxval(curves%y_range(2)) .and. least < near*maxval(curves%y_range(2))
-   end function stands_on_zero
+      range(1) = min(minval(pack(panel%curves%y_range(1), panel%side == side)), &
+                     minval(pack(panel%ideal%y_range(1), panel%ideal_side == side)))
+      range(2) = max(maxval(pack(panel%curves%y_range(2), panel%side == side)), &
+                     maxval(pack(panel%ideal%y_range(2), panel%ideal_side == side)))
+   end function range_of
 
 end module curve_panels

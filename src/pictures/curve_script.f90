@@ -5,7 +5,7 @@
 module curve_script
    use catalogue, only: catalogue_t
    use channel_names, only: scalar_name
-   use curve_panels, only: constant, make_panel, panel_t, shown, stands_on_zero
+   use curve_panels, only: constant, make_panel, panel_t, range_of, shown
    use curve_words, only: panel_words_t
    use display_units, only: display_unit_t
    use envelope_data, only: envelope_t
@@ -13,7 +13,8 @@ module curve_script
    use figure_words, only: figure_t
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: angle_tics, axes_t, colours, largest_y, preamble, source, with_unit
+   use script_parts, only: angle_tics, axes_t, colours, hangs_from_zero, largest, largest_y, open_range, preamble, source, &
+      stands_on_zero, with_unit
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    implicit none (type, external)
@@ -127,12 +128,12 @@ contains
       type(envelope_t), intent(in) :: envelope    !! ranges of curves that turn too often
       integer, intent(in) :: n                    !! panels of the figure
 
-      logical :: grounded
+      real(wp) :: range(2)
 
       call lines%line("set ylabel "//quoted(panel%label))
-      grounded = .false.
-      if (any(panel%side == 1)) grounded = stands_on_zero(pack(panel%curves, panel%side == 1))
-      call lines%line("set offsets 0, 0, graph 0.05, "//trim(merge("0         ", "graph 0.05", grounded)))
+      range = range_of(panel, 1)
+      call lines%line("set offsets 0, 0, "//trim(merge("0         ", "graph 0.05", hangs_from_zero(range)))//", "// &
+                      trim(merge("0         ", "graph 0.05", stands_on_zero(range))))
       call ordinate_lines("y", 1)
       if (len(panel%right_label) > 0) then
          call lines%line("set y2label "//quoted(panel%right_label))
@@ -150,26 +151,22 @@ contains
          character(*), intent(in) :: axis  !! y or y2
          integer, intent(in) :: side       !! 1 left, 2 right
 
-         character(:), allocatable :: edge
-         real(wp) :: range(2)
+         real(wp) :: ends(2)
 
          associate (asked => words%y(side), unit => panel%unit(side))
             if (.not. any(panel%side == side)) return
-            range = unit%factor*([minval(pack(panel%curves%y_range(1), panel%side == side)), &
-                                  maxval(pack(panel%curves%y_range(2), panel%side == side))] - panel%less(side))
+            ends = unit%factor*(range_of(panel, side) - panel%less(side))
             if (asked%has_range) then
-               range = unit%factor*asked%range
-               call lines%line("set "//axis//"range ["//real_text(range(1), 9)//":"//real_text(range(2), 9)//"]")
-            else if (range(2) - range(1) <= constant*maxval(abs(range)) .and. maxval(abs(range)) > 0.0_wp) then
-               call lines%line("set "//axis//"range ["//real_text(range(1) - 0.1_wp*abs(range(1)), 6)//":"// &
-                               real_text(range(2) + 0.1_wp*abs(range(2)), 6)//"]")
+               ends = unit%factor*asked%range
+               call lines%line("set "//axis//"range ["//real_text(ends(1), 9)//":"//real_text(ends(2), 9)//"]")
+            else if (ends(2) - ends(1) <= constant*largest(ends) .and. largest(ends) > 0.0_wp) then
+               call lines%line("set "//axis//"range ["//real_text(ends(1) - 0.1_wp*abs(ends(1)), 6)//":"// &
+                               real_text(ends(2) + 0.1_wp*abs(ends(2)), 6)//"]")
             else
-               edge = "*"  ! of what is as good as never negative: its least value, or zero
-               if (stands_on_zero(pack(panel%curves, panel%side == side))) edge = real_text(min(0.0_wp, range(1)), 6)
-               call lines%line("set "//axis//"range ["//edge//":*]")
+               call lines%line("set "//axis//"range "//open_range(ends))
             end if
             call lines%line("set "//axis//"tics autofreq")
-            call angle_lines(lines, axis, unit, range(2) - range(1), n)
+            call angle_lines(lines, axis, unit, ends(2) - ends(1), n)
             if (asked%si == "1" .and. panel%label == "state") call lines%line("set "//axis//"tics 1")
          end associate
       end subroutine ordinate_lines
@@ -183,15 +180,17 @@ contains
       type(display_unit_t), intent(in) :: x       !! unit of the abscissa
 
       type(envelope_t) :: none
-      real(wp) :: high, low, span
+      real(wp) :: all(2), ends(2), span
 
-      low = minval(panel%ideal%y_range(1))
-      high = maxval(panel%ideal%y_range(2))
-      span = high - low
+      ends = [minval(panel%ideal%y_range(1)), maxval(panel%ideal%y_range(2))]
+      span = ends(2) - ends(1)
+      ends = ends + [-zoom_margin*span, zoom_margin*span]
+      all = range_of(panel, 1)
+      if (stands_on_zero(all)) ends(1) = max(0.0_wp, ends(1))
+      if (hangs_from_zero(all)) ends(2) = min(0.0_wp, ends(2))
       call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
-      call lines%line("set yrange ["//real_text(panel%unit(1)%factor*merge(0.0_wp, low - zoom_margin*span, &
-                      stands_on_zero(panel%curves) .and. low < zoom_margin*span), 9)//":"// &
-                      real_text(panel%unit(1)%factor*(high + zoom_margin*span), 9)//"]")
+      call lines%line("set yrange ["//real_text(panel%unit(1)%factor*ends(1), 9)//":"// &
+                      real_text(panel%unit(1)%factor*ends(2), 9)//"]")
       call plot_lines(lines, panel, x, none)
    end subroutine zoom_lines
 

@@ -8,13 +8,15 @@ module figure_script
    use figure_words, only: figure_orbit, figure_t
    use orbit_script, only: orbit_lines
    use plot_text, only: quoted
-   use script_parts, only: axes_t, colours, largest, preamble, source, with_unit
+   use kinds, only: wp
+   use script_parts, only: axes_t, colours, hangs_from_zero, largest, open_range, preamble, source, stands_on_zero, with_unit
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
    public :: figure_text
 
-   integer, parameter :: most_turns = 60    !! beyond them the line of a portrait is thin
+   integer, parameter :: most_turns = 60        !! beyond them the line of a portrait is thin
+   real(wp), parameter :: one_unit = 30.0_wp    !! axes of one quantity whose extents differ by less have one unit [1]
 
 contains
 
@@ -54,13 +56,24 @@ contains
 
       type(axes_t) :: axes
       character(:), allocatable :: width
+      real(wp) :: extent(2), x(2), y(2)
 
-      axes%x = choose_unit(catalogue%groups(figure%scalars(1)%group)%channel%unit, largest(curves(1)%x_range))
-      axes%y = choose_unit(catalogue%groups(figure%scalars(2)%group)%channel%unit, largest(curves(1)%y_range))
+      x = [min(curves(1)%x_range(1), minval(ideal%x_range(1))), max(curves(1)%x_range(2), maxval(ideal%x_range(2)))]
+      y = [min(curves(1)%y_range(1), minval(ideal%y_range(1))), max(curves(1)%y_range(2), maxval(ideal%y_range(2)))]
+      extent = [largest(x), largest(y)]
+      associate (x_unit => catalogue%groups(figure%scalars(1)%group)%channel%unit, &
+                 y_unit => catalogue%groups(figure%scalars(2)%group)%channel%unit)
+         if (x_unit == y_unit .and. maxval(extent) < one_unit*minval(extent)) extent = maxval(extent)
+         axes%x = choose_unit(x_unit, extent(1))
+         axes%y = choose_unit(y_unit, extent(2))
+      end associate
       call preamble(lines, figure%name, 1200, 800)
       call lines%line("set xlabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(1)), axes%x)))
       call lines%line("set ylabel "//quoted(with_unit(scalar_name(catalogue, figure%scalars(2)), axes%y)))
-      call lines%line("set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05")
+      call lines%line("set xrange "//open_range(axes%x%factor*x))
+      call lines%line("set yrange "//open_range(axes%y%factor*y))
+      call lines%line("set offsets "//room(stands_on_zero(x), "0.03")//", "//room(hangs_from_zero(x), "0.03")//", "// &
+                      room(hangs_from_zero(y), "0.05")//", "//room(stands_on_zero(y), "0.05"))
       call lines%line("set title "//quoted(title)//" font ',17'")
       width = trim(merge("0.8", "2  ", is_thin))
       call lines%add("plot "//source(curves(1), axes)//" with lines linewidth "//width//" linecolor rgb '"//colours(1)//"'")
@@ -71,6 +84,19 @@ contains
          call lines%line("     "//source(ideal(1), axes)//" with lines linewidth 1.6 linecolor rgb '#909090' title 'ideal joints'")
       end if
       call lines%line("unset output")
+
+   contains
+
+      !> Room between the curve and an end of its axis.
+      pure function room(is_zero, part) result(words)
+         logical, intent(in) :: is_zero           !! the axis ends at zero there
+         character(*), intent(in) :: part         !! of the axis, else
+         character(:), allocatable :: words       !! for `set offsets`
+
+         words = trim(merge("0    ", "graph", is_zero))
+         if (.not. is_zero) words = words//" "//part
+      end function room
+
    end subroutine portrait_lines
 
 end module figure_script

@@ -203,7 +203,10 @@ contains
       character(:), allocatable, intent(inout) :: hint       !! what may have been meant, may be blank
       character(:), allocatable, intent(out) :: bad          !! the wrong part, blank: all of it
 
+      character(:), allocatable :: nearest
+      integer :: k
       type(phrase_t) :: phrase
+      type(text_t), allocatable :: calls(:)
 
       call read_phrase(word, phrase, message, bad)
       if (len(message) > 0) then
@@ -214,6 +217,9 @@ contains
       call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
       if (starts_with(message, unknown_channel) .and. bad == word) then
          message = "unknown figure"//piece(message, len(unknown_channel) + 1)
+         calls = [(text_t(piece(call_words(k), 1, index(call_words(k), "(") - 1)), k=figure_portrait, figure_animation)]
+         nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
+         if (len(nearest) > 0 .and. .not. starts_with(hint, "did you mean")) hint = "did you mean '"//nearest//"'? "//hint
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
                 "histogram(JOINT.impact_speed), bifurcation(X), statistics(NUMBER), film(JOINT), mechanism, strip(n=8), "// &
                 "coupler(POINT) and animation(last=...); "//phrase_hint

@@ -77,12 +77,14 @@ contains
       type(motion_request_t), intent(inout) :: request       !! its window is set
       character(:), allocatable, intent(inout) :: message    !! what is wrong, blank if nothing
 
-      character(*), parameter :: turns = "turnsof"
-      integer :: n, status
+      character(*), parameter :: turns(2) = [character(7) :: "turnsof", "turnof"]
+      integer :: k, n, status
+      logical :: is_in(2)
 
       n = number_length(word)
-      if (n > 0 .and. starts_with(piece(word, n + 1), turns)) then
-         request%driver = piece(word, n + 1 + len(turns))
+      is_in = [(starts_with(piece(word, n + 1), trim(turns(k))), k=1, 2)]
+      if (n > 0 .and. any(is_in)) then
+         request%driver = piece(word, n + 1 + len_trim(turns(findloc(is_in, .true., dim=1))))
          read (word(:n), *, iostat=status) request%last
          if (status /= 0 .or. len(request%driver) == 0) message = "'last="//word//"' names no turns of a driver"
       else

@@ -30,7 +30,7 @@ contains
       words = "bodies in their size"
       if (symbols%magnified > 0.0_wp) words = words//"; clearance of loose joints magnified "//real_text(symbols%magnified, 2)// &
                                               " times"
-      if (symbols%force > 0.0_wp) words = words//"; arrows: forces on journals, the longest "// &
+      if (symbols%force > 0.0_wp) words = words//"; arrows: loads and forces on journals, the longest "// &
                                           quantity_text("N", symbols%force, 3)
    end function long_legend
 

@@ -3,25 +3,26 @@
 !> The file has a block for each style, and of an animation one such group for each picture; they are read by `index`. Several
 !> instants stand side by side, to one scale.
 module scene_plot
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t
    use display_units, only: choose_unit, display_unit_t
-   use drawing, only: drawing_t, mark_plane, mark_slide
+   use drawing, only: drawing_t
    use errors, only: error_t
    use figure_words, only: figure_animation, figure_coupler, figure_mechanism, figure_strip, figure_t
    use frames, only: frame_t, track_t
    use kinds, only: wp
    use plot_text, only: quoted
    use scene_legends, only: short_legend, time_text
-   use scene_strokes, only: canvas_t, draw_scene, largest_force, magnification, n_style, style_arrow, style_body, style_ground, &
+   use scene_strokes, only: canvas_t, draw_scene, n_style, style_arrow, style_body, style_ground, &
       style_hole, style_journal, style_line, style_path, style_pin, style_symbol, symbols_t
    use scene_views, only: extents_t, lay_out_views, projected, view_t
    use script_parts, only: preamble
+   use symbol_scales, only: largest_force, new_symbols
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
    implicit none (type, external)
    private
-   public :: new_symbols, write_scene_plot
+   public :: write_scene_plot
 
    integer, parameter :: width_still = 1200    !! of a picture, in pixels
    integer, parameter :: width_moving = 640    !! of an animation, in pixels
@@ -93,7 +94,7 @@ contains
       plot%unit = choose_unit("m", maxval(plot%extents%greatest - plot%extents%least))
       plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
       call new_symbols(catalogue, drawing, list, plot%symbols)
-      if (figure%kind == figure_strip) plot%symbols%force = largest_force(list(size(list):))  ! joints are drawn at the last
+      if (figure%kind == figure_strip) plot%symbols%force = largest_force(plot%symbols, list(size(list):))  ! as drawn
       if (figure%kind == figure_coupler) plot%symbols%force = 0.0_wp
       plot%symbols%scale = plot%unit%factor
       plot%cell = plot%extents%greatest - plot%extents%least
@@ -103,69 +104,6 @@ contains
       plot%extents%greatest(1) = plot%extents%least(1) + plot%columns*plot%cell(1)
       plot%extents%least(2) = plot%extents%greatest(2) - rows*plot%cell(2)
    end subroutine plan_plot
-
-   !> Scales of symbols, ways of slides, and the joints with clearance of the marks.
-   subroutine new_symbols(catalogue, drawing, list, symbols)
-      type(catalogue_t), intent(in) :: catalogue    !! what was recorded
-      type(drawing_t), intent(in) :: drawing        !! the scene
-      type(frame_t), intent(in) :: list(:)          !! (n) frames
-      type(symbols_t), intent(out) :: symbols       !! scales
-
-      real(wp), parameter :: of_way = 0.3_wp  ! size of symbols over the extent of the motion, at least [1]
-      real(wp) :: across, along, axis(3), x(3, 2)
-      integer :: f, i, k
-
-      symbols%size = max(drawing%size, of_way*extent_of_motion(drawing, list))
-      symbols%magnified = magnification(drawing, symbols%size)
-      symbols%force = largest_force(list)
-      allocate (symbols%ways(2, drawing%n_mark), symbols%loose(drawing%n_mark))
-      symbols%ways = 0.0_wp
-      symbols%loose = 0
-      do k = 1, drawing%n_mark
-         associate (mark => drawing%marks(k), names => catalogue%rooms(room_clearances)%names)
-            do i = 1, size(names)
-               if (names(i)%s == mark%name) symbols%loose(k) = i
-            end do
-            if (mark%kind /= mark_slide .and. mark%kind /= mark_plane) cycle
-            symbols%ways(:, k) = [huge(1.0_wp), -huge(1.0_wp)]
-            do f = 1, size(list)
-               do i = 1, 2
-                  x(:, i) = list(f)%r(:, mark%body(i)) + matmul(list(f)%a(:, :, mark%body(i)), mark%s(:, i))
-               end do
-               axis = matmul(list(f)%a(:, :, mark%body(1)), mark%axis)
-               if (mark%kind == mark_plane .and. .not. drawing%is_spatial) axis = [axis(2), -axis(1), 0.0_wp]
-               along = dot_product(axis, x(:, 2) - x(:, 1))
-               across = along
-               if (mark%kind == mark_plane .and. drawing%is_spatial) then  ! in the plane, whichever way
-                  along = norm2(x(:, 2) - x(:, 1) - along*axis)
-                  across = -along
-               end if
-               symbols%ways(:, k) = [min(symbols%ways(1, k), across), max(symbols%ways(2, k), along)]
-            end do
-         end associate
-      end do
-   end subroutine new_symbols
-
-   !> The diagonal of the box in which the centres of mass of all bodies are, with the size of the largest outline.
-   pure real(wp) function extent_of_motion(drawing, list) result(length)
-      type(drawing_t), intent(in) :: drawing !! outlines
-      type(frame_t), intent(in) :: list(:)   !! (n) frames
-
-      real(wp) :: greatest(3), least(3), radius
-      integer :: k
-
-      greatest = -huge(1.0_wp)
-      least = huge(1.0_wp)
-      do k = 1, size(list)
-         least = min(least, minval(list(k)%r(:, 1:), dim=2))
-         greatest = max(greatest, maxval(list(k)%r(:, 1:), dim=2))
-      end do
-      radius = 0.0_wp
-      do k = 1, drawing%n_part
-         if (drawing%parts(k)%body > 0) radius = max(radius, maxval(norm2(drawing%parts(k)%s, dim=1)))
-      end do
-      length = norm2(greatest - least) + 2.0_wp*radius
-   end function extent_of_motion
 
    !> All strokes.
    subroutine write_data(figure, drawing, list, path, plot, data, has_style)
@@ -239,6 +177,7 @@ contains
 
       call script%line("set size ratio -1")
       call script%line("set key noautotitle")
+      call script%line("set style textbox opaque margins 0.4,0.4 noborder")
       associate (e => plot%extents, factor => plot%unit%factor)
          call script%line("set xrange ["//real_text(factor*e%least(1), 6)//":"//real_text(factor*e%greatest(1), 6)//"]")
          call script%line("set yrange ["//real_text(factor*e%least(2), 6)//":"//real_text(factor*e%greatest(2), 6)//"]")
@@ -248,7 +187,7 @@ contains
             return
          end if
          call script%line("unset grid; unset border; unset xtics; unset ytics")
-         bar = 10.0_wp**floor(log10(0.4_wp*factor*plot%cell(1)/sqrt(real(size(plot%views), wp))))
+         bar = round_below(0.3_wp*factor*plot%cell(1)/sqrt(real(size(plot%views), wp)))
          call script%line("set arrow from graph 0.02, graph 0.02 rto first "//real_text(bar, 3)// &
                           ", 0 heads size graph 0.004,90 linewidth 2")
          call script%line("set label "//quoted(real_text(bar, 3)//" "//plot%unit%symbol)//" at graph 0.02, graph 0.045")
@@ -260,6 +199,18 @@ contains
          end do
       end associate
    end subroutine frame_lines
+
+   !> The greatest of 1, 2, 5 times a power of ten that is not above a length.
+   pure real(wp) function round_below(length) result(round)
+      real(wp), intent(in) :: length  !! the length, positive [any]
+
+      round = 10.0_wp**floor(log10(length))
+      if (5.0_wp*round <= length) then
+         round = 5.0_wp*round
+      else if (2.0_wp*round <= length) then
+         round = 2.0_wp*round
+      end if
+   end function round_below
 
    !> The plot command.
    subroutine plot_lines(script, name, first, width, has_style)
@@ -330,7 +281,7 @@ contains
             words = "t = "//time_text(list(1)%t)//words
          end if
       end if
-      call script%line("set label "//quoted(words)//" at graph 0.01, graph 0.975 front font ',13'")
+      call script%line("set label "//quoted(words)//" at graph 0.01, graph 0.965 front boxed font ',13'")
       if (plot%cells > 1) then
          do f = 1, size(list)
             at = [plot%extents%least(1), plot%extents%greatest(2)] + &
@@ -367,7 +318,7 @@ contains
       call script%line("set grid linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc'")
       call frame_lines(script, plot)
       if (len(short_legend(plot%symbols)) > 0) then
-         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.01, graph 0.97 front")
+         call script%line("set label "//quoted(short_legend(plot%symbols))//" at graph 0.01, graph 0.96 front boxed")
       end if
       unit = choose_unit("s", list(size(list))%t)
       call script%add("times = '")
@@ -376,7 +327,7 @@ contains
       end do
       call script%line("'")
       call script%line("do for [f=0:"//to_text(size(list) - 1)//"] {")
-      call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.99, graph 0.97 right front")
+      call script%line("set label 99 't = '.word(times, f + 1).' "//unit%symbol//"' at graph 0.985, graph 0.96 right front boxed")
       call plot_lines(script, figure%name, "f*"//to_text(n_style), 2, has_style)
       call script%line("}")
       call script%line("unset output")

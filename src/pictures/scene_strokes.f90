@@ -4,7 +4,8 @@
 !> in it, larger than a pin; the eccentricity is magnified by one factor for all, so that the largest clearance fills the symbol.
 !> The ground is hatched where joints stand on it.
 module scene_strokes
-   use drawing, only: drawing_t, in_files, mark_bearing, mark_link, mark_pin, mark_plane, mark_slide, mark_spring, mark_t
+   use drawing, only: drawing_t, in_files, mark_bearing, mark_damper, mark_link, mark_pin, mark_plane, mark_slide, &
+      mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
    use scene_views, only: projected, view_t
@@ -12,7 +13,7 @@ module scene_strokes
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: body_colour, canvas_t, draw_scene, largest_force, magnification, n_style, symbols_t
+   public :: bearing_size, body_colour, canvas_t, draw_scene, journal_part, n_style, symbols_t
    public :: style_arrow, style_body, style_ground, style_hole, style_journal, style_line, style_path, style_pin, style_symbol
 
    ! styles, in the order in which they are drawn
@@ -44,7 +45,9 @@ module scene_strokes
       real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no loose round joints [1]
       real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
       real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: least and greatest place of j along the axis [m]
+      real(wp), allocatable :: walls(:)           !! (marks) of slides: from the middle of the guide to its walls [m]
       integer, allocatable :: loose(:)            !! (marks) number of the joint with clearance, 0: none
+      integer, allocatable :: load(:)             !! (marks) of a load: number of the force element, 0: none
    end type symbols_t
 
    !> What is drawn.
@@ -71,7 +74,7 @@ contains
       end do
       if (.not. with_marks) return
       do k = 1, drawing%n_mark
-         call draw_mark(drawing%marks(k), symbols%ways(:, k), symbols%loose(k), frame, view, symbols, canvas)
+         call draw_mark(drawing%marks(k), k, frame, view, symbols, canvas)
       end do
 
    contains
@@ -107,18 +110,19 @@ contains
    end subroutine draw_scene
 
    !> A joint or element.
-   subroutine draw_mark(mark, way, loose, frame, view, symbols, canvas)
+   subroutine draw_mark(mark, number, frame, view, symbols, canvas)
       type(mark_t), intent(in) :: mark             !! the joint
-      real(wp), intent(in) :: way(2)               !! (2) of a slide: places of j along the axis [m]
-      integer, intent(in) :: loose                 !! number among the joints with clearance, 0: none
+      integer, intent(in) :: number                !! its number
       type(frame_t), intent(in) :: frame           !! where it is
       type(view_t), intent(in) :: view             !! from where it is seen
       type(symbols_t), intent(in) :: symbols       !! scales
       type(canvas_t), intent(inout) :: canvas      !! gets lines
 
-      real(wp) :: axis(2), e(2), p(2, 2), radius, x(3, 2)
-      integer :: k
+      real(wp) :: axis(2), e(2), p(2, 2), radius, way(2), x(3, 2)
+      integer :: k, loose
 
+      loose = symbols%loose(number)
+      way = symbols%ways(:, number)
       do k = 1, 2
          x(:, k) = frame%r(:, mark%body(k)) + matmul(frame%a(:, :, mark%body(k)), mark%s(:, k))
          p(:, k) = projected(view, x(:, k))
@@ -129,11 +133,16 @@ contains
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
       case (mark_link)
+         if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          call add(canvas, style_symbol, symbols, p, dark)
          call add_disc(canvas, style_pin, symbols, p(:, 1), radius)
          call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
-      case (mark_spring)
-         call draw_spring(canvas, symbols, p)
+      case (mark_spring, mark_damper)
+         do k = 1, 2
+            if (mark%body(k) == 0) call draw_wall(canvas, symbols, p(:, k), p(:, 3 - k))
+         end do
+         if (mark%kind == mark_spring) call draw_spring(canvas, symbols, p)
+         if (mark%kind == mark_damper) call draw_damper(canvas, symbols, p)
       case (mark_plane)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
@@ -144,7 +153,7 @@ contains
       case (mark_slide)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
-         if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, mark%body(1) == 0)
+         if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, symbols%walls(number), mark%body(1) == 0)
       case (mark_bearing)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          radius = bearing_size*symbols%size
@@ -153,10 +162,25 @@ contains
          call add_disc(canvas, style_hole, symbols, p(:, 1), radius)
          call add_disc(canvas, style_journal, symbols, p(:, 1) + symbols%magnified*e, journal_part*radius)
       end select
-      if (loose == 0 .or. .not. symbols%force > 0.0_wp) return
-      e = (projected(view, frame%f(:, loose)) - view%shift)*arrow_size*symbols%size/symbols%force
+      if (.not. symbols%force > 0.0_wp) return
+      e = (projected(view, force_at(symbols, frame, number)) - view%shift)*arrow_size*symbols%size/symbols%force
       call draw_arrow(canvas, symbols, p(:, 2), e)
    end subroutine draw_mark
+
+   !> The force that is drawn at a mark, zero if none is.
+   pure function force_at(symbols, frame, number) result(force)
+      type(symbols_t), intent(in) :: symbols   !! which joint or load a mark is
+      type(frame_t), intent(in) :: frame       !! forces
+      integer, intent(in) :: number            !! the mark
+      real(wp) :: force(3)                     !! (3) world frame [N]
+
+      force = 0.0_wp
+      if (symbols%loose(number) > 0) then
+         force = frame%f(:, symbols%loose(number))
+      else if (symbols%load(number) > 0) then
+         force = frame%load(:, symbols%load(number))
+      end if
+   end function force_at
 
    !> Hatching where a joint stands on the ground.
    subroutine draw_support(canvas, symbols, p)
@@ -195,12 +219,13 @@ contains
    end subroutine draw_hatch
 
    !> Both sides of a guide, hatched if it is the ground's.
-   subroutine draw_guide(canvas, symbols, p, axis, way, is_ground)
+   subroutine draw_guide(canvas, symbols, p, axis, way, wall, is_ground)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales
       real(wp), intent(in) :: p(2)             !! (2) point of the guide [m]
       real(wp), intent(in) :: axis(2)          !! (2) its axis in the view, at most of length 1 [1]
       real(wp), intent(in) :: way(2)           !! (2) places of the slider along the axis [m]
+      real(wp), intent(in) :: wall             !! from its middle to its walls [m]
       logical, intent(in) :: is_ground         !! it is fixed
 
       real(wp) :: across(2), ends(2, 2), reach
@@ -210,7 +235,7 @@ contains
       ends(:, 1) = p + (way(1) - reach)*axis
       ends(:, 2) = p + (way(2) + reach)*axis
       do side = -1, 1, 2
-         across = real(side, wp)*0.0425_wp*symbols%size*[-axis(2), axis(1)]/norm2(axis)
+         across = real(side, wp)*wall*[-axis(2), axis(1)]/norm2(axis)
          if (.not. is_ground) then
             call add(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across], [2, 2]), dark)
          else if (side < 0) then
@@ -242,6 +267,42 @@ contains
       end do
       call add(canvas, style_symbol, symbols, q, dark)
    end subroutine draw_spring
+
+   !> A damper or actuator between two points: a piston in a cylinder.
+   subroutine draw_damper(canvas, symbols, p)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2, 2)          !! (2, 2) its ends [m]
+
+      real(wp), parameter :: bottom = 0.25_wp, head = 0.55_wp, mouth = 0.75_wp  ! places along it [1]
+      real(wp) :: across(2), along(2), ends(2, 2)
+
+      along = p(:, 2) - p(:, 1)
+      if (.not. norm2(along) > 0.0_wp) return
+      across = 0.02_wp*symbols%size*[-along(2), along(1)]/norm2(along)
+      call add(canvas, style_symbol, symbols, reshape([p(:, 1), p(:, 1) + bottom*along], [2, 2]), dark)
+      ends = reshape([p(:, 1) + bottom*along, p(:, 1) + mouth*along], [2, 2])
+      call add(canvas, style_symbol, symbols, reshape([ends(:, 2) + across, ends(:, 1) + across, ends(:, 1) - across, &
+                                                       ends(:, 2) - across], [2, 4]), dark)
+      across = 0.8_wp*across
+      call add(canvas, style_symbol, symbols, reshape([p(:, 1) + head*along + across, p(:, 1) + head*along - across], [2, 2]), dark)
+      call add(canvas, style_symbol, symbols, reshape([p(:, 1) + head*along, p(:, 2)], [2, 2]), dark)
+   end subroutine draw_damper
+
+   !> A wall across the line from a point that is fixed to another, hatched behind.
+   subroutine draw_wall(canvas, symbols, p, other)
+      type(canvas_t), intent(inout) :: canvas  !! gets lines
+      type(symbols_t), intent(in) :: symbols   !! scales
+      real(wp), intent(in) :: p(2)             !! (2) the fixed point [m]
+      real(wp), intent(in) :: other(2)         !! (2) the other one [m]
+
+      real(wp) :: across(2)
+
+      if (.not. norm2(other - p) > 0.0_wp) return
+      across = other - p
+      across = 0.04_wp*symbols%size*[across(2), -across(1)]/norm2(across)
+      call draw_hatch(canvas, symbols, p - across, p + across)
+   end subroutine draw_wall
 
    !> A force.
    subroutine draw_arrow(canvas, symbols, from, way)
@@ -312,35 +373,5 @@ contains
       parts = nint(255.0_wp - (255.0_wp - real(parts, wp))*(1.0_wp - paleness))
       colour = 65536*parts(1) + 256*parts(2) + parts(3)
    end function body_colour
-
-   !> Factor by which eccentricities are magnified: the largest clearance fills the gap of the symbol.
-   pure real(wp) function magnification(drawing, size) result(factor)
-      type(drawing_t), intent(in) :: drawing  !! the scene
-      real(wp), intent(in) :: size            !! of its symbols [m]
-
-      real(wp) :: clearance
-      integer :: k
-
-      clearance = 0.0_wp
-      do k = 1, drawing%n_mark
-         if (drawing%marks(k)%kind == mark_bearing) clearance = max(clearance, drawing%marks(k)%clearance)
-      end do
-      factor = 0.0_wp
-      if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*size/clearance
-   end function magnification
-
-   !> The greatest force of the joints with clearance in some frames.
-   pure real(wp) function largest_force(list) result(force)
-      type(frame_t), intent(in) :: list(:)  !! (n) frames
-
-      integer :: i, k
-
-      force = 0.0_wp
-      do k = 1, size(list)
-         do i = 1, size(list(k)%f, 2)
-            force = max(force, norm2(list(k)%f(:, i)))
-         end do
-      end do
-   end function largest_force
 
 end module scene_strokes

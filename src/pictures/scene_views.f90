@@ -9,7 +9,9 @@ module scene_views
    private
    public :: extents_t, lay_out_views, projected, view_t
 
-   real(wp), parameter :: gap = 1.3_wp  !! cell of a view over the greatest extent of one [1]
+   real(wp), parameter :: gap = 0.3_wp      !! between views, of the greatest extent of one [1]
+   real(wp), parameter :: least = 0.4_wp    !! room of a view, of that extent [1]
+   real(wp), parameter :: above = 0.06_wp   !! of a label over the highest view of its row, of that extent [1]
 
    !> One view.
    type :: view_t
@@ -58,7 +60,7 @@ contains
       type(extents_t), intent(out) :: extents            !! the frame
 
       type(extents_t), allocatable :: alone(:)
-      real(wp) :: cell(2), margin
+      real(wp) :: greatest, half(2, 2), margin
       integer :: k
 
       if (drawing%is_spatial) then
@@ -68,16 +70,24 @@ contains
          allocate (views(1))
       end if
       allocate (alone(size(views)))
-      cell = 0.0_wp
       do k = 1, size(views)
          call measure(drawing, list, track, views(k), alone(k))
-         cell = max(cell, alone(k)%greatest - alone(k)%least)
       end do
-      cell = gap*max(cell, 0.4_wp*maxval(cell))
+      if (size(views) > 1) then
+         greatest = maxval([(alone(k)%greatest - alone(k)%least, k=1, size(views))])
+         half = 0.5_wp*least*greatest
+         do k = 1, size(views)  ! half the width of a column, half the height of a row
+            half(mod(k - 1, 2) + 1, 1) = max(half(mod(k - 1, 2) + 1, 1), 0.5_wp*(alone(k)%greatest(1) - alone(k)%least(1)))
+            half((k - 1)/2 + 1, 2) = max(half((k - 1)/2 + 1, 2), 0.5_wp*(alone(k)%greatest(2) - alone(k)%least(2)))
+         end do
+         do k = 1, size(views)
+            views(k)%shift = (sum(half, dim=1) + gap*greatest)*[real(mod(k - 1, 2), wp), -real((k - 1)/2, wp)]
+            views(k)%label_at = views(k)%shift + [0.0_wp, half((k - 1)/2 + 1, 2) + above*greatest]
+            views(k)%shift = views(k)%shift - 0.5_wp*(alone(k)%greatest + alone(k)%least)
+            call extents%hold(views(k)%label_at)
+         end do
+      end if
       do k = 1, size(views)
-         views(k)%shift = cell*[real(mod(k - 1, 2), wp), -real((k - 1)/2, wp)]
-         views(k)%label_at = views(k)%shift + [0.0_wp, 0.46_wp*cell(2)]
-         if (size(views) > 1) views(k)%shift = views(k)%shift - 0.5_wp*(alone(k)%greatest + alone(k)%least)
          call measure(drawing, list, track, views(k), extents)
       end do
       margin = 0.12_wp*maxval(extents%greatest - extents%least)/sqrt(real(size(views), wp))

@@ -7,7 +7,8 @@ module script_parts
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: angle_tics, axes_t, largest, largest_y, preamble, scaled, source, with_unit
+   public :: angle_tics, axes_t, hangs_from_zero, largest, largest_y, open_range, preamble, scaled, source, stands_on_zero
+   public :: with_unit
    public :: colours, key_below
 
    character(*), parameter :: colours(12) = &
@@ -61,6 +62,34 @@ contains
 
       largest = maxval(abs(range))
    end function largest
+
+   !> Whether nothing of a range is negative and something is as good as zero: then zero is the lower edge of its axis.
+   pure logical function stands_on_zero(range)
+      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+
+      real(wp), parameter :: near = 0.05_wp      ! of the greatest value [1]
+      real(wp), parameter :: unseen = 1.0e-3_wp  ! of the greatest value: less than a pixel [1]
+
+      stands_on_zero = range(1) >= -unseen*range(2) .and. range(1) < near*range(2)
+   end function stands_on_zero
+
+   !> Whether nothing is positive and something is as good as zero: then zero is the upper edge.
+   pure logical function hangs_from_zero(range)
+      real(wp), intent(in) :: range(2)  !! (2) least and greatest value [any]
+
+      hangs_from_zero = stands_on_zero([-range(2), -range(1)])
+   end function hangs_from_zero
+
+   !> Ends of an axis that scales itself but where it ends at zero; values beyond zero that nobody sees have room all the same.
+   function open_range(range) result(words)
+      real(wp), intent(in) :: range(2)         !! (2) least and greatest value [the unit shown]
+      character(:), allocatable :: words       !! as `[0:*]`
+
+      words = "*:*"
+      if (stands_on_zero(range)) words = real_text(min(0.0_wp, range(1)), 6)//":*"
+      if (hangs_from_zero(range)) words = "*:"//real_text(max(0.0_wp, range(2)), 6)
+      words = "["//words//"]"
+   end function open_range
 
    !> A name with the unit shown.
    pure function with_unit(name, unit) result(label)

@@ -5,12 +5,13 @@
 !> their axes; of loose joints in space they are balls.
 !>
 !> A joint is a mark at its two points: what it leaves of the freedom says which; a row whose points are apart at the start is a
-!> link, of a force a spring. Rows that name joints (drivers) are not drawn.
+!> link, of a force a spring, or a damper where nothing is elastic in it. A force at one point is a mark there. Rows that name
+!> joints (drivers) are not drawn.
 module scene_drawing
-   use drawing, only: add_mark, add_part, add_stroke, drawing_t, in_files, mark_bearing, mark_guide, mark_link, mark_pin, &
-      mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
+   use drawing, only: add_mark, add_part, add_stroke, drawing_t, in_files, mark_bearing, mark_damper, mark_guide, mark_link, &
+      mark_load, mark_pin, mark_plane, mark_slide, mark_spring, mark_t, part_t, round_part, start_part
    use body_outline, only: distinct_points, outline, same_place
-   use item, only: find_place, item_t
+   use item, only: find_place, item_t, place_of
    use kind_info, only: kind_info_t, leaves_angles, leaves_more, leaves_turn, leaves_way
    use kinds, only: wp
    use rotations, only: axes_across, rotation_about, rotation_of_parameters
@@ -197,18 +198,24 @@ contains
       type(item_t), intent(in) :: item  !! the row
       real(wp) :: axis(3)               !! (3) direction [1]
 
-      real(wp) :: angle
-
       axis = 0.0_wp
       if (find_place(item, "axis_i") > 0) then
          axis = item%direction("axis_i")
       else if (find_place(item, "axis") > 0 .and. find_place(item, "axis_angle") > 0) then
-         angle = item%number("axis_angle")
-         axis = [cos(angle), sin(angle), 0.0_wp]
-         if (item%word("axis") == "y") axis = [-sin(angle), cos(angle), 0.0_wp]
+         axis = direction_in_plane(item%word("axis"), item%number("axis_angle"))
       end if
       if (norm2(axis) > 0.0_wp) axis = axis/norm2(axis)
    end function axis_of
+
+   !> An axis of a body of the plane, turned.
+   pure function direction_in_plane(name, angle) result(axis)
+      character(*), intent(in) :: name   !! x or y
+      real(wp), intent(in) :: angle      !! by which it is turned, counter-clockwise [rad]
+      real(wp) :: axis(3)                !! (3) direction [1]
+
+      axis = [cos(angle), sin(angle), 0.0_wp]
+      if (name == "y") axis = [-sin(angle), cos(angle), 0.0_wp]
+   end function direction_in_plane
 
    !> Orientation of a body's own frame where the deck puts it.
    pure function start_frame(scene, body) result(a)
@@ -240,6 +247,7 @@ contains
          do i = 1, size(tables(k)%items)
             associate (item => tables(k)%items(i), info => tables(k)%info)
                tie = tie_of(scene, info, item)
+               if (are_forces .and. tie%n == 1) call add_load(item, tie, drawing)
                if (tie%n < 2 .or. tie%by_joint .or. all(tie%point == 0) .or. info%is_start_only) cycle
                mark = mark_t()
                mark%name = item%name
@@ -253,12 +261,52 @@ contains
                   mark%radius = item%number("bearing_radius")
                   mark%clearance = item%number("clearance")
                   call add_bearing(mark, drawing)
+               else if (mark%kind == mark_slide) then
+                  call measure_slide(scene, item, tie, mark)
                end if
                if (mark%kind > 0) call add_mark(drawing, mark)
             end associate
          end do
       end do
    end subroutine add_marks
+
+   !> A force at a point.
+   subroutine add_load(item, tie, drawing)
+      type(item_t), intent(in) :: item             !! the row
+      type(tie_t), intent(in) :: tie               !! what it ties
+      type(drawing_t), intent(inout) :: drawing    !! gets a mark, if the row names a point
+
+      type(mark_t) :: mark
+
+      if (tie%point(1) == 0) return
+      mark%kind = mark_load
+      mark%name = item%name
+      mark%body = tie%body(1)
+      mark%s = spread(drawing%s(:, tie%point(1)), 2, 2)
+      call add_mark(drawing, mark)
+   end subroutine add_load
+
+   !> Gaps, length and direction of what slides in a loose guide; nothing of one that is not loose.
+   subroutine measure_slide(scene, item, tie, mark)
+      type(scene_t), intent(in) :: scene         !! the scene
+      type(item_t), intent(in) :: item           !! the row
+      type(tie_t), intent(in) :: tie             !! what it ties
+      type(mark_t), intent(inout) :: mark        !! the joint, with its axis
+
+      if (find_place(item, "gap") == 0 .or. find_place(item, "length") == 0) return
+      if (item%word("level") == "ideal") return
+      mark%half_length = 0.5_wp*item%number("length")
+      mark%gaps = item%number("gap")
+      if (find_place(item, "slider_axis") > 0) then
+         if (item%number("gap_upper") > 0.0_wp) mark%gaps(1) = item%number("gap_upper")
+         if (item%number("gap_lower") > 0.0_wp) mark%gaps(2) = item%number("gap_lower")
+         mark%axis_j = direction_in_plane(item%word("slider_axis"), item%number("slider_angle"))
+      else
+         mark%axis_j = item%direction("axis_j")
+         if (norm2(mark%axis_j) > 0.0_wp) return
+         mark%axis_j = matmul(matmul(start_frame(scene, tie%body(1)), mark%axis), start_frame(scene, tie%body(2)))
+      end if
+   end subroutine measure_slide
 
    !> Hole and journal of a loose joint, in their size: circles across its axis, for files.
    subroutine add_bearing(mark, drawing)
@@ -298,7 +346,7 @@ contains
          are_apart = norm2(start_position(scene, tie%point(1)) - start_position(scene, tie%point(2))) > near
       end if
       if (is_force) then
-         kind = mark_spring
+         kind = merge(mark_spring, mark_damper, is_elastic(item))
       else if (find_place(item, "bearing_radius") > 0) then
          kind = merge(mark_pin, mark_bearing, is_ideal)
       else if (find_place(item, "slider") > 0) then
@@ -315,5 +363,15 @@ contains
          kind = merge(mark_link, mark_pin, are_apart)
       end if
    end function kind_of_mark
+
+   !> Whether a row of a force between two points has a stiffness or a law of its stretch.
+   pure logical function is_elastic(item)
+      type(item_t), intent(in) :: item  !! the row
+
+      is_elastic = .true.
+      if (find_place(item, "stiffness") == 0 .or. find_place(item, "law") == 0) return
+      is_elastic = item%number("stiffness") > 0.0_wp .or. abs(item%number("law")) > 0.0_wp .or. &
+                   .not. item%values(place_of(item, "law"))%expression%is_constant
+   end function is_elastic
 
 end module scene_drawing

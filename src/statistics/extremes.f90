@@ -41,6 +41,8 @@ module extremes
       procedure :: sample => sample_extremes
       procedure :: note => note_extremes
       procedure :: mean => mean_of
+      procedure :: shown_mean
+      procedure :: is_nothing
       procedure :: rms => rms_of
       procedure :: save => save_extremes
       procedure :: load => load_extremes
@@ -146,6 +148,25 @@ contains
       mean_of = not_a_number()
       if (self%n_sample > 1 .and. self%t_last > self%t_first) mean_of = self%of(k)%integral/(self%t_last - self%t_first)
    end function mean_of
+
+   !> The same for people: what is round-off beside the root mean square is zero.
+   pure real(wp) function shown_mean(self, k) result(mean)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                !! which number
+
+      real(wp), parameter :: round_off = 1.0e-12_wp  ! of the root mean square [1]
+
+      mean = self%mean(k)
+      if (abs(mean) < round_off*self%rms(k)) mean = 0.0_wp
+   end function shown_mean
+
+   !> Whether a number was zero all the time.
+   pure logical function is_nothing(self, k)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+      integer, intent(in) :: k                !! which number
+
+      is_nothing = max(abs(self%of(k)%least), abs(self%of(k)%greatest)) <= 0.0_wp
+   end function is_nothing
 
    !> Root mean square of a number over the time; NaN: there is no time.
    pure real(wp) function rms_of(self, k)

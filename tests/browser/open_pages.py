@@ -11,6 +11,9 @@ import shutil
 import subprocess
 import sys
 
+import h5py
+import numpy as np
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DECKS = ("slider_crank_dry", "four_bar_spatial", "hanging_chain", "double_pendulum", "billiards")
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -30,6 +33,13 @@ REPORT = """<script>window.addEventListener('load',()=>{found.pictures=[...docum
 found.frames=[...document.querySelectorAll('iframe')].map(f=>f.contentDocument.getElementById('scene').innerHTML);
 found.rows=[...document.querySelectorAll('table')].map(t=>t.rows.length);found.wide=document.body.scrollWidth-window.innerWidth;
 document.documentElement.setAttribute('data-found',encodeURIComponent(JSON.stringify(found)))})</script></body>"""
+
+
+# the zoom of a loose guide at each picture: corners of the slider, walls
+GUIDE = """<script>{found.corners=[];found.walls=[];found.times=[];for(let k=0;k<N;k++){show(k);const z=document.getElementById('zoom');
+found.corners.push(z.querySelector('polygon').getAttribute('points').split(' ').map(q=>q.split(',').map(Number)));
+found.walls.push([...z.querySelectorAll('path')].map(p=>+p.getAttribute('d').match(/M0 ([0-9.e-]+)H/)[1]));found.times.push(D.frames[k].t)}
+document.documentElement.setAttribute('data-found',encodeURIComponent(JSON.stringify(found)))}</script></body>"""
 
 
 def page_of(program, directory, name):
@@ -69,6 +79,29 @@ def check_report(browser, page):
     assert len(found["rows"]) > 5 and max(found["rows"]) > 5 and found["wide"] <= 0, (page, found["rows"], found["wide"])
 
 
+def check_guide(browser, program, directory):
+    """A loose guide beside its force: a corner of the slider lies beyond its wall in those pictures in which it penetrates."""
+    page = page_of(program, directory, "slider_crank_translational")
+    seen = what_is_found(browser, page, "<script>", GUIDE)
+    assert seen["errors"] == [] and len(seen["corners"]) == 24, seen
+    with h5py.File(directory / "slider_crank_translational" / "run.h5") as file:
+        even = np.flatnonzero(file["row_kind"][:] == 0)
+        names = [name.decode() for name in file["clearances/contact_label"][:]]
+        depth = file["clearances/contacts/penetration"][:][even]
+        times = file["time"][:][even]
+    touched = 0
+    for t, corners, walls in zip(seen["times"], seen["corners"], seen["walls"]):
+        row = depth[np.argmin(abs(times - t))]
+        (_, d), (_, c), (_, b), (_, a) = corners  # drawn from the upper one behind, clockwise: y goes down
+        beyond = {"D_upper": walls[0] - d, "C_upper": walls[0] - c, "B_lower": b - walls[1], "A_lower": a - walls[1]}
+        for name, value in beyond.items():
+            here = row[names.index(name)]
+            touched += here > 0
+            assert (value > 0) == (here > 0) and (here == 0 or abs(value / here * 0.5e-3 / 55 - 1) < 0.01), (t, name, value, here)
+    assert touched > 0
+    print("browser-test: slider_crank_translational: its guide as in run.h5")
+
+
 def main(program, directory):
     """All pages."""
     browser = next((name for name in BROWSERS if shutil.which(name)), None)
@@ -92,6 +125,7 @@ def main(program, directory):
         report = directory / name / "report.html"
         check_report(browser, report)
         print(f"browser-test: {name}: as expected ({page.stat().st_size // 1000} kB, report {report.stat().st_size // 1000} kB)")
+    check_guide(browser, program, directory)
     return 0
 
 

@@ -114,6 +114,43 @@ def test_solid_blocks_are_ranges(gudgeon, frequency):
     assert "'arm.angle, range'" in script and "'mean'" in script
 
 
+def ranges(script):
+    """Ends of both axes as the script sets them."""
+    return [re.search(rf"set {axis}range \[(.*?):(.*?)\]", script).groups() for axis in "xy"]
+
+
+def test_curves_of_the_twin_are_not_cut(gudgeon):
+    """The loose pendulum stays above zero, the ideal one does not: the axis reaches as far as the lower of them."""
+    text = changed((DECK.parent / "double_pendulum.deck").read_text(encoding="utf-8"), "analysis.dynamic", end="2.4 s")
+    folder = drawn(gudgeon, text, "second.position.y")
+    least = [np.genfromtxt(folder.parent / f"second.{kind}dat", names=True)["secondpositionym"].min()
+             for kind in ("", "ideal.")]
+    assert least[0] > -1e-9 and least[1] < -0.05
+    assert re.search(r"set yrange \[(.*?):", (folder / "second.position.y.gp").read_text(encoding="utf-8")).group(1) == "*"
+
+
+def test_axes_that_end_at_zero(gudgeon):
+    """A force over its penetration begins at zero both ways; a position that never rises above zero ends there."""
+    text = (DECK.parent / "impact.deck").read_text(encoding="utf-8")
+    folder = drawn(gudgeon, text, "portrait(contact.penetration, contact.normal_force)")
+    script = only(folder, "*.gp").read_text(encoding="utf-8")
+    assert ranges(script) == [("0", "*"), ("0", "*")] and "set offsets 0, graph 0.03, graph 0.05, 0" in script
+    shaken = SHAKER.replace("0.2rad*sin(2*pi*t*FREQUENCY/1s)", "-1rad/s*t")
+    script = only(drawn(gudgeon, shaken, "arm.angle"), "*.gp").read_text(encoding="utf-8")
+    assert "set yrange [*:0]" in script and "set offsets 0, 0, 0, graph 0.05" in script
+
+
+def test_components_of_a_vector_have_one_unit(gudgeon):
+    """A portrait of 24.8 kN over 3.5 kN is in kN both ways; of quantities that lie far apart each has its own unit."""
+    text = changed((DECK.parent / "big_end.deck").read_text(encoding="utf-8"), "analysis.dynamic", end="45 ms")
+    text = text.replace('"engine_gas.txt"', f'"{DECK.parent / "engine_gas.txt"}"')
+    folder = drawn(gudgeon, text, "portrait(big_end.force.x,big_end.force.y) portrait(rod.position.x,big_end.eccentricity.y)")
+    script = only(folder, "portrait.big*.gp").read_text(encoding="utf-8")
+    assert "big_end.force.x [kN]" in script and "big_end.force.y [kN]" in script
+    script = only(folder, "portrait.rod*.gp").read_text(encoding="utf-8")
+    assert "rod.position.x [mm]" in script and "big_end.eccentricity.y [µm]" in script
+
+
 def test_mistakes_have_a_place(gudgeon):
     """The caret stands below the wrong part, and the nearest word is told."""
     text = DECK.read_text(encoding="utf-8")

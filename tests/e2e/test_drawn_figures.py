@@ -51,8 +51,8 @@ def test_strip_over_the_last_turn(gudgeon, tmp_path):
 
 def test_animation(gudgeon, tmp_path):
     """As many pictures as asked for in the GIF and in the page, at their times; text of the deck stays text."""
-    folder = run(gudgeon, tmp_path, changed(CRANK, "scene", title=f'"{TITLE}"'), "animation(n=12, last = 1 turns of motor)")
-    name = "animation.n.12.last.1turnsofmotor"
+    folder = run(gudgeon, tmp_path, changed(CRANK, "scene", title=f'"{TITLE}"'), "animation(n=12, last = 1 turn of motor)")
+    name = "animation.n.12.last.1turnofmotor"
     found = strokes(folder / f"{name}.dat")
     assert len(found) == 12
     turn = 2 * np.pi / 7
@@ -114,11 +114,96 @@ def test_space_in_four_views(gudgeon, tmp_path):
     np.testing.assert_allclose(lines[10][1] - lines[10][0], [-0.0749111544, -0.085], atol=1e-5)
 
 
+def test_labels_of_views_are_in_the_picture(gudgeon, tmp_path):
+    """Each view of a scene that is wide in one and high in another has its label within the frame, above what it shows."""
+    text = changed((DECK.parent / "pinball.deck").read_text(encoding="utf-8"), "analysis.dynamic", end="1 ms")
+    script = (run(gudgeon, tmp_path, text, "mechanism(t=0s)") / "mechanism.t.0s.gp").read_text(encoding="utf-8")
+    (x0, x1), (y0, y1) = (map(float, re.search(rf"set {axis}range \[(.*):(.*)\]", script).groups()) for axis in "xy")
+    labels = re.findall(r"set label '(\w, \w)' at (\S+), (\S+) center", script)
+    assert [name for name, _, _ in labels] == ["x, z", "y, z", "x, y"]
+    for _, x, y in labels:
+        assert x0 < float(x) < x1 and y0 < float(y) < y1
+
+
+def test_walls_of_a_guide_touch_what_slides(gudgeon, tmp_path):
+    """The piston of [shapes] is 18 mm high: so far apart are the walls of its guide."""
+    text = changed(DECK.read_text(encoding="utf-8"), "analysis.dynamic", end="1 ms")
+    frame = strokes(run(gudgeon, tmp_path, text, "mechanism(t=1ms)") / "mechanism.t.1ms.dat")[0]
+    walls = [line for line in frame["ground"] if len(line) == 2 and np.ptp(line[:, 0]) > 0.02 and np.ptp(line[:, 1]) < 1e-9]
+    piston = max(frame["body"], key=lambda line: line[:, 0].mean())
+    np.testing.assert_allclose(sorted(wall[0, 1] for wall in walls), [piston[:, 1].min(), piston[:, 1].max()], atol=1e-6)
+
+
+def test_a_disc_shows_its_turn(gudgeon, tmp_path):
+    """The diameter of a disc that rolls down an incline is turned by the way over the radius, in every position."""
+    deck = (DECK.parent / "incline.deck").read_text(encoding="utf-8")
+    found = strokes(run(gudgeon, tmp_path, deck, "strip(n=6)") / "strip.n.6.dat")[0]["line"]
+    rims, diameters = ([line for line in found if len(line) == n] for n in (49, 2))
+    assert len(rims) == len(diameters) == 6
+    centres = np.array([line[:-1].mean(axis=0) for line in rims])
+    turns = np.unwrap([np.arctan2(*(line[0] - line[1])[::-1]) for line in diameters])
+    assert np.allclose([line.mean(axis=0) for line in diameters], centres, atol=1e-6)
+    np.testing.assert_allclose(turns - turns[0], np.hypot(*(centres - centres[0]).T) / 0.05, atol=0.02)
+
+
+ELEMENT = """deck = 1
+[scene]
+gravity = 0 0 m/s^2
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
+cart  1         1                1     0     1
+[points]
+name  body    xi[m]  eta[m]
+post  ground  0      0
+eye   cart    0      0
+[force.spring]
+name  i     j    stiffness[N/m]  damping[N.s/m]  law
+line  post  eye  STIFFNESS       2               LAW
+[analysis.dynamic]
+end = 0.1 s
+[output]
+every = 0.1 s
+"""
+
+
+@pytest.mark.parametrize(("stiffness", "law", "lines"), [(5, "{0 N}", 1), (0, "{3 N/m*x}", 1), (0, "{0 N}", 4), (0, "-", 4)])
+def test_springs_and_dampers(gudgeon, tmp_path, stiffness, law, lines):
+    """A spring is one line with a zigzag, a damper a piston in a cylinder; a wall stands across it where it is fixed."""
+    text = ELEMENT.replace("STIFFNESS", str(stiffness)).replace("LAW", law)
+    frame = strokes(run(gudgeon, tmp_path, text, "mechanism(t=0s)") / "mechanism.t.0s.dat")[0]
+    assert len(frame["symbol"]) == lines
+    ends = np.concatenate(frame["symbol"])
+    assert np.isclose(ends[:, 0].min(), 0) and np.isclose(ends[:, 0].max(), 1) and np.ptp(ends[:, 1]) > 0.01
+    wall = frame["ground"][0]
+    assert np.allclose(wall[:, 0], 0) and np.isclose(wall[:, 1].sum(), 0) and np.ptp(wall[:, 1]) > 0.02
+    assert all(line[:, 0].max() < 1e-9 for line in frame["ground"]), "hatched behind the wall"
+
+
+def test_loads_are_arrows(gudgeon, tmp_path):
+    """A force at a point, 3 t and 4 t, is an arrow from there, whose length goes with it; the picture states the longest."""
+    text = ELEMENT.replace("STIFFNESS", "5").replace("LAW", "-").replace("every = 0.1 s", "every = 10 ms")
+    text += "[force.point]\nname point fx fy\npush eye {30 N/s*t} {40 N/s*t}\n"
+    folder = run(gudgeon, tmp_path, text, "animation(n=6, last=50ms)")
+    found = strokes(folder / "animation.n.6.last.50ms.dat")
+    arrows = np.array([frame["arrow"][0][1] - frame["arrow"][0][0] for frame in found])
+    sizes = np.hypot(*arrows.T)
+    np.testing.assert_allclose(arrows / sizes[:, None], np.tile([0.6, 0.8], (6, 1)), atol=1e-3)
+    np.testing.assert_allclose(sizes / sizes[-1], np.arange(5, 11) / 10, rtol=1e-3)
+    with h5py.File(tmp_path / "run" / "run.h5") as file:
+        row = np.argmin(abs(file["time"][:] - 0.1))
+        np.testing.assert_allclose(found[-1]["arrow"][0][0], file["bodies/position"][row, 0], atol=1e-4)
+    assert "longest arrow 5 N" in (folder / "animation.n.6.last.50ms.gp").read_text(encoding="utf-8")
+    assert "the longest 5 N" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+    assert "g:[[" in (folder / "animation.n.6.last.50ms.html").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("figure", "message"),
     [
         ("coupler(tipp)", "unknown point 'tipp'"),
         ("coupler()", "write mechanism("),
+        ("animaton", "did you mean 'animation'?"),
+        ("mecanism(t=2ms)", "did you mean 'mechanism'?"),
         ("mechanism(t=2s)", "not among what is written"),
         ("mechanism(t=2ms,1ms)", "instants must increase"),
         ("mechanism(t=2)", "no time of a run"),
