@@ -15,9 +15,10 @@
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: measures that `adams_measures` has no words for.
 module adams_forces
-   use adams_joints, only: angle_at_start, named, two_markers
+   use adams_joints, only: named, two_markers
    use adams_loads, only: put_alone
    use adams_model, only: adams_model_t, argument_numbers, leave_out
+   use adams_starts, only: angle_at_start
    use dataset, only: find_argument, has_word, statement_t
    use deck_draft, only: body_axis, body_name, deck_draft_t, tab
    use deck_table, only: direction_cell
@@ -71,7 +72,7 @@ contains
       real(wp) :: c, force, free, k, moment
 
       associate (u => model%units)
-         if (has_word(statement, "ROTATION", 2)) then
+         if (has_word(statement, "ROTATIONAL", 2)) then
             moment = u%force*u%length
             k = number("KT", 2)*moment
             c = number("CT", 2)*moment*u%time
@@ -178,7 +179,7 @@ contains
          call leave_out(model, statement, "it has no FUNCTION")
          return
       end if
-      turns = has_word(statement, "ROTATION", 1)
+      turns = has_word(statement, "ROTATIONAL", 1)
       is_alone = has_word(statement, "ACTIONONLY", 2)
       start = norm2(model%place(marker(1)) - model%place(marker(2)))/model%units%length
       if (turns) start = angle_at_start(model, marker)

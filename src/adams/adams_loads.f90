@@ -126,6 +126,11 @@ contains
                       " are no markers of rigid parts", "")
          return
       end if
+      if (find_argument(statement, "FUNCTION", 3) > 0 .or. all([((find_argument(statement, names(k, pass)) == 0, &
+                                                                  k=1, 3), pass=1, 2)])) then
+         call leave_out(model, statement, "its components are code outside the dataset, or not there")
+         return
+      end if
       if (.not. floats_on_ground(model, statement, mistakes)) then
          call leave_out(model, statement, "its reaction is on a moving part")
          return

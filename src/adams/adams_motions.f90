@@ -8,8 +8,9 @@
 module adams_motions
    use adams_expression, only: depends_on, on_time, parse_tree, tree_t
    use adams_integrals, only: integral_text
-   use adams_joints, only: angle_at_start, named, two_markers
+   use adams_joints, only: named, two_markers
    use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_starts, only: angle_at_start
    use adams_translation, only: deck_text, grouped, words_t
    use dataset, only: find_argument, has_word, statement_t
    use deck_draft, only: body_axis, deck_draft_t, tab
@@ -56,7 +57,7 @@ contains
             end if
             marker = draft%joints(i)%marker
             turns = draft%joints(i)%kind == "joint.revolute" .or. &
-                    (draft%joints(i)%kind == "joint.cylindrical" .and. has_word(it, "ROTATION", 1))
+                    (draft%joints(i)%kind == "joint.cylindrical" .and. has_word(it, "ROTATIONAL", 1))
             if (turns) then
                call add_turn(model, draft, it, draft%joints(i)%name, marker, mistakes)
             else if (draft%joints(i)%kind == "joint.translational" .or. draft%joints(i)%kind == "joint.cylindrical") then

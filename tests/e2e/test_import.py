@@ -1,6 +1,7 @@
 """Adams datasets: five models with every statement that a deck can have, imported, run, and held against closed forms and scipy."""
 
 import functools
+import os
 
 import h5py
 import numpy as np
@@ -197,6 +198,55 @@ def test_motions(gudgeon):
     assert np.abs(column(run, "bodies", "position", "PART_9") - [6, 0, 0]).max() < 1e-10
     ball = column(run, "bodies", "position", "PART_10") - [6, 0, 0]
     assert np.abs(np.linalg.norm(ball, axis=1) - 0.1).max() < 1e-8
+
+
+ADAMS = {  # of Adams/Solver itself, its case Universal_Case03 in the tests of Project Chrono: time, place of the centre of mass
+    0.25: (1.39846, 1.39847, -0.297648),
+    0.5: (1.17412, 1.17480, -1.11414),
+    0.75: (0.416384, 0.423327, -1.90982),
+    1.0: (-0.636240, -0.614073, -1.79391),
+}
+
+
+def test_as_adams_exports_it(gudgeon):
+    """Lines that go on with & and commas, HOOKE against Adams itself, ROTATIONAL, IC, and arguments that no deck has."""
+    run, said = imported(gudgeon, "exported")
+    t = run["time"][:]
+    swing = column(run, "bodies", "position", "swing")
+    for time, place in ADAMS.items():  # which drifts by some 1e-5
+        assert np.abs(swing[np.argmin(np.abs(t - time))] - place).max() < 2e-5, time
+    inertia = 0.4 + 2.5 * 0.3**2
+    degrees = 180 / np.pi
+
+    def rates(_, y):  # about y; the lever hangs along x
+        spring = -2 * degrees * (y[0] - np.pi / 18) - 0.01 * degrees * y[1]
+        return [y[1], (spring + 2.5 * 9.80665 * 0.3 * np.cos(y[0])) / inertia]
+
+    want = solve_ivp(rates, (0, 1), [0.0, -1.5], t_eval=t, rtol=1e-12, atol=1e-12).y[0]
+    lever = column(run, "bodies", "position", "lever")
+    assert np.abs(lever[:, 0] - 10 - 0.3 * np.cos(want)).max() < 1e-7
+    assert np.abs(lever[:, 2] + 0.3 * np.sin(want)).max() < 1e-7
+    assert np.ptp(want) > 0.1
+    assert np.abs(column(run, "bodies", "position", "block") - np.outer(0.75 * t, [1, 0, 0]) - [20, 0, 0]).max() < 1e-9
+    assert np.abs(column(run, "bodies", "position", "other_block") - np.outer(-0.5 * t, [1, 0, 0]) - [20, 5, 0]).max() < 1e-9
+    assert run.attrs["title"] in ("Adams/View model name: as exported", b"Adams/View model name: as exported")
+    left = said[said.index("not in the deck (2 items)") : said.index("settings of Adams")]
+    assert "JOINT/4: its DELTA has no place in a deck" in left
+    assert "GFORCE/1: its components are code outside the dataset" in left
+
+
+def test_import_takes_time_in_proportion(gudgeon):
+    """Thousands of statements, and thousands of lines of one statement: four times as many take less than ten times as long."""
+    folder = scratch()
+    spent = []
+    for n in (2000, 8000):
+        parts = "".join(f"PART/{k}, MASS = 1, CM = {k}, IP = 1, 1, 1, QG = {k}, 0, 0\nMARKER/{k}, PART = {k}\n" for k in range(2, n // 4))
+        spline = "SPLINE/1, X = 0\n" + "".join(f", {k}, {k + 0.5}\n" for k in range(1, 5 * n)) + ", Y = 1, 2\n"
+        (folder / f"m{n}.adm").write_text("many\nUNITS/SYSTEM = MKS\nPART/1, GROUND\n" + parts + spline + "END\n")
+        began = os.times().children_user
+        assert "SPLINE/1" in call(gudgeon, "import", f"m{n}.adm", cwd=folder).stdout
+        spent.append(os.times().children_user - began)
+    assert spent[1] < 10 * max(spent[0], 0.05), spent
 
 
 def test_what_is_left_out_is_named_with_its_line(gudgeon):
