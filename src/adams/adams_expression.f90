@@ -6,7 +6,7 @@
 !>     power   = primary [ "**" signed ]
 !>     primary = number ["D"] | TIME | PI | DTOR | RTOD | NAME "(" sum {("," | ":") sum} ")" | "(" sum ")"
 !>
-!> A number with a D is an angle in degrees. Case does not matter.
+!> A number with a D is an angle in degrees, one with a D before digits has an exponent: 30D+5 is a sum. Case does not matter.
 !> Limits: `most_nodes` numbers and operations; which functions there are is for `adams_translation` to say.
 module adams_expression
    use dataset, only: upper_case
@@ -245,11 +245,13 @@ contains
       integer, intent(out) :: node         !! what was read
 
       real(wp) :: x
-      integer :: length
+      integer :: length, letter
       logical :: is_finite
 
       call add_node(tree, node_number, [integer ::], node)
       length = number_length(tree%text(tree%at:))
+      letter = max(index(tree%text(tree%at:tree%at + length - 1), "D+"), index(tree%text(tree%at:tree%at + length - 1), "D-"))
+      if (letter > 0) length = letter - 1
       is_finite = length > 0
       if (is_finite) call read_number(tree%text(tree%at:tree%at + length - 1), 0, x, is_finite)
       if (.not. is_finite) then

@@ -30,7 +30,7 @@ module sweep_runs
    public :: run_all
 
    real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
-   real(wp), parameter :: write_share = 50.0_wp     !! and this many times as long as writing them took [1]
+   real(wp), parameter :: write_share = 200.0_wp    !! and this many times as long as writing them took [1]
 
    integer, parameter :: most_fed = 8                !! runs at once for which this process can load all cases
 
@@ -38,7 +38,7 @@ module sweep_runs
    type :: ready_t
       integer :: number = 0                       !! of the case; 0: none
       type(options_t) :: options                  !! its command line
-      type(loaded_t) :: loaded                    !! its deck
+      type(loaded_t), allocatable :: loaded       !! its deck; unallocated: not yet loaded
       type(error_t), allocatable :: error         !! the deck has mistakes
       real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
    end type ready_t
@@ -120,7 +120,9 @@ contains
 
       case_number = (number - 1)/work%results%n_member + 1
       if (ready%number /= case_number) then
-         ready = ready_t()
+         if (allocated(ready%loaded)) deallocate (ready%loaded)
+         if (allocated(ready%error)) deallocate (ready%error)
+         ready%cpu = 0.0_wp
          ready%number = case_number
          ready%options = case_options(options, sweep, case_number)
       end if
@@ -134,8 +136,9 @@ contains
 
       real(wp) :: after, before
 
-      if (allocated(ready%loaded%path)) return
+      if (allocated(ready%loaded)) return
       call cpu_time(before)
+      allocate (ready%loaded)
       call load_deck(ready%options, ready%loaded, ready%error)
       call cpu_time(after)
       ready%cpu = after - before

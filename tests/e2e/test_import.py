@@ -1,6 +1,7 @@
 """Adams datasets: five models with every statement that a deck can have, imported, run, and held against closed forms and scipy."""
 
 import functools
+import math
 import os
 
 import h5py
@@ -233,6 +234,52 @@ def test_as_adams_exports_it(gudgeon):
     left = said[said.index("not in the deck (2 items)") : said.index("settings of Adams")]
     assert "JOINT/4: its DELTA has no place in a deck" in left
     assert "GFORCE/1: its components are code outside the dataset" in left
+
+
+def smooth_step(t, x0, h0, x1, h1, blend):
+    u = min(max((t - x0) / (x1 - x0), 0), 1)
+    return h0 + (h1 - h0) * blend(u)
+
+
+EXPRESSIONS = {  # of Adams, and what they are by its description
+    "-2**2*TIME": lambda t: -4 * t,
+    "2**3**2/2**-1/4*2": lambda t: 512,
+    "8/4/2+8/4*2-1-1": lambda t: 3,
+    "30D+5*TIME": lambda t: math.pi / 6 + 5 * t,
+    "360.0d*time-20D-5": lambda t: 2 * math.pi * t - math.pi / 9 - 5,
+    "1E2*.5*TIME-3.*TIME+1.e-1": lambda t: 47 * t + 0.1,
+    "-(TIME-2)**3/(-4)-TIME*-2": lambda t: (t - 2) ** 3 / 4 + 2 * t,
+    "SQRT(TIME+1)*LOG(TIME+1)+LOG10(TIME+2)": lambda t: math.sqrt(t + 1) * math.log(t + 1) + math.log10(t + 2),
+    "ATAN2(TIME-0.5,0.3)+ATAN(TIME)+ASIN(TIME/2)+ACOS(TIME/2)": lambda t: math.atan2(t - 0.5, 0.3) + math.atan(t) + math.pi / 2,
+    "SINH(TIME)+COSH(TIME)+TANH(TIME)+TAN(TIME)": lambda t: math.exp(t) + math.tanh(t) + math.tan(t),
+    "ABS(TIME-0.5)+MIN(TIME,0.3)+MAX(TIME,0.7)": lambda t: abs(t - 0.5) + min(t, 0.3) + max(t, 0.7),
+    "STEP(-TIME,-0.6,1,-0.2,-3)": lambda t: smooth_step(-t, -0.6, 1, -0.2, -3, lambda u: u**2 * (3 - 2 * u)),
+    "STEP5(TIME,0.2,1,0.6,10d)": lambda t: smooth_step(t, 0.2, 1, 0.6, math.pi / 18, lambda u: u**3 * (10 - 15 * u + 6 * u**2)),
+    "HAVSIN(TIME,0.2,1,0.6,-3)": lambda t: smooth_step(t, 0.2, 1, 0.6, -3, lambda u: (1 - math.cos(math.pi * u)) / 2),
+    "IF(0.525-TIME:1,2,IF(TIME-0.225:3,4,5))": lambda t: 1 if t > 0.525 else 3 if t < 0.225 else 5,
+    "SIGN(3,TIME-0.525)+DIM(TIME,0.4)": lambda t: math.copysign(3, t - 0.525) + max(t - 0.4, 0),
+    "POLY(TIME,0.1,1,2,-3,4)": lambda t: 1 + 2 * (t - 0.1) - 3 * (t - 0.1) ** 2 + 4 * (t - 0.1) ** 3,
+    "SHF(TIME,25D,PI,360D,0.4,5)": lambda t: math.pi * math.sin(2 * math.pi * (t - math.radians(25)) - 0.4) + 5,
+    "FORCOS(TIME,0.1,5,1,2,3)": lambda t: 1 + 2 * math.cos(5 * (t - 0.1)) + 3 * math.cos(10 * (t - 0.1)),
+    "FORSIN(TIME,0.1,5,1,2,3)": lambda t: 1 + 2 * math.sin(5 * (t - 0.1)) + 3 * math.sin(10 * (t - 0.1)),
+    "BISTOP(TIME,0,0.3,0.5,100,1.5,0,0.1)": lambda t: 100 * (max(0.3 - t, 0) ** 1.5 - max(t - 0.5, 0) ** 1.5),
+}
+
+
+def test_expressions(gudgeon):
+    """Every function and operator that has words in a deck, as a force on a slider, against what Adams says of it."""
+    text = "expressions\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\n"
+    for k, expression in enumerate(EXPRESSIONS, 2):
+        text += f"PART/{k}, MASS = 1, CM = {k}, IP = 1, 1, 1, QG = {k}, 0, 0\nMARKER/{k}, PART = {k}\nMARKER/{1000 + k}, PART = 1, QP = {k}, 0, 0\n"
+        text += f"JOINT/{k}, TRANSLATIONAL, I = {k}, J = {1000 + k}\nSFORCE/{k}, TRANSLATION, ACTIONONLY, I = {k}, J = 1, FUNCTION = {expression}\n"
+    folder = scratch()
+    (folder / "e.adm").write_text(text + "END\n")
+    assert "nothing of the mechanism was left out" in call(gudgeon, "import", "e.adm", cwd=folder).stdout
+    call(gudgeon, "run", "e.deck", "--quiet", cwd=folder)
+    run = h5py.File(folder / "outputs" / "e" / "run.h5")
+    for k, (expression, meaning) in enumerate(EXPRESSIONS.items(), 2):
+        force = column(run, "forces", "force", f"SFORCE_{k}")[:, 2]
+        assert np.abs(force - [meaning(t) for t in run["time"][:]]).max() < 1e-9, expression
 
 
 def test_import_takes_time_in_proportion(gudgeon):
