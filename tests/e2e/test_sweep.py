@@ -4,6 +4,7 @@ import csv
 import functools
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -250,6 +251,19 @@ def test_a_sweep_goes_on_where_it_was_killed(gudgeon):
         assert contents(a) == contents(b)
     assert json.loads(call(gudgeon, "sweep", deck, "--out", directory / "out", "--json").stdout)["made"] == 0
     assert not (directory / "out.1").exists()
+
+
+def test_a_directory_that_vanishes(gudgeon, tmp_path):
+    """Exit code 9 at once, and not a sweep of runs that failed."""
+    deck = written(tmp_path, short("\n[sweep]\nc = 0.1mm .. 0.5mm in 400\n", end="10 ms"))
+    out = tmp_path / "out"
+    process = subprocess.Popen([gudgeon, "sweep", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not (out / "sweep.h5").exists():
+        time.sleep(0.01)
+    while process.poll() is None and out.exists():
+        shutil.rmtree(out, ignore_errors=True)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 9 and str(out) in said, said
 
 
 def test_a_deck_edited_meanwhile_changes_nothing(gudgeon):
