@@ -1,7 +1,7 @@
 !> How the joints of an Adams dataset begin: displacements and speeds of IC, ICROT and ICTRAN.
 !>
-!> A speed of a turn is a row of `[initial.speed]`. A speed of a slide becomes the velocity of the body that slides, if the other one
-!> is the ground. Displacements are looked at only: bodies begin where the dataset puts them.
+!> A speed of a turn is a row of `[initial.speed]`. A speed of a slide becomes the velocity of the body that slides, if the other
+!> one is the ground. Displacements are looked at only: bodies begin where the dataset puts them.
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: bodies that slide on bodies that move.
 module adams_starts

@@ -7,7 +7,7 @@
 !> Source: the public descriptions of the statements of Adams/Solver.
 module dataset_lines
    use source_text, only: line_of, n_line_of, source_t
-   use text, only: lower
+   use text, only: lower, piece
    implicit none (type, external)
    private
    public :: gathered_t, next_statement, reader_t, start_reader, upper_case
@@ -50,7 +50,7 @@ contains
       reader%rest = ""
       reader%view_name = ""
       at = verify(title, "! ")
-      title = title(merge(at, len(title) + 1, at > 0):)
+      title = piece(title, merge(at, len(title) + 1, at > 0))
    end subroutine start_reader
 
    !> The next statement; one without text: there is none.

@@ -24,7 +24,7 @@ module text
       module procedure :: short_real_text
    end interface to_text
 
-   ! allow(assumed-size, assumed-size-character-intent)
+   ! allow(assumed-size)
    interface
       pure real(c_double) function c_strtod(digits, rest) bind(c, name="strtod")
          import :: c_char, c_double, c_ptr
