@@ -171,7 +171,8 @@ contains
       if (message == "") then
          if (iand(bits, not(on_time)) /= 0) message = "it is no function of the time alone"
       end if
-      words = words_t("(t/"//model%units%time_text()//")", "")
+      words%time = "(t/"//model%units%time_text()//")"
+      words%stretch = ""
       at_start = words_t("0", "")
       by_velocity = has_word(statement, "VELOCITY", 1)
       by_acceleration = has_word(statement, "ACCELERATION", 1)

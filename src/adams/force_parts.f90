@@ -46,7 +46,8 @@ contains
       call parse_tree(with_variables(model, text), tree)
       parts%message = tree%message
       if (parts%message /= "") return
-      words = words_t("(t/"//model%units%time_text()//")", "x/"//model%units%length_text())
+      words%time = "(t/"//model%units%time_text()//")"
+      words%stretch = "x/"//model%units%length_text()
       if (turns) words%stretch = "x/1rad"
       if (abs(free) > 0.0_wp) words%stretch = words%stretch//" + "//real_text(free, 17)
       words%stretch = "("//words%stretch//")"
@@ -68,7 +69,8 @@ contains
       call parse_tree(with_variables(model, expression), tree)
       message = tree%message
       if (message /= "") return
-      words = words_t("(t/"//model%units%time_text()//")", "")
+      words%time = "(t/"//model%units%time_text()//")"
+      words%stretch = ""
       do k = 1, tree%n
          if (tree%nodes(k)%kind /= node_call) cycle
          if (is_measure(tree%nodes(k)%name)) tree%nodes(k)%words = "0"
