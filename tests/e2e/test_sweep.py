@@ -348,6 +348,14 @@ def left(directory):
     return found
 
 
+@pytest.mark.parametrize("values, is_log", [("0.01mm .. 0.5mm in 5", False), ("0.01mm .. 0.5mm in 5 geometric", True)])
+def test_the_axis_of_a_range(gudgeon, values, is_log):
+    """Values at equal distances stand so in the figure, however far they go; a geometric range at equal distances of its logarithm."""
+    text = changed(short(f"\n[sweep]\nc = {values}\n", end="2.2 ms"), "output", figures="bifurcation(motor.moment)")
+    out, _ = swept(gudgeon, text)
+    assert ("set logscale x" in (out / "figures" / "bifurcation.motor.moment.gp").read_text()) == is_log
+
+
 def test_figures_of_a_sweep(gudgeon):
     """Numbers with their spread, and the channel once per period, over the first parameter; one curve for each of the second."""
     text = changed(
