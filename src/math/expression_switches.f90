@@ -151,6 +151,7 @@ contains
       type(expression_t), intent(in) :: expression             !! the expression
       type(expression_t), allocatable, intent(out) :: parts(:) !! (any) its parts
 
+      type(expression_t) :: one
       integer :: first, k
 
       if (.not. allocated(expression%sights)) then
@@ -161,9 +162,12 @@ contains
       k = size(expression%code)
       do while (k > 0)  ! from the end: a part that is one takes all that it is made of with it
          first = begin_of(expression, k)
-         if (first < k .and. is_of_time(part(expression, first, k))) then
-            parts = [parts, part(expression, first, k)]
-            k = first
+         if (first < k) then
+            one = part(expression, first, k)
+            if (is_of_time(one)) then
+               parts = [parts, one]
+               k = first
+            end if
          end if
          k = k - 1
       end do
