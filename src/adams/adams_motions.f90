@@ -12,7 +12,7 @@ module adams_motions
    use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
    use adams_starts, only: angle_at_start
    use adams_translation, only: deck_text, grouped, words_t
-   use dataset, only: find_argument, has_word, statement_t
+   use dataset, only: expression_of, find_argument, has_word, statement_t
    use deck_draft, only: body_axis, deck_draft_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
@@ -152,20 +152,20 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is wrong
 
       type(tree_t) :: tree
-      character(:), allocatable :: at_zero, first, message
+      character(:), allocatable :: at_zero, expression, first, message
       type(words_t) :: at_start, words
       real(wp), allocatable :: given(:), speed(:)
-      integer :: bits, k
+      integer :: bits
       logical :: by_acceleration, by_velocity
 
       text = ""
       is_speed = .false.
-      k = find_argument(statement, "FUNCTION", 3)
-      if (k == 0) then
+      expression = expression_of(statement, "FUNCTION", 3)
+      if (expression == "") then
          call leave_out(model, statement, "it has no FUNCTION")
          return
       end if
-      call parse_tree(statement%arguments(k)%values(1)%s, tree)
+      call parse_tree(expression, tree)
       message = tree%message
       if (message == "") bits = depends_on(tree, tree%root, [0, 0], .false.)
       if (message == "") then
@@ -199,7 +199,7 @@ contains
       end if
       if (message /= "") then
          text = ""
-         call leave_out(model, statement, message//": "//statement%arguments(k)%values(1)%s)
+         call leave_out(model, statement, message//": "//expression)
          return
       end if
       if (by_velocity .or. by_acceleration) then

@@ -13,7 +13,7 @@ module dataset
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: argument_t, find_argument, has_word, read_statements, statement_t, upper_case
+   public :: argument_t, expression_of, find_argument, has_word, read_statements, statement_t, upper_case
 
    !> An argument: a word, or a name with its values.
    type :: argument_t
@@ -190,6 +190,21 @@ contains
          end associate
       end do
    end function find_argument
+
+   !> The expression of an argument; blank: there is no such argument, or nothing behind it.
+   pure function expression_of(statement, name, least) result(text)
+      type(statement_t), intent(in) :: statement   !! the statement
+      character(*), intent(in) :: name             !! in capitals, in full
+      integer, intent(in), optional :: least       !! letters that do for it; left out: all
+      character(:), allocatable :: text            !! as written
+
+      integer :: k
+
+      text = ""
+      k = find_argument(statement, name, least)
+      if (k == 0) return
+      if (size(statement%arguments(k)%values) > 0) text = statement%arguments(k)%values(1)%s
+   end function expression_of
 
    !> Whether a statement has a word.
    pure logical function has_word(statement, name, least)

@@ -36,7 +36,9 @@ contains
       real(wp), intent(out) :: frame_i(3, 3) !! (3, 3) axes x, y, z as columns, frame of body i [1]
       real(wp), intent(out) :: frame_j(3, 3) !! (3, 3) axes x, y, z as columns, frame of body j [1]
 
+      real(wp), parameter :: along = 1.0e-6_wp   ! sine of an angle that is none [1]
       real(wp) :: axis(3), x(3), z(3)
+      integer :: k
 
       associate (own => motion%spatial%own, rot => motion%rot, i => body(1), j => body(2))
          frame_i = matmul(transpose(own(:, :, i)), axes_across(axis_i))
@@ -44,9 +46,12 @@ contains
          if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(own(:, :, j), matmul(matmul(rot(:, :, i), frame_i(:, 3)), rot(:, :, j)))
          frame_j = matmul(transpose(own(:, :, j)), axes_across(axis))
          if (.not. is_held) return
-         x = matmul(matmul(rot(:, :, i), frame_i(:, 1)), rot(:, :, j))
          z = frame_j(:, 3)
-         x = x - dot_product(x, z)*z
+         do k = 1, 2   ! across z of j; where x of i is along it, y of i
+            x = matmul(matmul(rot(:, :, i), frame_i(:, k)), rot(:, :, j))
+            x = x - dot_product(x, z)*z
+            if (norm2(x) > along) exit
+         end do
          frame_j(:, 1) = x/norm2(x)
          frame_j(:, 2) = cross(z, frame_j(:, 1))
       end associate

@@ -326,7 +326,32 @@ def test_refused_by_name(gudgeon):
     assert "no PART" in call(gudgeon, "import", "empty.adm", cwd=folder, expect=3).stderr
 
 
-@pytest.mark.parametrize("broken", ["PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
+def test_variables_that_name_themselves_end(gudgeon):
+    """Neither for ever nor without bounds: what is left has no words, and the variable that has is put in."""
+    folder = scratch()
+    text = "v\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    text += "JOINT/1, TRANSLATIONAL, I = 2, J = 1\nVARIABLE/1, FUNCTION = VARVAL(1) + VARVAL(1) + VARVAL(2)\n"
+    text += "VARIABLE/2, FUNCTION = VARVAL(1)*VARVAL(1)*VARVAL(1)\nVARIABLE/3, FUNCTION = TIME\n"
+    for k, function in ((1, "VARVAL(1)"), (2, "VARVAL(3)*2 + VARVAL(3)"), (3, "")):
+        text += f"SFORCE/{k}, I = 2, J = 1, ACTIONONLY, TRANSLATION, FUNCTION = {function}\n" if function else f"SFORCE/{k}, I = 2, J = 1, FUNCTION\n"
+    (folder / "v.adm").write_text(text)
+    done = call(gudgeon, "import", "v.adm", cwd=folder, limit=20)
+    assert "SFORCE/1: it has more than" in done.stdout and "SFORCE/3: it has no FUNCTION" in done.stdout
+    call(gudgeon, "run", "v.deck", "--quiet", cwd=folder)
+    run = h5py.File(folder / "outputs" / "v" / "run.h5")
+    assert np.abs(column(run, "forces", "force", "SFORCE_2")[:, 2] - 3 * run["time"][:]).max() < 1e-12
+
+
+@pytest.mark.parametrize("reuler", ["90D, 90D, 0D", "0D, 90D, 0D", "0D, 90D, 90D"])
+def test_axes_that_begin_across_one_another(gudgeon_debug, reuler):
+    """A pin whose axes begin at right angles: no angle is undefined, whichever axis x lies along the other's z."""
+    folder = scratch()
+    text = "p\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    (folder / "p.adm").write_text(text + f"MARKER/3, PART = 2, REULER = {reuler}\nJOINT/1, REVOLUTE, I = 3, J = 1\n")
+    call(gudgeon_debug, "import", "p.adm", cwd=folder, expect=(0, 4))
+
+
+@pytest.mark.parametrize("broken", ["MOTION/1, JOINT = 1, FUNCTION", "SFORCE/1, I = 2, J = 1, FUNCTION", "GFORCE/1, I = 2, JFLOAT = 1, RM = 1, FX", "PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
 def test_broken_statements_end_with_a_message(gudgeon_debug, broken):
     folder = scratch()
     (folder / "a.adm").write_text((MODELS / "pendulum.adm").read_text().replace("END\n", broken + "\nEND\n"))
