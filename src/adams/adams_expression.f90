@@ -328,7 +328,7 @@ contains
          bits = on_other
          m = 0
          do k = 1, min(2, size(it%arguments))
-            if (tree%nodes(it%arguments(k))%kind == node_number) m(k) = nint(tree%nodes(it%arguments(k))%value)
+            if (tree%nodes(it%arguments(k))%kind == node_number) m(k) = nint(min(tree%nodes(it%arguments(k))%value, 1.0e9_wp))
          end do
          is_own = all(markers > 0) .and. (all(m == markers) .or. (all(m == markers(2:1:-1)) .and. .not. turns))
          if (.not. is_own) return

@@ -342,6 +342,15 @@ def test_variables_that_name_themselves_end(gudgeon):
     assert np.abs(column(run, "forces", "force", "SFORCE_2")[:, 2] - 3 * run["time"][:]).max() < 1e-12
 
 
+def test_datasets_of_nothing_that_moves(gudgeon_debug):
+    """No part but the ground, and numbers of markers that no integer has, end with a message."""
+    folder = scratch()
+    (folder / "g.adm").write_text("g\nPART/1, GROUND\nMARKER/1, PART = 1\nEND\n")
+    assert "no bodies" in call(gudgeon_debug, "import", "g.adm", cwd=folder, expect=3).stderr
+    (folder / "n.adm").write_text((MODELS / "springs.adm").read_text().replace("VR(31,20)", "VR(1E300,20)"))
+    assert "1000000000 of VR is no MARKER" in call(gudgeon_debug, "import", "n.adm", cwd=folder).stdout
+
+
 @pytest.mark.parametrize("reuler", ["90D, 90D, 0D", "0D, 90D, 0D", "0D, 90D, 90D"])
 def test_axes_that_begin_across_one_another(gudgeon_debug, reuler):
     """A pin whose axes begin at right angles: no angle is undefined, whichever axis x lies along the other's z."""
