@@ -100,7 +100,7 @@ contains
          last = index(whole(at:), ")") + at - 1
          if (last <= at + 7) return
          digits = trim(adjustl(whole(at + 7:last - 1)))
-         if (verify(digits, "0123456789") > 0 .or. len(digits) > 9) return
+         if (verify(digits, "0123456789") > 0 .or. len(digits) > 9 .or. len(digits) == 0) return
          read (digits, *) id
          k = find_statement(model, "VARIABLE", id)
          if (k == 0) return

@@ -143,7 +143,9 @@ contains
    pure logical function is_of_time(g)
       type(expression_t), intent(in) :: g   !! the program
 
-      is_of_time = any(g%code == op_time .and. nint(g%operand) == 1) .and. .not. any(g%code == op_time .and. nint(g%operand) > 1)
+      ! a number of any size may stand where the code is another one: no conversion to integers
+      is_of_time = any(g%code == op_time .and. abs(g%operand - 1.0_wp) < 0.5_wp) .and. &
+                   .not. any(g%code == op_time .and. g%operand > 1.5_wp)
    end function is_of_time
 
    !> The greatest parts of an expression that are functions of the time alone; of one that sees no motion, itself.

@@ -360,7 +360,7 @@ def test_axes_that_begin_across_one_another(gudgeon_debug, reuler):
     call(gudgeon_debug, "import", "p.adm", cwd=folder, expect=(0, 4))
 
 
-@pytest.mark.parametrize("broken", ["MOTION/1, JOINT = 1, FUNCTION", "SFORCE/1, I = 2, J = 1, FUNCTION", "GFORCE/1, I = 2, JFLOAT = 1, RM = 1, FX", "PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
+@pytest.mark.parametrize("broken", ["SFORCE/1, I = 1, J = 2, FUNCTION = VARVAL( )", "SFORCE/1, I = 1, J = 2, FUNCTION = 1E300*VR(1)", "MOTION/1, JOINT = 1, FUNCTION", "SFORCE/1, I = 2, J = 1, FUNCTION", "GFORCE/1, I = 2, JFLOAT = 1, RM = 1, FX", "PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
 def test_broken_statements_end_with_a_message(gudgeon_debug, broken):
     folder = scratch()
     (folder / "a.adm").write_text((MODELS / "pendulum.adm").read_text().replace("END\n", broken + "\nEND\n"))
