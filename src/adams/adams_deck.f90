@@ -7,6 +7,7 @@
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: those of `adams_model`, `adams_joints`,
 !> `adams_forces`.
 module adams_deck
+   use adams_arguments, only: name_unknown_arguments
    use adams_constraints, only: add_constraints
    use adams_forces, only: add_forces
    use adams_gears, only: add_gears
@@ -15,6 +16,7 @@ module adams_deck
    use adams_model, only: adams_model_t, argument_numbers, leave_out, mistake, new_model, part_t
    use adams_motions, only: add_motions
    use adams_names, only: full_names, is_refused, is_setting, is_understood, reason_against
+   use adams_starts, only: sliding_velocity
    use dataset, only: has_word, read_statements, statement_t
    use deck_draft, only: deck_draft_t, tab
    use deck_table, only: direction_cell, number_cell
@@ -75,7 +77,9 @@ contains
          associate (it => model%statements(k))
             if (is_setting(it%keyword)) then
                call settings%add("line "//to_text(it%line)//": "//it%keyword)
-            else if (.not. is_understood(it%keyword)) then
+            else if (is_understood(it%keyword)) then
+               call name_unknown_arguments(model, it)
+            else
                call leave_out(model, it, reason_against(it%keyword))
             end if
          end associate
@@ -206,7 +210,7 @@ contains
                xi = direction_cell(part%a(:, 1))
                eta = direction_cell(part%a(:, 2))
             end if
-            call find_velocities(model, part, velocity, turn, mistakes)
+            call find_velocities(model, k, velocity, turn, mistakes)
             associate (j => part%inertia/unit**2, most => maxval(abs(part%inertia))/unit**2)
                call draft%put("bodies", "name mass[kg] ixx"//inertia//" iyy"//inertia//" izz"//inertia//" ixy"//inertia//" ixz"// &
                               inertia//" iyz"//inertia//" x["//length//"] y["//length//"] z["//length//"] xi_axis eta_axis vx["// &
@@ -224,18 +228,20 @@ contains
    end subroutine add_bodies
 
    !> Velocities at the start as cells: of the centre of mass along the axes of VM, of the turn along those of WM, or of CM.
-   subroutine find_velocities(model, part, velocity, turn, mistakes)
+   subroutine find_velocities(model, number, velocity, turn, mistakes)
       type(adams_model_t), intent(inout) :: model        !! the dataset
-      type(part_t), intent(in) :: part                   !! the part
+      integer, intent(in) :: number                      !! of the part in the list
       type(text_t), intent(out) :: velocity(3)           !! (3) cells, in the deck's unit of length
       type(text_t), intent(out) :: turn(3)               !! (3) cells
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
-      real(wp) :: a(3, 3)
+      real(wp) :: a(3, 3), slide(3)
       integer :: k, marker
+      logical :: slides
       real(wp), allocatable :: id(:)
 
-      associate (it => model%statements(part%statement))
+      associate (part => model%parts(number), it => model%statements(model%parts(number)%statement), &
+                 factor => model%units%length/model%units%time/model%units%length_shown())
          a = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
          call argument_numbers(it, "VM", id, mistakes)
          if (size(id) > 0) then
@@ -243,8 +249,11 @@ contains
             if (marker == 0) call mistake(mistakes, it%line, "the VM marker is not there", "")
             if (marker > 0) a = model%axes(marker)
          end if
-         call velocity_cells(it, ["VX", "VY", "VZ"], a, model%units%length/model%units%time/model%units%length_shown(), velocity, &
-                             mistakes)
+         call velocity_cells(it, ["VX", "VY", "VZ"], a, factor, velocity, mistakes)
+         call sliding_velocity(model, number, slide, slides, mistakes)
+         do k = 1, merge(3, 0, slides)
+            velocity(k)%s = real_text(merge(slide(k)*factor, 0.0_wp, abs(slide(k)) > 1.0e-14_wp*norm2(slide)), 15)
+         end do
          a = part%a
          call argument_numbers(it, "WM", id, mistakes)
          if (size(id) == 0) call argument_numbers(it, "CM", id, mistakes)

@@ -6,7 +6,7 @@
 !>     power   = primary [ "**" signed ]
 !>     primary = number ["D"] | TIME | PI | DTOR | RTOD | NAME "(" sum {("," | ":") sum} ")" | "(" sum ")"
 !>
-!> A number with a D is an angle in degrees. Case does not matter.
+!> A number with a D is an angle in degrees, one with a D before digits has an exponent: 30D+5 is a sum. Case does not matter.
 !> Limits: `most_nodes` numbers and operations; which functions there are is for `adams_translation` to say.
 module adams_expression
    use dataset, only: upper_case
@@ -245,11 +245,13 @@ contains
       integer, intent(out) :: node         !! what was read
 
       real(wp) :: x
-      integer :: length
+      integer :: length, letter
       logical :: is_finite
 
       call add_node(tree, node_number, [integer ::], node)
       length = number_length(tree%text(tree%at:))
+      letter = max(index(tree%text(tree%at:tree%at + length - 1), "D+"), index(tree%text(tree%at:tree%at + length - 1), "D-"))
+      if (letter > 0) length = letter - 1
       is_finite = length > 0
       if (is_finite) call read_number(tree%text(tree%at:tree%at + length - 1), 0, x, is_finite)
       if (.not. is_finite) then
@@ -326,7 +328,7 @@ contains
          bits = on_other
          m = 0
          do k = 1, min(2, size(it%arguments))
-            if (tree%nodes(it%arguments(k))%kind == node_number) m(k) = nint(tree%nodes(it%arguments(k))%value)
+            if (tree%nodes(it%arguments(k))%kind == node_number) m(k) = nint(min(tree%nodes(it%arguments(k))%value, 1.0e9_wp))
          end do
          is_own = all(markers > 0) .and. (all(m == markers) .or. (all(m == markers(2:1:-1)) .and. .not. turns))
          if (.not. is_own) return

@@ -15,10 +15,11 @@
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: measures that `adams_measures` has no words for.
 module adams_forces
-   use adams_joints, only: angle_at_start, named, two_markers
+   use adams_joints, only: named, two_markers
    use adams_loads, only: put_alone
    use adams_model, only: adams_model_t, argument_numbers, leave_out
-   use dataset, only: find_argument, has_word, statement_t
+   use adams_starts, only: angle_at_start
+   use dataset, only: expression_of, has_word, statement_t
    use deck_draft, only: body_axis, body_name, deck_draft_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
@@ -168,13 +169,12 @@ contains
       integer, intent(in) :: marker(2)                   !! (2) I and J
 
       type(parts_t) :: parts
-      character(:), allocatable :: actuator, damping, law, unit
+      character(:), allocatable :: actuator, damping, expression, law, unit
       real(wp) :: free, start
       logical :: is_alone, turns
-      integer :: k
 
-      k = find_argument(statement, "FUNCTION", 3)
-      if (k == 0) then
+      expression = expression_of(statement, "FUNCTION", 3)
+      if (expression == "") then
          call leave_out(model, statement, "it has no FUNCTION")
          return
       end if
@@ -185,18 +185,18 @@ contains
       unit = model%units%force_text()
       if (turns) unit = unit//"*"//model%units%length_text()
       free = 0.0_wp
-      call cut_force(model, statement%arguments(k)%values(1)%s, statement, turns, free, parts)
+      call cut_force(model, expression, statement, turns, free, parts)
       if (parts%message == "" .and. parts%of_stretch /= "") then
          free = rest_of(negative(parts%of_stretch, "1"), start, merge(1.0_wp, model%units%length, turns), turns)
-         call cut_force(model, statement%arguments(k)%values(1)%s, statement, turns, free, parts)
+         call cut_force(model, expression, statement, turns, free, parts)
       end if
       if (parts%message /= "" .or. (is_alone .and. (parts%of_stretch /= "" .or. parts%of_rate /= ""))) then
          parts%of_stretch = ""
          parts%of_rate = ""
-         call whole_force(model, draft, statement%arguments(k)%values(1)%s, parts%of_time, parts%message)
+         call whole_force(model, draft, expression, parts%of_time, parts%message)
       end if
       if (parts%message /= "") then
-         call leave_out(model, statement, parts%message//": "//statement%arguments(k)%values(1)%s)
+         call leave_out(model, statement, parts%message//": "//expression)
          return
       end if
       if (is_alone) then

@@ -4,18 +4,19 @@
 !> the deck is J, and j is I.
 !>
 !> Source: the public descriptions of the statements of Adams/Solver.
-!> Limits: constant-velocity joints, rack and pinion have no kind of their own in a deck's space.
+!> Limits: no constant-velocity joints; racks do not tell where they touch.
 module adams_joints
    use adams_model, only: adams_model_t, argument_numbers, id_of, leave_out, mistake
+   use adams_starts, only: add_start
    use dataset, only: has_word, statement_t
    use deck_draft, only: body_axis, deck_draft_t, joint_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
    use kinds, only: wp
-   use text, only: exact_text, real_text, to_text
+   use text, only: exact_text, to_text
    implicit none (type, external)
    private
-   public :: add_joints, add_primitives, angle_at_start, named, two_markers
+   public :: add_joints, add_primitives, named, two_markers
 
    character(*), parameter :: header = "name i j axis_i axis_j pitch zero"   !! of all joints; what a kind lacks stays blank
    real(wp), parameter :: same = 1.0e-6_wp   !! angles and parts of a length that are no difference [1]
@@ -32,7 +33,7 @@ contains
                                                  "UNIVERSAL", "HOOKE", "PLANAR", "FIXED"]
       character(13), parameter :: deck(8) = [character(13) :: "revolute", "translational", "cylindrical", "spherical", &
                                                 "universal", "universal", "planar", "rigid"]
-      integer :: axis(2), i, k, marker(2)
+      integer :: i, k, marker(2)
 
       allocate (draft%joints(0))
       do k = 1, size(model%statements)
@@ -53,14 +54,21 @@ contains
                call model%changed%add("line "//to_text(it%line)//": JOINT/"//to_text(it%id)// &
                                       " (cylindrical) and the screw on the same axis are one joint.screw")
             else
-               axis = 3
-               if (trim(adams(i)) == "HOOKE") axis = [1, 2]
-               call add_joint(model, draft, it, "joint."//trim(deck(i)), axis, marker, "")
-               call add_start(model, draft, it, mistakes)
+               call add_joint(model, draft, it, "joint."//trim(deck(i)), axes_of(trim(adams(i))), marker, "")
+               call add_start(model, draft, draft%joints(size(draft%joints)), it, mistakes)
             end if
          end associate
       end do
    end subroutine add_joints
+
+   !> Axes of the markers I and J that a type of joint is about: z, but for HOOKE, whose cross has x of I and y of J as its arms.
+   pure function axes_of(kind) result(axis)
+      character(*), intent(in) :: kind   !! type in the dataset
+      integer :: axis(2)                 !! (2) of I and J, 1 to 3
+
+      axis = 3
+      if (kind == "HOOKE") axis = [1, 2]
+   end function axes_of
 
    !> Why a deck does not have a type of joint.
    pure function no_joint(word) result(reason)
@@ -69,7 +77,7 @@ contains
 
       reason = "a deck's space has no such joint ("//word//")"
       if (index(word, "CO") == 1) reason = reason//": no joint keeps equal speeds at any angle; joint.universal does not"
-      if (index(word, "RA") == 1) reason = "it is not translated; joint.rack has a rack and its pinion"
+      if (index(word, "RA") == 1) reason = reason//": joint.rack wants a point of the pitch line, which the dataset does not tell"
    end function no_joint
 
    !> The first word of a statement that has no value.
@@ -177,7 +185,7 @@ contains
       call add_joint(model, draft, statement, "joint.screw", [3, 3], marker, exact_text(pitch(1)*model%units%length)//"m")
       if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
          to_text(statement%id)//" (screw) holds its axis too, as there is no cylindrical joint beside it")
-      call add_start(model, draft, statement, mistakes)
+      call add_start(model, draft, draft%joints(size(draft%joints)), statement, mistakes)
    end subroutine add_screw
 
    !> Whether a screw ties the parts of two markers about the same axis.
@@ -222,65 +230,6 @@ contains
              abs(dot_product(a(:, 3), b(:, 3))) > 1.0_wp - same) any_partner = .true.
       end do
    end function any_partner
-
-   !> Initial conditions of the joint that was put last.
-   subroutine add_start(model, draft, statement, mistakes)
-      type(adams_model_t), intent(inout) :: model        !! the dataset
-      type(deck_draft_t), intent(inout) :: draft         !! the deck
-      type(statement_t), intent(in) :: statement         !! the joint
-      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
-
-      real(wp), allocatable :: turn(:), way(:)
-      character(:), allocatable :: name
-      real(wp) :: now
-
-      call argument_numbers(statement, "ICROT", turn, mistakes, 3)
-      call argument_numbers(statement, "ICTRAN", way, mistakes, 3)
-      associate (joint => draft%joints(size(draft%joints)))
-         if (size(turn) > 0) then
-            now = angle_at_start(model, joint%marker)
-            if (abs(sin(0.5_wp*(turn(1) - now))) > same) call leave_out(model, statement, "ICROT asks for the angle "// &
-               real_text(turn(1), 6)//" rad at the start; it is "//real_text(now, 6)//" rad where the markers are")
-         end if
-         if (size(way) > 0) then
-            now = displacement_at_start(model, joint%marker)
-            if (abs(way(1)*model%units%length - now) > same*(abs(now) + model%units%length)) call leave_out(model, statement, &
-               "ICTRAN asks for the displacement "//real_text(way(1), 6)//" at the start; it is "// &
-               real_text(now/model%units%length, 6)//" where the markers are")
-         end if
-         if (size(way) > 1) call leave_out(model, statement, "the velocity of ICTRAN: give a body a velocity instead")
-         if (size(turn) < 2) return
-         if (joint%kind /= "joint.revolute" .and. joint%kind /= "joint.cylindrical") then
-            call leave_out(model, statement, "the speed of ICROT")
-            return
-         end if
-         call draft%new_name(joint%name//"_start", statement%id, name)
-         call draft%put("initial.speed", "name joint speed[rad/s]", &
-                        name//tab//joint%name//tab//real_text(turn(2)/model%units%time, 15))
-      end associate
-   end subroutine add_start
-
-   !> Angle of marker I against J about the axis z of J, from axis x to axis x.
-   pure real(wp) function angle_at_start(model, marker) result(angle)
-      type(adams_model_t), intent(in) :: model           !! the dataset
-      integer, intent(in) :: marker(2)                   !! (2) I and J
-
-      real(wp) :: a(3, 3)
-
-      a = matmul(transpose(model%axes(marker(2))), model%axes(marker(1)))
-      angle = atan2(a(2, 1), a(1, 1))
-   end function angle_at_start
-
-   !> Displacement of marker I from J along the axis z of J.
-   pure real(wp) function displacement_at_start(model, marker) result(x)
-      type(adams_model_t), intent(in) :: model           !! the dataset
-      integer, intent(in) :: marker(2)                   !! (2) I and J
-
-      real(wp) :: a(3, 3)
-
-      a = model%axes(marker(2))
-      x = dot_product(a(:, 3), model%place(marker(1)) - model%place(marker(2)))
-   end function displacement_at_start
 
    !> All JPRIM statements.
    subroutine add_primitives(model, draft, mistakes)

@@ -11,7 +11,7 @@
 module adams_loads
    use adams_joints, only: named
    use adams_model, only: adams_model_t, find_statement, id_of, leave_out, mistake
-   use dataset, only: find_argument, statement_t
+   use dataset, only: expression_of, find_argument, statement_t
    use deck_draft, only: body_axis, body_name, deck_draft_t, tab
    use diagnostics, only: diagnostics_t
    use force_parts, only: whole_force
@@ -113,7 +113,7 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
       character(2), parameter :: names(3, 2) = reshape(["FX", "FY", "FZ", "TX", "TY", "TZ"], [3, 2])
-      character(:), allocatable :: frame, message, sum, unit
+      character(:), allocatable :: expression, frame, message, sum, unit
       type(text_t) :: cells(3), terms(3)
       real(wp) :: a(3, 3)
       integer :: i, k, marker, other, pass, reference
@@ -124,6 +124,11 @@ contains
       if (marker == 0 .or. reference == 0) then
          call mistake(mistakes, statement%line, "I and RM of "//statement%keyword//"/"//to_text(statement%id)// &
                       " are no markers of rigid parts", "")
+         return
+      end if
+      if (find_argument(statement, "FUNCTION", 3) > 0 .or. all([((find_argument(statement, names(k, pass)) == 0, &
+                                                                  k=1, 3), pass=1, 2)])) then
+         call leave_out(model, statement, "its components are code outside the dataset, or not there")
          return
       end if
       if (.not. floats_on_ground(model, statement, mistakes)) then
@@ -137,11 +142,11 @@ contains
       do pass = 1, 2
          do k = 1, 3
             terms(k)%s = ""
-            i = find_argument(statement, names(k, pass))
-            if (i == 0) cycle
-            call whole_force(model, draft, statement%arguments(i)%values(1)%s, terms(k)%s, message)
+            expression = expression_of(statement, names(k, pass))
+            if (expression == "") cycle
+            call whole_force(model, draft, expression, terms(k)%s, message)
             if (message == "") cycle
-            call leave_out(model, statement, message//": "//statement%arguments(i)%values(1)%s)
+            call leave_out(model, statement, message//": "//expression)
             return
          end do
          unit = model%units%force_text()

@@ -20,6 +20,7 @@ module adams_measures
    public :: markers_of, name_measures
 
    character(*), parameter :: axes = "XYZ"           !! last letter of a component
+   character(*), parameter :: measures = " DM DX DY DZ VR VX VY VZ WX WY WZ "   !! that have words
    integer, parameter :: most_seen = 12              !! words of motion that an expression of a deck may have
    real(wp), parameter :: nothing = 1.0e-15_wp       !! less than this of a direction is round-off [1]
 
@@ -36,6 +37,12 @@ contains
 
       message = ""
       n_seen = 0
+      do k = 1, tree%n       ! before any row goes to the deck
+         if (tree%nodes(k)%kind /= node_call) cycle
+         if (.not. is_measure(tree%nodes(k)%name)) cycle
+         if (index(measures, " "//tree%nodes(k)%name//" ") == 0) message = tree%nodes(k)%name//" has no words in a deck"
+         if (message /= "") return
+      end do
       do k = 1, tree%n
          if (tree%nodes(k)%kind /= node_call) cycle
          if (.not. is_measure(tree%nodes(k)%name)) cycle
@@ -58,8 +65,6 @@ contains
       integer :: axis, marker(4)
 
       associate (it => tree%nodes(node))
-         message = it%name//" has no words in a deck"
-         if (index(" DM DX DY DZ VR VX VY VZ WX WY WZ ", " "//it%name//" ") == 0) return
          call markers_of(model, tree, node, marker, message)
          if (message /= "") return
          axis = index(axes, it%name(2:2))

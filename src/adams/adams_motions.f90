@@ -8,10 +8,11 @@
 module adams_motions
    use adams_expression, only: depends_on, on_time, parse_tree, tree_t
    use adams_integrals, only: integral_text
-   use adams_joints, only: angle_at_start, named, two_markers
+   use adams_joints, only: named, two_markers
    use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_starts, only: angle_at_start
    use adams_translation, only: deck_text, grouped, words_t
-   use dataset, only: find_argument, has_word, statement_t
+   use dataset, only: expression_of, find_argument, has_word, statement_t
    use deck_draft, only: body_axis, deck_draft_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
@@ -151,26 +152,27 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is wrong
 
       type(tree_t) :: tree
-      character(:), allocatable :: at_zero, first, message
+      character(:), allocatable :: at_zero, expression, first, message
       type(words_t) :: at_start, words
       real(wp), allocatable :: given(:), speed(:)
-      integer :: bits, k
+      integer :: bits
       logical :: by_acceleration, by_velocity
 
       text = ""
       is_speed = .false.
-      k = find_argument(statement, "FUNCTION", 3)
-      if (k == 0) then
+      expression = expression_of(statement, "FUNCTION", 3)
+      if (expression == "") then
          call leave_out(model, statement, "it has no FUNCTION")
          return
       end if
-      call parse_tree(statement%arguments(k)%values(1)%s, tree)
+      call parse_tree(expression, tree)
       message = tree%message
       if (message == "") bits = depends_on(tree, tree%root, [0, 0], .false.)
       if (message == "") then
          if (iand(bits, not(on_time)) /= 0) message = "it is no function of the time alone"
       end if
-      words = words_t("(t/"//model%units%time_text()//")", "")
+      words%time = "(t/"//model%units%time_text()//")"
+      words%stretch = ""
       at_start = words_t("0", "")
       by_velocity = has_word(statement, "VELOCITY", 1)
       by_acceleration = has_word(statement, "ACCELERATION", 1)
@@ -197,7 +199,7 @@ contains
       end if
       if (message /= "") then
          text = ""
-         call leave_out(model, statement, message//": "//statement%arguments(k)%values(1)%s)
+         call leave_out(model, statement, message//": "//expression)
          return
       end if
       if (by_velocity .or. by_acceleration) then

@@ -71,7 +71,8 @@ contains
       select case (keyword)
       case ("BUSHING"); reason = "its axes and its reaction move with J; force.spring and force.torsion_spring come near to it"
       case ("CONTACT"); reason = "its solids are not in the dataset; see the joints with clearance, clearance.*"
-      case ("FRICTION"); reason = "an ideal joint has no friction in a deck; a joint with clearance has, friction.*"
+      case ("FRICTION")
+         reason = "its law is none of a deck's; joints of a deck name a row of friction.* in their column 'friction'"
       case ("MFORCE", "SPLINE", "CURVE", "MATRIX", "STRING", "ARRAY")
          reason = "it is for statements that a deck does not have"
       case ("CVCV", "PTCV", "CVSF", "PTSF", "SFSF", "SURFACE"); reason = "a deck has no curves and surfaces that touch"

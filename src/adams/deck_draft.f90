@@ -198,6 +198,7 @@ contains
 
       integer :: k, pass
 
+      if (.not. allocated(self%tables)) return   ! of a dataset with nothing but ground
       do pass = 1, 3
          do k = 1, size(self%tables)
             select case (self%tables(k)%name)

@@ -3,6 +3,7 @@ module deck_table
    use kinds, only: wp
    use text, only: real_text, text_t
    use text_buffer, only: buffer_t
+   use text_list, only: text_list_t
    implicit none (type, external)
    private
    public :: deck_table_t, direction_cell, number_cell
@@ -12,7 +13,7 @@ module deck_table
       character(:), allocatable :: name         !! of the kind
       integer :: n_column = 0                   !! columns
       integer :: n_row = 0                      !! rows, with the header
-      type(text_t), allocatable :: cells(:)     !! (n_column n_row) row after row
+      type(text_list_t) :: cells                !! (n_column n_row) row after row
    contains
       procedure :: start => start_table
       procedure :: add => add_row
@@ -27,10 +28,14 @@ contains
       character(*), intent(in) :: name           !! of the kind
       type(text_t), intent(in) :: header(:)      !! (n_column) names of the columns
 
+      integer :: c
+
       self%name = name
       self%n_column = size(header)
       self%n_row = 1
-      self%cells = header
+      do c = 1, size(header)
+         call self%cells%add(header(c)%s)
+      end do
    end subroutine start_table
 
    !> Add a row.
@@ -38,19 +43,18 @@ contains
       class(deck_table_t), intent(inout) :: self   !! the table
       character(*), intent(in) :: cells            !! its cells, a tab between two; blank: the default
 
-      type(text_t), allocatable :: more(:)
-      integer :: first, k, last
+      integer :: c, first, last
 
-      allocate (more((self%n_row + 1)*self%n_column))
-      more(:size(self%cells)) = self%cells
       first = 1
-      do k = size(self%cells) + 1, size(more)
+      do c = 1, self%n_column
          last = first - 2 + scan(cells(first:)//achar(9), achar(9))
-         more(k)%s = "-"
-         if (last >= first) more(k)%s = cells(first:last)
+         if (last >= first) then
+            call self%cells%add(cells(first:last))
+         else
+            call self%cells%add("-")
+         end if
          first = last + 2
       end do
-      call move_alloc(more, self%cells)
       self%n_row = self%n_row + 1
    end subroutine add_row
 
@@ -59,6 +63,7 @@ contains
       class(deck_table_t), intent(in) :: self     !! the table
       type(buffer_t), intent(inout) :: buffer     !! the deck
 
+      character(:), allocatable :: cell
       integer :: c, last, r
       integer :: width(self%n_column)
 
@@ -67,12 +72,12 @@ contains
       last = 1
       do c = 1, self%n_column
          do r = 2, self%n_row
-            if (self%cells((r - 1)*self%n_column + c)%s /= "-") width(c) = 1
+            if (self%cells%at((r - 1)*self%n_column + c) /= "-") width(c) = 1
          end do
          if (width(c) == 0) cycle
          last = c
          do r = 1, self%n_row
-            width(c) = max(width(c), len(self%cells((r - 1)*self%n_column + c)%s))
+            width(c) = max(width(c), len(self%cells%at((r - 1)*self%n_column + c)))
          end do
       end do
       call buffer%line("")
@@ -80,10 +85,9 @@ contains
       do r = 1, self%n_row
          do c = 1, last
             if (width(c) == 0) cycle
-            associate (cell => self%cells((r - 1)*self%n_column + c)%s)
-               call buffer%add(cell)
-               if (c < last) call buffer%add(repeat(" ", width(c) - len(cell) + 3))
-            end associate
+            cell = self%cells%at((r - 1)*self%n_column + c)
+            call buffer%add(cell)
+            if (c < last) call buffer%add(repeat(" ", width(c) - len(cell) + 3))
          end do
          call buffer%line("")
       end do

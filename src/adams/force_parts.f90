@@ -8,7 +8,7 @@ module force_parts
    use adams_measures, only: name_measures
    use adams_model, only: adams_model_t, find_statement, id_of
    use adams_translation, only: coefficient_text, deck_text, grouped, is_undamped, words_t
-   use dataset, only: find_argument, statement_t, upper_case
+   use dataset, only: expression_of, statement_t, upper_case
    use deck_draft, only: deck_draft_t
    use diagnostics, only: diagnostics_t
    use kinds, only: wp
@@ -46,7 +46,8 @@ contains
       call parse_tree(with_variables(model, text), tree)
       parts%message = tree%message
       if (parts%message /= "") return
-      words = words_t("(t/"//model%units%time_text()//")", "x/"//model%units%length_text())
+      words%time = "(t/"//model%units%time_text()//")"
+      words%stretch = "x/"//model%units%length_text()
       if (turns) words%stretch = "x/1rad"
       if (abs(free) > 0.0_wp) words%stretch = words%stretch//" + "//real_text(free, 17)
       words%stretch = "("//words%stretch//")"
@@ -68,7 +69,8 @@ contains
       call parse_tree(with_variables(model, expression), tree)
       message = tree%message
       if (message /= "") return
-      words = words_t("(t/"//model%units%time_text()//")", "")
+      words%time = "(t/"//model%units%time_text()//")"
+      words%stretch = ""
       do k = 1, tree%n
          if (tree%nodes(k)%kind /= node_call) cycle
          if (is_measure(tree%nodes(k)%name)) tree%nodes(k)%words = "0"
@@ -86,28 +88,31 @@ contains
       integer, intent(in), optional :: depth        !! variables within variables
       character(:), allocatable :: whole            !! without VARVAL, if all of them are expressions
 
-      integer, parameter :: deepest = 8
-      character(:), allocatable :: digits
-      integer :: at, id, k, last, level
+      integer, parameter :: deepest = 8, longest = 20000
+      character(:), allocatable :: digits, piece
+      integer :: at, id, k, last, level, next
 
       level = 0
       if (present(depth)) level = depth
       whole = text
       at = index(upper_case(whole), "VARVAL(")
-      do while (at > 0 .and. level < deepest)
+      do while (at > 0 .and. level < deepest .and. len(whole) < longest)
          last = index(whole(at:), ")") + at - 1
          if (last <= at + 7) return
          digits = trim(adjustl(whole(at + 7:last - 1)))
-         if (verify(digits, "0123456789") > 0 .or. len(digits) > 9) return
+         if (verify(digits, "0123456789") > 0 .or. len(digits) > 9 .or. len(digits) == 0) return
          read (digits, *) id
          k = find_statement(model, "VARIABLE", id)
          if (k == 0) return
          associate (variable => model%statements(k))
-            k = find_argument(variable, "FUNCTION", 3)
-            if (k == 0) return
-            whole = replaced(whole, at, last, "("//with_variables(model, variable%arguments(k)%values(1)%s, level + 1)//")")
+            piece = expression_of(variable, "FUNCTION", 3)
          end associate
-         at = index(upper_case(whole), "VARVAL(")
+         if (piece == "") return
+         piece = "("//with_variables(model, piece, level + 1)//")"
+         whole = replaced(whole, at, last, piece)
+         at = at + len(piece)      ! what one within it left is not looked at again
+         next = index(upper_case(whole(at:)), "VARVAL(")
+         at = merge(at - 1 + next, 0, next > 0)
       end do
    end function with_variables
 

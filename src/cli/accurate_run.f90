@@ -49,7 +49,10 @@ contains
       else if (options%change%tolerance > 0.0_wp) then
          call set_error(error, exit_usage, "options --accuracy and --tolerance exclude each other: the first chooses the tolerance")
       else
-         setting = setting_t(loaded%scene%settings%dynamic%word("method"), loaded%scene%settings%dynamic%word("stabilise"), "")
+         ! one by one: a constructor gives both the room of the first
+         setting%method = loaded%scene%settings%dynamic%word("method")
+         setting%way = loaded%scene%settings%dynamic%word("stabilise")
+         setting%solver = ""
          if (has_fixed_steps(setting)) then
             call set_error(error, exit_usage, "option --accuracy chooses a tolerance, and '"//setting%word()// &
                            "' makes fixed steps"//new_line("a")//"  = take another method, as with --method verner")

@@ -9,7 +9,9 @@ module restart_run
    use options, only: options_t
    use output_directory, only: output_directory_t
    use posix, only: path_exists, write_error
+   use recorder, only: status_complete
    use scene, only: analysis_dynamic, analysis_names
+   use source_text, only: read_source, source_t
    use standard_output, only: print_text
    use text, only: to_text
    implicit none (type, external)
@@ -75,7 +77,7 @@ contains
       is_complete = .false.
       if (options%restart%is_resumed) then
          goes_on = path_exists(path//"/"//checkpoint_name)
-         is_complete = .not. goes_on .and. path_exists(path//"/summary.json")
+         is_complete = .not. goes_on .and. has_completed(path//"/summary.json")
          if (is_complete) then
             call write_error("note: the run in "//path//" has ended, there is nothing to go on with"//new_line("a"))
             return
@@ -88,6 +90,17 @@ contains
          call directory%open(path, error)
       end if
    end subroutine open_directory
+
+   !> Whether a run has come to its end, by its summary. One that failed, as for want of room on the disk, has not.
+   logical function has_completed(path)
+      character(*), intent(in) :: path      !! of the summary
+
+      character(:), allocatable :: message
+      type(source_t) :: summary
+
+      call read_source(path, summary, message, may_be_stream=.false.)
+      has_completed = message == "" .and. index(summary%text, """status"": """//status_complete//"""") > 0
+   end function has_completed
 
    !> Compare a run with one that was stopped and went on several times.
    subroutine compare_restarted(one, other, n_restart, is_quiet, error)

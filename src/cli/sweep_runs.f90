@@ -5,7 +5,7 @@
 !> many run at once that this process could not keep up; then each loads it, from the same memory. What it found comes back and is
 !> written to the journal at once. A run that fails is recorded with its exit code and its message, and the others go on.
 module sweep_runs
-   use errors, only: error_t, exit_file, exit_ok
+   use errors, only: error_t, exit_file, exit_ok, set_error
    use kinds, only: i8, wp
    use load, only: load_deck, loaded_t
    use member_result, only: member_result_t
@@ -21,7 +21,7 @@ module sweep_runs
    use recorder, only: status_running
    use swept, only: sweep_t
    use sweep_journal, only: run_record_t
-   use sweep_work, only: sweep_work_t, write_results
+   use sweep_work, only: runs_folder, sweep_work_t, write_results
    use text, only: append_text, exact_text, printable, replace, text_t, to_text
    use text_file, only: fail_file
    use verb_run, only: run_loaded
@@ -30,7 +30,7 @@ module sweep_runs
    public :: run_all
 
    real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
-   real(wp), parameter :: write_share = 50.0_wp     !! and this many times as long as writing them took [1]
+   real(wp), parameter :: write_share = 200.0_wp    !! and this many times as long as writing them took [1]
 
    integer, parameter :: most_fed = 8                !! runs at once for which this process can load all cases
 
@@ -38,7 +38,7 @@ module sweep_runs
    type :: ready_t
       integer :: number = 0                       !! of the case; 0: none
       type(options_t) :: options                  !! its command line
-      type(loaded_t) :: loaded                    !! its deck
+      type(loaded_t), allocatable :: loaded       !! its deck; unallocated: not yet loaded
       type(error_t), allocatable :: error         !! the deck has mistakes
       real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
    end type ready_t
@@ -84,6 +84,7 @@ contains
          if (process == 0 .or. at == 0) exit
          processes(at) = 0
          call end_run(due(at), code, bytes, loaded%sweep%keeps_channels, work, error)
+         if (.not. allocated(error) .and. work%results%runs(due(at))%exit_code == exit_file) call check_place(work, error)
          if (allocated(error)) return
          ended = ended + 1
          call display%update(real(ended, wp)/real(size(due), wp))
@@ -108,6 +109,17 @@ contains
 
    end subroutine run_all
 
+   !> After a run that could not write: whether the directory is still there; the journal may go to a file that nobody can find.
+   subroutine check_place(work, error)
+      type(sweep_work_t), intent(in) :: work               !! the sweep
+      type(error_t), allocatable, intent(out) :: error     !! it is not
+
+      associate (place => work%plan%directory//runs_folder)
+         if (.not. path_exists(place)) call set_error(error, exit_file, "the directory "//place// &
+                                                      " was removed while the sweep ran; sweep again")
+      end associate
+   end subroutine check_place
+
    !> Turn to the case of a run, if it is another than that of the last.
    subroutine make_ready(options, sweep, number, work, ready)
       type(options_t), intent(in) :: options               !! the command line
@@ -120,7 +132,9 @@ contains
 
       case_number = (number - 1)/work%results%n_member + 1
       if (ready%number /= case_number) then
-         ready = ready_t()
+         if (allocated(ready%loaded)) deallocate (ready%loaded)
+         if (allocated(ready%error)) deallocate (ready%error)
+         ready%cpu = 0.0_wp
          ready%number = case_number
          ready%options = case_options(options, sweep, case_number)
       end if
@@ -134,8 +148,9 @@ contains
 
       real(wp) :: after, before
 
-      if (allocated(ready%loaded%path)) return
+      if (allocated(ready%loaded)) return
       call cpu_time(before)
+      allocate (ready%loaded)
       call load_deck(ready%options, ready%loaded, ready%error)
       call cpu_time(after)
       ready%cpu = after - before

@@ -15,7 +15,7 @@ module verb_compare
    use run_history, only: read_run
    use series, only: history_t
    use source_text, only: line_of, n_line_of, read_source, source_t
-   use text, only: append_text, lower, starts_with, text_t, to_text
+   use text, only: append_text, counted, lower, starts_with, text_t, to_text
    use text_file, only: fail_file, replace_file
    implicit none (type, external)
    private
@@ -34,6 +34,7 @@ contains
       type(history_t) :: a, b
       type(spec_t) :: time
       type(spec_t), allocatable :: specs(:)
+      type(text_t), allocatable :: notes(:)
       character(:), allocatable :: first, second
       real(wp) :: relative
 
@@ -42,6 +43,7 @@ contains
                         new_line("a")//"  = gudgeon compare outputs/NAME legacy.csv --channel ""slider.position.x=2 unit=mm""")
          return
       end if
+      allocate (notes(0))
       first = run_file(options%operands(1)%s)
       second = run_file(options%operands(2)%s)
       call gather_specs(options, specs, time, error)
@@ -56,13 +58,13 @@ contains
          if (.not. allocated(error)) call shift_time(b, time)
          if (.not. allocated(error)) call adapt(b, specs, error)
       else
-         call read_legacy(second, specs, time, a, b, error)
+         call read_legacy(second, specs, time, a, b, notes, error)
       end if
       if (allocated(error)) return
       relative = options%legacy%relative
       if (relative < 0.0_wp) relative = usual
       call compare_histories(a, b, specs, options%legacy%absolute, relative, options%legacy%by_statistics, found, error)
-      if (.not. allocated(error)) call write_results(options, found, first, second, error)
+      if (.not. allocated(error)) call write_results(options, found, first, second, notes, error)
       if (.not. allocated(error) .and. found%n_different > 0) call set_error(error, exit_different, "different: "// &
             verdict_text(found))
    end subroutine compare_runs
@@ -151,12 +153,13 @@ contains
    end function behind_sign
 
    !> Read the columns of another program.
-   subroutine read_legacy(path, specs, time, like, history, error)
+   subroutine read_legacy(path, specs, time, like, history, notes, error)
       character(*), intent(in) :: path                     !! of the file, perhaps with `:K` for its table number K
       type(spec_t), intent(in) :: specs(:)                 !! (n) channels
       type(spec_t), intent(in) :: time                     !! the time
       type(history_t), intent(in) :: like                  !! the run
       type(history_t), intent(out) :: history              !! the columns
+      type(text_t), allocatable, intent(inout) :: notes(:) !! (n) what is said of them
       type(error_t), allocatable, intent(out) :: error     !! it cannot be read, or has no such table
 
       type(column_table_t), allocatable :: tables(:)
@@ -185,6 +188,9 @@ contains
       else if (k < 1 .or. k > size(tables)) then
          call set_error(error, exit_usage, "'"//file//"' has "//to_text(size(tables))//" tables, not "//to_text(k))
       else
+         if (size(tables) > 1 .and. file == path) call append_text(notes, "'"//file//"' has "//to_text(size(tables))// &
+            " tables; the first is compared, "//counted(size(tables(1)%x, 2), "row", "rows")//" from line "// &
+            to_text(tables(1)%line)//" on; the second, "//file//":2, begins in line "//to_text(tables(2)%line))
          call history_of_columns(file, tables(k), specs, time, like, history, error)
       end if
    end subroutine read_legacy
@@ -240,11 +246,12 @@ contains
    end subroutine adapt
 
    !> Files, figures, and what is said.
-   subroutine write_results(options, found, first, second, error)
+   subroutine write_results(options, found, first, second, notes, error)
       type(options_t), intent(in) :: options               !! the command line
       type(comparison_t), intent(in) :: found              !! what was found
       character(*), intent(in) :: first                    !! where A was read
       character(*), intent(in) :: second                   !! where B was read
+      type(text_t), intent(in) :: notes(:)                 !! (m) what is said of the columns
       type(error_t), allocatable, intent(out) :: error     !! a file cannot be written
 
       type(output_directory_t) :: directory
@@ -255,6 +262,9 @@ contains
       call directory%open(directory_of(options, first), error)
       if (allocated(error)) return
       warnings = directory%warnings
+      do k = 1, size(notes)
+         call append_text(warnings, notes(k)%s)
+      end do
       allocate (pictures(0))
       folder = directory%path//"/figures"
       code = enter_file(folder//"/")

@@ -5,14 +5,15 @@
 !> What stands before the first row with as many words as there are columns names them; a name may end with its unit in brackets
 !> or parentheses: `x [mm]`, `"TIME (sec)"`. Other lines are titles. A title between rows, or a time that steps back, begins
 !> another table, as in the request tables of Adams; a page that repeats its titles and goes on in time does not. `D` in a number
-!> is `E`.
+!> is `E`. Where semicolons or tabs part the numbers of a line, a comma is a decimal point. What is not there between two such signs
+!> is NaN.
 !>
-!> Limits: one file of at most 64 MB; numbers with a decimal point.
+!> Limits: one file of at most 64 MB.
 module column_file
    use kinds, only: not_a_number, wp
    use numbers, only: number_length, read_number
    use source_text, only: line_of, n_line_of, source_t
-   use text, only: append_text, lower, text_t, to_text
+   use text, only: append_text, lower, replace, text_t, to_text
    implicit none (type, external)
    private
    public :: column_table_t, find_column_of, read_columns, unit_in_name
@@ -21,6 +22,7 @@ module column_file
    type :: column_table_t
       type(text_t), allocatable :: names(:)     !! (columns) as written; none: the file does not name them
       real(wp), allocatable :: x(:, :)          !! (columns, rows) the numbers [any]
+      integer :: line = 0                       !! where its first row stands
    end type column_table_t
 
 contains
@@ -33,14 +35,14 @@ contains
       type(text_t), allocatable :: heading(:), names(:), pending(:), words(:)
       real(wp), allocatable :: row(:), rows(:, :), larger(:, :)
       logical :: has_title, is_row
-      integer :: k, n, n_column
+      integer :: first_line, k, n, n_column, n_left_out
 
       allocate (heading(0), tables(0), pending(0))
       n = 0
       n_column = 0
       has_title = .false.
       do k = 1, n_line_of(source)
-         call split_line(line_of(source, k), words)
+         call split_line(line_of(source, k), words, n_left_out)
          if (size(words) == 0) cycle
          call numbers_of(words, row, is_row)
          if (.not. is_row) then
@@ -48,6 +50,9 @@ contains
             if (k == 1) heading = words
             pending = words
             cycle
+         end if
+         if (n > 0 .and. size(row) < n_column .and. size(row) + n_left_out >= n_column) then
+            row = [row, spread(not_a_number(), 1, n_column - size(row))]
          end if
          if (n > 0) then
             if (size(row) /= n_column .or. (row(1) < rows(1, n) .and. n_column > 0) .or. (has_title .and. row(1) <= rows(1, &
@@ -57,6 +62,7 @@ contains
          end if
          if (n == 0) then
             n_column = size(row)
+            first_line = k
             if (allocated(names)) deallocate (names)
             if (allocated(rows)) deallocate (rows)
             allocate (names(0))
@@ -83,6 +89,7 @@ contains
 
          new%names = names
          new%x = rows(:, :n)
+         new%line = first_line
          tables = [tables, new]
          n = 0
       end subroutine close_table
@@ -90,22 +97,26 @@ contains
    end subroutine read_columns
 
    !> The words of a line, without its comment; words in quotes are one.
-   subroutine split_line(line, words)
+   subroutine split_line(line, words, n_left_out)
       character(*), intent(in) :: line                         !! any line
       type(text_t), allocatable, intent(out) :: words(:)       !! (n) its words
+      integer, intent(out) :: n_left_out                       !! words that are missing at its end
 
-      character(:), allocatable :: word
+      character(:), allocatable :: signs, word
       character :: quote
       integer :: first, i
       logical :: by_comma
 
       allocate (words(0))
-      by_comma = scan(line, ",;"//achar(9)) > 0
+      n_left_out = 0
+      signs = ",;"//achar(9)
+      if (scan(line, ";"//achar(9)) > 0) signs = ";"//achar(9)   ! a comma is a decimal point
+      by_comma = scan(line, signs) > 0
       first = verify(line, " "//achar(9))
       if (first == 0) return
       if (scan(line(first:first), "#!%") > 0) then      ! names may stand in a comment
          first = first + 1
-         by_comma = scan(line(first:), ",;"//achar(9)) > 0
+         by_comma = scan(line(first:), signs) > 0
       end if
       word = ""
       quote = " "
@@ -123,7 +134,7 @@ contains
                cycle
             else if (scan(line(i:i), "#!") > 0) then
                exit
-            else if (scan(line(i:i), ",;"//achar(9)) == 0 .and. (by_comma .or. line(i:i) /= " ")) then
+            else if (scan(line(i:i), signs) == 0 .and. (by_comma .or. line(i:i) /= " ")) then
                if (line(i:i) /= achar(13)) word = word//line(i:i)
                cycle
             end if
@@ -135,6 +146,7 @@ contains
       do while (size(words) > 0)      ! a comma at the end of a line
          if (words(size(words))%s /= "") exit
          words = words(:size(words) - 1)
+         n_left_out = n_left_out + 1
       end do
       if (.not. by_comma) call join_units(words)
    end subroutine split_line
@@ -163,15 +175,17 @@ contains
       real(wp), allocatable, intent(out) :: row(:)        !! (n) the numbers; NaN where the file says so [any]
       logical, intent(out) :: is_row                      !! whether they are
 
+      character(:), allocatable :: word
       integer :: k
 
       is_row = size(words) >= 2
       allocate (row(size(words)), source=0.0_wp)
       do k = 1, size(words)
          if (.not. is_row) return
-         is_row = number_length(words(k)%s) == len(words(k)%s) .and. len(words(k)%s) > 0
-         if (is_row) call read_number(words(k)%s, 0, row(k), is_row)
-         if (.not. is_row .and. index(" nan -nan ", " "//lower(words(k)%s)//" ") > 0) then
+         word = replace(words(k)%s, ",", ".")
+         is_row = number_length(word) == len(word) .and. len(word) > 0
+         if (is_row) call read_number(word, 0, row(k), is_row)
+         if (.not. is_row .and. (index(" nan -nan ", " "//lower(word)//" ") > 0 .or. len(word) == 0)) then
             is_row = k > 1
             row(k) = not_a_number()
          end if

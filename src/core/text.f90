@@ -3,6 +3,7 @@
 !> Nothing here is used inside an evaluation.
 module text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only: int64
    use kinds, only: wp
    use text_buffer, only: buffer_t
@@ -22,6 +23,16 @@ module text
       module procedure :: long_text
       module procedure :: short_real_text
    end interface to_text
+
+   ! allow(assumed-size)
+   interface
+      pure real(c_double) function c_strtod(digits, rest) bind(c, name="strtod")
+         import :: c_char, c_double, c_ptr
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: digits(*)  !! (n) a number, ended by a null
+         type(c_ptr), value :: rest                       !! null: where it ends is not asked
+      end function c_strtod
+   end interface
 
 contains
 
@@ -61,24 +72,37 @@ contains
       integer, intent(in) :: digits   !! significant digits, 1 to 17
       character(:), allocatable :: s  !! plain from 1e-4 up to 1e6, or as far as its digits go
 
-      character(40) :: image
-      character(12) :: form
-      character(:), allocatable :: figures, sign
-      integer :: at, k, power
+      character(:), allocatable :: figures
+      integer :: power
 
       if (ieee_is_nan(x)) then
          s = "NaN"
          return
       end if
-      sign = ""
-      if (x < 0.0_wp) sign = "-"
+      s = ""
+      if (x < 0.0_wp) s = "-"
       if (.not. ieee_is_finite(x)) then
-         s = sign//"Inf"
+         s = s//"Inf"
          return
       end if
-      k = max(digits, 1) - 1
+      call find_figures(abs(x), max(digits, 1), figures, power)
+      s = s//placed(figures(:max(verify(figures, "0", back=.true.), 1)), power)
+   end function real_text
+
+   !> The first significant digits of a number, rounded, and the power of ten of the first of them.
+   pure subroutine find_figures(x, digits, figures, power)
+      real(wp), intent(in) :: x                                !! the number, finite, not negative [any]
+      integer, intent(in) :: digits                            !! how many
+      character(:), allocatable, intent(out) :: figures        !! the digits
+      integer, intent(out) :: power                            !! of the first one
+
+      character(40) :: image
+      character(12) :: form
+      integer :: at, k
+
+      k = digits - 1
       form = "(es40."//achar(iachar("0") + k/10)//achar(iachar("0") + modulo(k, 10))//"e4)"
-      write (image, form) abs(x)
+      write (image, form) x
       image = adjustl(image)
       at = index(image, "E")
       power = 0  ! E, sign, four digits
@@ -87,10 +111,34 @@ contains
       end do
       if (image(at + 1:at + 1) == "-") power = -power
       figures = image(1:1)//image(3:at - 1)
-      at = verify(figures, "0", back=.true.)
-      figures = piece(figures, 1, max(at, 1))
-      s = sign//placed(figures, power)
-   end function real_text
+   end subroutine find_figures
+
+   !> Fewer digits, rounded; none if those that go do not say which way.
+   pure subroutine round_figures(digits, figures, power)
+      integer, intent(in) :: digits                             !! how many are left
+      character(:), allocatable, intent(inout) :: figures       !! the digits; empty: they do not say
+      integer, intent(inout) :: power                           !! of the first one
+
+      character(:), allocatable :: tail
+      integer :: k
+
+      tail = figures(digits + 1:)
+      figures = piece(figures, 1, digits)
+      if (tail == "5"//repeat("0", len(tail) - 1)) then
+         figures = ""
+         return
+      end if
+      if (tail < "5") return
+      do k = digits, 1, -1
+         if (figures(k:k) /= "9") then
+            figures(k:k) = achar(iachar(figures(k:k)) + 1)
+            return
+         end if
+         figures(k:k) = "0"
+      end do
+      figures = "1"//piece(figures, 1, digits - 1)
+      power = power + 1
+   end subroutine round_figures
 
    !> Significant digits with the decimal point or the exponent put in.
    pure function placed(figures, power) result(s)
@@ -120,8 +168,9 @@ contains
       character(:), allocatable :: s  !! 15 to 17 significant digits at most
 
       real(wp), parameter :: whole = 1.0e5_wp  ! whole numbers below it are written as such [any]
+      character(:), allocatable :: all, figures
       real(wp) :: back
-      integer :: digits, status
+      integer :: digits, most, power
       logical :: is_usual
 
       is_usual = ieee_is_finite(x)
@@ -136,10 +185,16 @@ contains
             return
          end if
       end if
+      call find_figures(abs(x), 17, all, most)
       do digits = 15, 17
-         s = real_text(x, digits)
-         read (s, *, iostat=status) back
-         if (status == 0 .and. .not. (back < x .or. back > x)) return
+         figures = all
+         power = most
+         if (digits < 17) call round_figures(digits, figures, power)
+         if (len(figures) == 0) call find_figures(abs(x), digits, figures, power)
+         s = placed(figures(:max(verify(figures, "0", back=.true.), 1)), power)
+         if (x < 0.0_wp) s = "-"//s
+         back = real(c_strtod(s//c_null_char, c_null_ptr), wp)
+         if (.not. (back < x .or. back > x)) return
       end do
    end function exact_text
 

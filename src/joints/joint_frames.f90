@@ -40,7 +40,9 @@ contains
       real(wp), intent(out) :: frame_j(3, 3) !! (3, 3) axes x, y, z as columns, frame of body j [1]
       real(wp), intent(in), optional :: across(3, 2) !! (3, 2) x along the own axes of i and of j; zero: left out [1]
 
+      real(wp), parameter :: along = 1.0e-6_wp   ! sine of an angle that is none [1]
       real(wp) :: axis(3)
+      integer :: k
 
       associate (own => motion%spatial%own, rot => motion%rot, i => body(1), j => body(2))
          frame_i = matmul(transpose(own(:, :, i)), axes_across(axis_i))
@@ -49,7 +51,11 @@ contains
          if (.not. any(abs(axis) > 0.0_wp)) axis = matmul(own(:, :, j), matmul(matmul(rot(:, :, i), frame_i(:, 3)), rot(:, :, j)))
          frame_j = matmul(transpose(own(:, :, j)), axes_across(axis))
          if (is_held) then
-            call turn_to(matmul(matmul(rot(:, :, i), frame_i(:, 1)), rot(:, :, j)), frame_j)
+            do k = 1, 2   ! x of i; where that is along z of j, y of i
+               axis = matmul(matmul(rot(:, :, i), frame_i(:, k)), rot(:, :, j))
+               if (norm2(axis - dot_product(axis, frame_j(:, 3))*frame_j(:, 3)) > along) exit
+            end do
+            call turn_to(axis, frame_j)
          else if (present(across)) then
             call turn_to(matmul(across(:, 2), own(:, :, j)), frame_j)
          end if

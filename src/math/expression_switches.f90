@@ -143,7 +143,9 @@ contains
    pure logical function is_of_time(g)
       type(expression_t), intent(in) :: g   !! the program
 
-      is_of_time = any(g%code == op_time .and. nint(g%operand) == 1) .and. .not. any(g%code == op_time .and. nint(g%operand) > 1)
+      ! a number of any size may stand where the code is another one: no conversion to integers
+      is_of_time = any(g%code == op_time .and. abs(g%operand - 1.0_wp) < 0.5_wp) .and. &
+                   .not. any(g%code == op_time .and. g%operand > 1.5_wp)
    end function is_of_time
 
    !> The greatest parts of an expression that are functions of the time alone; of one that sees no motion, itself.
@@ -151,6 +153,7 @@ contains
       type(expression_t), intent(in) :: expression             !! the expression
       type(expression_t), allocatable, intent(out) :: parts(:) !! (any) its parts
 
+      type(expression_t) :: one
       integer :: first, k
 
       if (.not. allocated(expression%sights)) then
@@ -161,9 +164,12 @@ contains
       k = size(expression%code)
       do while (k > 0)  ! from the end: a part that is one takes all that it is made of with it
          first = begin_of(expression, k)
-         if (first < k .and. is_of_time(part(expression, first, k))) then
-            parts = [parts, part(expression, first, k)]
-            k = first
+         if (first < k) then
+            one = part(expression, first, k)
+            if (is_of_time(one)) then
+               parts = [parts, one]
+               k = first
+            end if
          end if
          k = k - 1
       end do

@@ -3,7 +3,8 @@
 !> Limits: as many rows as /time has, so that a run that goes on, or was killed, can be read.
 module run_history
    use errors, only: error_t, exit_file, set_error
-   use hdf5, only: h5aclose_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f, h5fclose_f, h5fopen_f
+   use hdf5, only: h5aclose_f, h5aget_space_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dopen_f, h5dread_f
+   use hdf5, only: h5dvlen_reclaim_f, h5fclose_f, h5fopen_f, h5p_default_f
    use hdf5, only: h5gclose_f, h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5sclose_f
    use hdf5, only: h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tcreate_f, h5tinsert_f
    use hdf5, only: h5f_acc_rdonly_f, h5t_compound_f, h5t_native_double, h5_index_name_f, h5_iter_inc_f, hid_t, hsize_t, size_t
@@ -14,7 +15,7 @@ module run_history
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_loc, c_null_char, c_ptr
    use kinds, only: wp
    use series, only: history_t, impact_t, series_t
-   use text, only: text_t
+   use text, only: append_text, text_t
    implicit none (type, external)
    private
    public :: read_run
@@ -80,7 +81,7 @@ contains
       integer :: k
 
       allocate (items(0), contacts(0))
-      if (room == "energy") items = [text_t("energy")]
+      if (room == "energy") call append_text(items, "energy")
       if (has_dataset(file, room, "names")) call read_texts(file, room//"/names", items, status)
       call read_group(file, room, items, history, status)
       if (.not. has_dataset(file, room, "contact_joint")) return
@@ -211,7 +212,7 @@ contains
       type(c_ptr), target :: pointer
       type(c_ptr) :: memory
       character(kind=c_char), pointer :: bytes(:)
-      integer(hid_t) :: attribute, dataset, type_id
+      integer(hid_t) :: attribute, dataset, space, type_id
       integer :: closed, k
 
       unit = ""
@@ -228,6 +229,9 @@ contains
             if (bytes(k) == c_null_char) exit
             unit = unit//bytes(k)
          end do
+         call h5aget_space_f(attribute, space, closed)
+         call h5dvlen_reclaim_f(type_id, space, h5p_default_f, memory, closed)
+         call h5sclose_f(space, closed)
       end if
       call h5tclose_f(type_id, closed)
       call h5aclose_f(attribute, closed)

@@ -45,6 +45,7 @@ contains
       character(:), allocatable :: text           !! whole lines
 
       type(buffer_t) :: lines
+      character(:), allocatable :: first   ! the mean
       real(wp) :: spread(n_spread)
       integer :: i, k, m, n
 
@@ -60,8 +61,14 @@ contains
          call lines%add(to_text(k)//parameter_cells(self%sweep, k)//","//to_text(n))
          do i = 1, size(self%names)
             call case_numbers(self, k, i, n, spread)
-            do m = 1, n_spread
-               call lines%add(","//cell(spread(m)))
+            first = cell(spread(1))
+            call lines%add(","//first)
+            do m = 2, n_spread
+               if (spread(m) < spread(1) .or. spread(m) > spread(1) .or. ieee_is_nan(spread(m))) then
+                  call lines%add(","//cell(spread(m)))
+               else
+                  call lines%add(","//first)   ! as of a single run
+               end if
             end do
          end do
          call lines%line("")

@@ -104,16 +104,20 @@ contains
       subroutine take_side(list)
          integer, intent(in) :: list(:)  !! (any) numbers of curves
 
+         type(curve_t) :: mine(size(list))
          logical, allocatable :: visible(:)
          integer :: i
 
-         visible = is_visible(curves(list))
          do i = 1, size(list)
-            if (.not. (visible(i) .or. figure%curves%is_exact(curves(list(i))%number))) cycle
-            panel%curves = [panel%curves, curves(list(i))]
+            mine(i) = curves(list(i))
+         end do
+         visible = is_visible(mine)
+         do i = 1, size(list)
+            if (.not. (visible(i) .or. figure%curves%is_exact(mine(i)%number))) cycle
+            panel%curves = [panel%curves, mine(i)]
             panel%side = [panel%side, side]
          end do
-         panel%unit(side) = shown(words%y(side), curves(list), of_y=.true.)
+         panel%unit(side) = shown(words%y(side), mine, of_y=.true.)
          panel%quantity(side)%s = name_of(list)
          if (side == 1) then
             panel%label = with_unit(panel%quantity(side)%s, panel%unit(side))

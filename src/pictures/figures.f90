@@ -219,7 +219,7 @@ contains
          process = 0
          do k = first, last, share
             number = (k - first)/share + 1
-            call start_drawing(folder, names(still(k:min(k + share - 1, last))), process(number), code)
+            call start_drawing(folder, names, still(k:min(k + share - 1, last)), process(number), code)
             if (is_missing(code)) return
          end do
          until = clock_ms() + 1000_i8*seconds
@@ -253,7 +253,7 @@ contains
       do first = 1, size(which), most_at_once
          last = min(first + most_at_once - 1, size(which))
          do k = first, last
-            call start_drawing(folder, names(which(k):which(k)), process(k), code)
+            call start_drawing(folder, names, which(k:k), process(k), code)
             if (code == 0) cycle
             if (is_missing(code)) then
                call append_text(warnings, "gnuplot is not installed: the figures are left as scripts in "//folder)
@@ -295,9 +295,10 @@ contains
    end subroutine read_patience
 
    !> Start gnuplot on scripts. Pictures that lie there are removed.
-   subroutine start_drawing(folder, names, process, code)
+   subroutine start_drawing(folder, names, which, process, code)
       character(*), intent(in) :: folder     !! of the figures
       type(text_t), intent(in) :: names(:)   !! (n) figures
+      integer, intent(in) :: which(:)        !! (any) numbers of those that are meant
       integer, intent(out) :: process        !! the running gnuplot, 0 if it could not be started
       integer, intent(out) :: code           !! 0, or the system's error number
 
@@ -305,15 +306,16 @@ contains
       integer :: ignored, k
 
       process = 0
-      arguments = [text_t("-d")]
-      code = enter_file(folder//"/"//stem(names(1)%s)//".log")
-      do k = 1, size(names)
-         if (code == 0) code = enter_file(folder//"/"//picture_of(names(k)%s))
-         if (code == 0) ignored = remove_file(folder//"/"//picture_of(names(k)%s))
-         call append_text(arguments, "./"//stem(names(k)%s)//".gp")
+      allocate (arguments(1))
+      arguments(1)%s = "-d"
+      code = enter_file(folder//"/"//stem(names(which(1))%s)//".log")
+      do k = 1, size(which)
+         if (code == 0) code = enter_file(folder//"/"//picture_of(names(which(k))%s))
+         if (code == 0) ignored = remove_file(folder//"/"//picture_of(names(which(k))%s))
+         call append_text(arguments, "./"//stem(names(which(k))%s)//".gp")
       end do
       if (code /= 0) return
-      code = start_program(folder, "gnuplot", arguments, stem(names(1)%s)//".log", .true., process)
+      code = start_program(folder, "gnuplot", arguments, stem(names(which(1))%s)//".log", .true., process)
       if (code /= 0) process = 0
    end subroutine start_drawing
 

@@ -13,7 +13,7 @@ module precision_plots
    use plot_text, only: quoted
    use horizon_plot, only: horizon_rows, horizon_script
    use precision_rows, only: front_of, least_error, number, numbers_of
-   use precision_results, only: error_ledger, error_names, precision_t, rung_done, rung_failed, rung_other, &
+   use precision_results, only: error_ledger, error_names, precision_t, rung_done, rung_failed, rung_other, rung_t, &
       rung_unrun
    use script_parts, only: colours, preamble
    use text, only: append_text, real_text, text_t, to_text
@@ -47,10 +47,13 @@ contains
       type(text_t), allocatable, intent(out) :: names(:)       !! (n) figures written
       type(error_t), allocatable, intent(out) :: error         !! a file cannot be written
 
+      type(rung_t), allocatable :: front(:)
+
       allocate (names(0))
       call write_file(folder//"/"//data_name, heading//numbers_of(study), error)
       if (allocated(error)) return
-      if (size(front_of(study)) > 0) then
+      front = front_of(study)
+      if (size(front) > 0) then
          call write_file(folder//"/precision.gp", cost_script(study, title), error)
          if (.not. allocated(error)) call write_file(folder//"/precision_views.gp", views_script(study, title), error)
          if (allocated(error)) return

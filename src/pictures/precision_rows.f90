@@ -54,7 +54,9 @@ contains
 
       allocate (front(0))
       do k = 1, size(study%ladders)
-         front = [front, pack(study%ladders(k)%rungs, study%ladders(k)%rungs%is_front)]
+         do i = 1, size(study%ladders(k)%rungs)
+            if (study%ladders(k)%rungs(i)%is_front) front = [front, study%ladders(k)%rungs(i)]
+         end do
       end do
       do k = 2, size(front)
          one = front(k)

@@ -54,12 +54,27 @@ contains
                table%categories = first%texts
             else
                table%x_unit = first%unit
-               table%is_log_x = minval(first%numbers) > 0.0_wp .and. maxval(first%numbers) > decade*minval(first%numbers)
+               table%is_log_x = minval(first%numbers) > 0.0_wp .and. maxval(first%numbers) > decade*minval(first%numbers) .and. &
+                                .not. is_even(first%numbers)
             end if
          end associate
       end if
       call append_text(table%labels, table%x_name//"["//table%x_unit//"]")
    end subroutine set_abscissa
+
+   !> Whether values stand at equal distances, as those of a range.
+   pure logical function is_even(x)
+      real(wp), intent(in) :: x(:)       !! (n) values [any]
+
+      real(wp), parameter :: same = 1.0e-6_wp   ! of the whole way [1]
+      integer :: k
+
+      is_even = size(x) > 3
+      do k = 2, size(x) - 1
+         is_even = is_even .and. abs(x(k) - x(1) - (x(size(x)) - x(1))*real(k - 1, wp)/real(size(x) - 1, wp)) <= &
+                   same*abs(x(size(x)) - x(1))
+      end do
+   end function is_even
 
    !> The abscissa of a case.
    pure real(wp) function abscissa(sweep, case_number) result(x)

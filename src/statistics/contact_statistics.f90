@@ -101,8 +101,10 @@ contains
       type(joint_statistics_t), intent(out) :: joint    !! what its contacts did
 
       type(joint_statistics_t), allocatable :: joints(:)
+      type(text_t) :: names(1)
 
-      call statistics_of_joints([text_t(name)], events, from, until, joints)
+      names(1)%s = name
+      call statistics_of_joints(names, events, from, until, joints)
       joint = joints(1)
    end subroutine joint_statistics
 

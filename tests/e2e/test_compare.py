@@ -152,6 +152,26 @@ def test_adams_parameters_of_a_law(gudgeon):
     assert off[1] < 1 < min(off[0], off[2])  # damping of IMPACT does not go with the impact speed
 
 
+def test_decimal_commas_gaps_and_further_tables(gudgeon):
+    """A comma is a decimal point where semicolons or tabs part the numbers; a number that is missing is none; what is not read is told."""
+    folder = pendulum(gudgeon)
+    t, x, y, _ = independent()
+    rows = [[f"{number:.17g}" for number in row] for row in zip(t, x, y)]
+    for name, sign, mark in (("comma.csv", ";", ","), ("tab.txt", "\t", ","), ("point.csv", ";", ".")):
+        (folder / name).write_text("".join(sign.join(row).replace(".", mark) + "\n" for row in rows))
+        found, _ = compared(gudgeon, folder, name, "--channel", "rod.position.y=3", "--absolute", "1e-8", expect=0)
+        assert found["rod.position.y"]["greatest"] < 3e-9, name
+    gaps = [list(row) for row in rows]
+    gaps[5][2] = ""
+    gaps[7][1] = ""
+    (folder / "gaps.csv").write_text("t,x,y\n" + "".join(",".join(row) + "\n" for row in gaps))
+    found, _ = compared(gudgeon, folder, "gaps.csv", "--channel", "rod.position.y=y", "--absolute", "1e-8", expect=0)
+    assert found["rod.position.y"]["instants"] == len(t) - 1
+    (folder / "torn.csv").write_text("".join((",".join(row) + ("" if k != 9 else ",8,8")) + "\n" for k, row in enumerate(rows)))
+    done = call(gudgeon, "compare", "outputs/pend", "torn.csv", "--channel", "rod.position.y=3", "--absolute", "1e-8", cwd=folder)
+    assert "'torn.csv' has 3 tables; the first is compared, 9 rows from line 1 on; the second, torn.csv:2, begins in line 10" in done.stdout
+
+
 def test_mistakes_have_messages(gudgeon):
     folder = pendulum(gudgeon)
     np.savetxt(folder / "two.csv", np.c_[np.arange(5.0), np.arange(5.0)], delimiter=",", header="t,q", comments="")

@@ -1,6 +1,8 @@
 """Adams datasets: models with every statement that a deck can have, imported, run, and held against closed forms and scipy."""
 
 import functools
+import math
+import os
 
 import h5py
 import numpy as np
@@ -210,13 +212,108 @@ def test_tilted_markers(gudgeon, part, case, limit):
         assert np.abs(values[-1] - AT_END[case][quantity]).max() < limit*max(1.0, np.abs(values).max()), quantity
 
 
+ADAMS = {  # of Adams/Solver itself, its case Universal_Case03 in the tests of Project Chrono: time, place of the centre of mass
+    0.25: (1.39846, 1.39847, -0.297648),
+    0.5: (1.17412, 1.17480, -1.11414),
+    0.75: (0.416384, 0.423327, -1.90982),
+    1.0: (-0.636240, -0.614073, -1.79391),
+}
+
+
+def test_as_adams_exports_it(gudgeon):
+    """Lines that go on with & and commas, HOOKE against Adams itself, ROTATIONAL, IC, and arguments that no deck has."""
+    run, said = imported(gudgeon, "exported")
+    t = run["time"][:]
+    swing = column(run, "bodies", "position", "swing")
+    for time, place in ADAMS.items():  # which drifts by some 1e-5
+        assert np.abs(swing[np.argmin(np.abs(t - time))] - place).max() < 2e-5, time
+    inertia = 0.4 + 2.5 * 0.3**2
+    degrees = 180 / np.pi
+
+    def rates(_, y):  # about y; the lever hangs along x
+        spring = -2 * degrees * (y[0] - np.pi / 18) - 0.01 * degrees * y[1]
+        return [y[1], (spring + 2.5 * 9.80665 * 0.3 * np.cos(y[0])) / inertia]
+
+    want = solve_ivp(rates, (0, 1), [0.0, -1.5], t_eval=t, rtol=1e-12, atol=1e-12).y[0]
+    lever = column(run, "bodies", "position", "lever")
+    assert np.abs(lever[:, 0] - 10 - 0.3 * np.cos(want)).max() < 1e-7
+    assert np.abs(lever[:, 2] + 0.3 * np.sin(want)).max() < 1e-7
+    assert np.ptp(want) > 0.1
+    assert np.abs(column(run, "bodies", "position", "block") - np.outer(0.75 * t, [1, 0, 0]) - [20, 0, 0]).max() < 1e-9
+    assert np.abs(column(run, "bodies", "position", "other_block") - np.outer(-0.5 * t, [1, 0, 0]) - [20, 5, 0]).max() < 1e-9
+    assert run.attrs["title"] in ("Adams/View model name: as exported", b"Adams/View model name: as exported")
+    left = said[said.index("not in the deck (2 items)") : said.index("settings of Adams")]
+    assert "JOINT/4: its DELTA has no place in a deck" in left
+    assert "GFORCE/1: its components are code outside the dataset" in left
+
+
+def smooth_step(t, x0, h0, x1, h1, blend):
+    u = min(max((t - x0) / (x1 - x0), 0), 1)
+    return h0 + (h1 - h0) * blend(u)
+
+
+EXPRESSIONS = {  # of Adams, and what they are by its description
+    "-2**2*TIME": lambda t: -4 * t,
+    "2**3**2/2**-1/4*2": lambda t: 512,
+    "8/4/2+8/4*2-1-1": lambda t: 3,
+    "30D+5*TIME": lambda t: math.pi / 6 + 5 * t,
+    "360.0d*time-20D-5": lambda t: 2 * math.pi * t - math.pi / 9 - 5,
+    "1E2*.5*TIME-3.*TIME+1.e-1": lambda t: 47 * t + 0.1,
+    "-(TIME-2)**3/(-4)-TIME*-2": lambda t: (t - 2) ** 3 / 4 + 2 * t,
+    "SQRT(TIME+1)*LOG(TIME+1)+LOG10(TIME+2)": lambda t: math.sqrt(t + 1) * math.log(t + 1) + math.log10(t + 2),
+    "ATAN2(TIME-0.5,0.3)+ATAN(TIME)+ASIN(TIME/2)+ACOS(TIME/2)": lambda t: math.atan2(t - 0.5, 0.3) + math.atan(t) + math.pi / 2,
+    "SINH(TIME)+COSH(TIME)+TANH(TIME)+TAN(TIME)": lambda t: math.exp(t) + math.tanh(t) + math.tan(t),
+    "ABS(TIME-0.5)+MIN(TIME,0.3)+MAX(TIME,0.7)": lambda t: abs(t - 0.5) + min(t, 0.3) + max(t, 0.7),
+    "STEP(-TIME,-0.6,1,-0.2,-3)": lambda t: smooth_step(-t, -0.6, 1, -0.2, -3, lambda u: u**2 * (3 - 2 * u)),
+    "STEP5(TIME,0.2,1,0.6,10d)": lambda t: smooth_step(t, 0.2, 1, 0.6, math.pi / 18, lambda u: u**3 * (10 - 15 * u + 6 * u**2)),
+    "HAVSIN(TIME,0.2,1,0.6,-3)": lambda t: smooth_step(t, 0.2, 1, 0.6, -3, lambda u: (1 - math.cos(math.pi * u)) / 2),
+    "IF(0.525-TIME:1,2,IF(TIME-0.225:3,4,5))": lambda t: 1 if t > 0.525 else 3 if t < 0.225 else 5,
+    "SIGN(3,TIME-0.525)+DIM(TIME,0.4)": lambda t: math.copysign(3, t - 0.525) + max(t - 0.4, 0),
+    "POLY(TIME,0.1,1,2,-3,4)": lambda t: 1 + 2 * (t - 0.1) - 3 * (t - 0.1) ** 2 + 4 * (t - 0.1) ** 3,
+    "SHF(TIME,25D,PI,360D,0.4,5)": lambda t: math.pi * math.sin(2 * math.pi * (t - math.radians(25)) - 0.4) + 5,
+    "FORCOS(TIME,0.1,5,1,2,3)": lambda t: 1 + 2 * math.cos(5 * (t - 0.1)) + 3 * math.cos(10 * (t - 0.1)),
+    "FORSIN(TIME,0.1,5,1,2,3)": lambda t: 1 + 2 * math.sin(5 * (t - 0.1)) + 3 * math.sin(10 * (t - 0.1)),
+    "BISTOP(TIME,0,0.3,0.5,100,1.5,0,0.1)": lambda t: 100 * (max(0.3 - t, 0) ** 1.5 - max(t - 0.5, 0) ** 1.5),
+}
+
+
+def test_expressions(gudgeon):
+    """Every function and operator that has words in a deck, as a force on a slider, against what Adams says of it."""
+    text = "expressions\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\n"
+    for k, expression in enumerate(EXPRESSIONS, 2):
+        text += f"PART/{k}, MASS = 1, CM = {k}, IP = 1, 1, 1, QG = {k}, 0, 0\nMARKER/{k}, PART = {k}\nMARKER/{1000 + k}, PART = 1, QP = {k}, 0, 0\n"
+        text += f"JOINT/{k}, TRANSLATIONAL, I = {k}, J = {1000 + k}\nSFORCE/{k}, TRANSLATION, ACTIONONLY, I = {k}, J = 1, FUNCTION = {expression}\n"
+    folder = scratch()
+    (folder / "e.adm").write_text(text + "END\n")
+    assert "nothing of the mechanism was left out" in call(gudgeon, "import", "e.adm", cwd=folder).stdout
+    call(gudgeon, "run", "e.deck", "--quiet", cwd=folder)
+    run = h5py.File(folder / "outputs" / "e" / "run.h5")
+    for k, (expression, meaning) in enumerate(EXPRESSIONS.items(), 2):
+        force = column(run, "forces", "force", f"SFORCE_{k}")[:, 2]
+        assert np.abs(force - [meaning(t) for t in run["time"][:]]).max() < 1e-9, expression
+
+
+def test_import_takes_time_in_proportion(gudgeon):
+    """Thousands of statements, and thousands of lines of one statement: four times as many take less than ten times as long."""
+    folder = scratch()
+    spent = []
+    for n in (2000, 8000):
+        parts = "".join(f"PART/{k}, MASS = 1, CM = {k}, IP = 1, 1, 1, QG = {k}, 0, 0\nMARKER/{k}, PART = {k}\n" for k in range(2, n // 4))
+        spline = "SPLINE/1, X = 0\n" + "".join(f", {k}, {k + 0.5}\n" for k in range(1, 5 * n)) + ", Y = 1, 2\n"
+        (folder / f"m{n}.adm").write_text("many\nUNITS/SYSTEM = MKS\nPART/1, GROUND\n" + parts + spline + "END\n")
+        began = os.times().children_user
+        assert "SPLINE/1" in call(gudgeon, "import", f"m{n}.adm", cwd=folder).stdout
+        spent.append(os.times().children_user - began)
+    assert spent[1] < 10 * max(spent[0], 0.05), spent
+
+
 def test_what_is_left_out_is_named_with_its_line(gudgeon):
     _, said = imported(gudgeon, "drives")
     text = (MODELS / "drives.adm").read_text().splitlines()
     for statement in ("JOINT/11", "FRICTION/1", "CONTACT/1", "ARRAY/1", "SFORCE/7", "SFORCE/8", "MOTION/9", "INTEGRATOR"):
         line = next(k for k, words in enumerate(text, 1) if words.startswith(statement))
         assert f"line {line}: {statement}" in said, statement
-    for reason in ("IMPACT with a damping that is there at once", "VM has no words in a deck", "no joint keeps equal speeds", "no friction in a deck"):
+    for reason in ("IMPACT with a damping that is there at once", "VM has no words in a deck", "no joint keeps equal speeds", "its law is none of a deck's"):
         assert reason in said, reason
 
 
@@ -240,7 +337,41 @@ def test_refused_by_name(gudgeon):
     assert "no PART" in call(gudgeon, "import", "empty.adm", cwd=folder, expect=3).stderr
 
 
-@pytest.mark.parametrize("broken", ["PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
+def test_variables_that_name_themselves_end(gudgeon):
+    """Neither for ever nor without bounds: what is left has no words, and the variable that has is put in."""
+    folder = scratch()
+    text = "v\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    text += "JOINT/1, TRANSLATIONAL, I = 2, J = 1\nVARIABLE/1, FUNCTION = VARVAL(1) + VARVAL(1) + VARVAL(2)\n"
+    text += "VARIABLE/2, FUNCTION = VARVAL(1)*VARVAL(1)*VARVAL(1)\nVARIABLE/3, FUNCTION = TIME\n"
+    for k, function in ((1, "VARVAL(1)"), (2, "VARVAL(3)*2 + VARVAL(3)"), (3, "")):
+        text += f"SFORCE/{k}, I = 2, J = 1, ACTIONONLY, TRANSLATION, FUNCTION = {function}\n" if function else f"SFORCE/{k}, I = 2, J = 1, FUNCTION\n"
+    (folder / "v.adm").write_text(text)
+    done = call(gudgeon, "import", "v.adm", cwd=folder, limit=20)
+    assert "SFORCE/1: it has more than" in done.stdout and "SFORCE/3: it has no FUNCTION" in done.stdout
+    call(gudgeon, "run", "v.deck", "--quiet", cwd=folder)
+    run = h5py.File(folder / "outputs" / "v" / "run.h5")
+    assert np.abs(column(run, "forces", "force", "SFORCE_2")[:, 2] - 3 * run["time"][:]).max() < 1e-12
+
+
+def test_datasets_of_nothing_that_moves(gudgeon_debug):
+    """No part but the ground, and numbers of markers that no integer has, end with a message."""
+    folder = scratch()
+    (folder / "g.adm").write_text("g\nPART/1, GROUND\nMARKER/1, PART = 1\nEND\n")
+    assert "no bodies" in call(gudgeon_debug, "import", "g.adm", cwd=folder, expect=3).stderr
+    (folder / "n.adm").write_text((MODELS / "springs.adm").read_text().replace("VR(31,20)", "VR(1E300,20)"))
+    assert "1000000000 of VR is no MARKER" in call(gudgeon_debug, "import", "n.adm", cwd=folder).stdout
+
+
+@pytest.mark.parametrize("reuler", ["90D, 90D, 0D", "0D, 90D, 0D", "0D, 90D, 90D"])
+def test_axes_that_begin_across_one_another(gudgeon_debug, reuler):
+    """A pin whose axes begin at right angles: no angle is undefined, whichever axis x lies along the other's z."""
+    folder = scratch()
+    text = "p\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    (folder / "p.adm").write_text(text + f"MARKER/3, PART = 2, REULER = {reuler}\nJOINT/1, REVOLUTE, I = 3, J = 1\n")
+    call(gudgeon_debug, "import", "p.adm", cwd=folder, expect=(0, 4))
+
+
+@pytest.mark.parametrize("broken", ["SFORCE/1, I = 1, J = 2, FUNCTION = VARVAL( )", "SFORCE/1, I = 1, J = 2, FUNCTION = 1E300*VR(1)", "MOTION/1, JOINT = 1, FUNCTION", "SFORCE/1, I = 2, J = 1, FUNCTION", "GFORCE/1, I = 2, JFLOAT = 1, RM = 1, FX", "PART/2, MASS =", "JOINT/1, REVOLUTE", "MOTION/1, JOINT = 1, FUNCTION = SIN(", "SFORCE/1, I = 1, J = 2, FUNCTION = ((((1"])
 def test_broken_statements_end_with_a_message(gudgeon_debug, broken):
     folder = scratch()
     (folder / "a.adm").write_text((MODELS / "pendulum.adm").read_text().replace("END\n", broken + "\nEND\n"))

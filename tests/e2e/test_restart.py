@@ -1,5 +1,6 @@
 """Runs that are stopped and go on: the same bits, and refusals that name the difference."""
 
+import json
 import resource
 import shutil
 import signal
@@ -96,6 +97,18 @@ def test_a_directory_that_vanishes(gudgeon, tmp_path):
     shutil.rmtree(tmp_path / "out", ignore_errors=True)
     said = process.communicate(timeout=60)[1]
     assert process.returncode == 9 and str(tmp_path / "out") in said, said
+
+
+def test_a_run_that_found_no_room_begins_anew(gudgeon, tmp_path):
+    """Without a checkpoint --resume begins; a run that failed has not come to its end."""
+    deck = written(tmp_path, plain_deck((("output", "every", "5 us"),)))
+    out, limit = tmp_path / "out", 768 << 10
+    done = subprocess.run([gudgeon, "run", deck, "--out", out, "--quiet"], capture_output=True, text=True, timeout=60,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    assert done.returncode == 9 and not (out / "checkpoint.h5").exists()
+    assert "begins at t = 0" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
+    assert json.loads((out / "summary.json").read_text())["status"] == "complete"
+    assert "nothing to go on with" in call(gudgeon, "run", deck, "--out", out, "--resume", "--quiet").stderr
 
 
 def test_checkpoints_that_find_no_room(gudgeon, tmp_path):

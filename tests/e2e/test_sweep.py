@@ -4,6 +4,7 @@ import csv
 import functools
 import json
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -252,6 +253,19 @@ def test_a_sweep_goes_on_where_it_was_killed(gudgeon):
     assert not (directory / "out.1").exists()
 
 
+def test_a_directory_that_vanishes(gudgeon, tmp_path):
+    """Exit code 9 at once, and not a sweep of runs that failed."""
+    deck = written(tmp_path, short("\n[sweep]\nc = 0.1mm .. 0.5mm in 400\n", end="10 ms"))
+    out = tmp_path / "out"
+    process = subprocess.Popen([gudgeon, "sweep", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not (out / "sweep.h5").exists():
+        time.sleep(0.01)
+    while process.poll() is None and out.exists():
+        shutil.rmtree(out, ignore_errors=True)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 9 and str(out) in said, said
+
+
 def test_a_deck_edited_meanwhile_changes_nothing(gudgeon):
     """All rows are of the deck as it was at the beginning, and a warning names what changed."""
     text = short("\n[sweep]\nc = 0.1 .. 0.5 mm in 40\n", end="20 ms")
@@ -332,6 +346,14 @@ def left(directory):
             if str(directory).encode() in line and b"gudgeon" in line:
                 found.append(name)
     return found
+
+
+@pytest.mark.parametrize("values, is_log", [("0.01mm .. 0.5mm in 5", False), ("0.01mm .. 0.5mm in 5 geometric", True)])
+def test_the_axis_of_a_range(gudgeon, values, is_log):
+    """Values at equal distances stand so in the figure, however far they go; a geometric range at equal distances of its logarithm."""
+    text = changed(short(f"\n[sweep]\nc = {values}\n", end="2.2 ms"), "output", figures="bifurcation(motor.moment)")
+    out, _ = swept(gudgeon, text)
+    assert ("set logscale x" in (out / "figures" / "bifurcation.motor.moment.gp").read_text()) == is_log
 
 
 def test_figures_of_a_sweep(gudgeon):

@@ -22,11 +22,13 @@ contains
    subroutine channels_have_numbers_of_their_own(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
+      type(kind_info_t) :: energy
       type(kind_info_t), allocatable :: kinds(:)
       integer :: i, k, n
 
       call all_kinds(kinds)
-      kinds = [kinds, energy_info(.true., .true.)]
+      energy = energy_info(.true., .true.)
+      kinds = [kinds, energy]
       n = 0
       do k = 1, size(kinds)
          if (.not. allocated(kinds(k)%channels)) cycle

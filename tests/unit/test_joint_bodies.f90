@@ -12,7 +12,7 @@ module test_joint_bodies
    use kind_info, only: add_reference, kind_info_t
    use kinds, only: wp
    use references, only: directory_t, resolve
-   use text, only: text_t
+   use text, only: split_blank
    use ties, only: kind_number, tie_of, tie_set, tie_t
    implicit none (type, external)
    private
@@ -149,8 +149,8 @@ contains
       type(item_t) :: items(1)
       type(kind_info_t) :: info
 
-      directory%joints = [text_t("main"), text_t("motor"), text_t("guide")]
-      directory%kinds = [text_t("joint.revolute"), text_t("driver.speed"), text_t("joint.translational")]
+      directory%joints = split_blank("main motor guide")
+      directory%kinds = split_blank("joint.revolute driver.speed joint.translational")
       info%name = "joint.pair"
       call add_reference(info, "any", "joint.", "any joint")
       call add_reference(info, "two", "joint.revolute joint.translational", "one of two kinds")

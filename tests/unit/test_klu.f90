@@ -296,7 +296,8 @@ contains
 
       !> Pages of this process in memory.
       integer function resident_pages() result(n_page)
-         integer :: n_all, unit
+         integer(i8) :: n_all   ! with a sanitizer more than an integer has
+         integer :: unit
 
          open (newunit=unit, file="/proc/self/statm", action="read", status="old")
          read (unit, *) n_all, n_page

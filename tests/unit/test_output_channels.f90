@@ -66,8 +66,11 @@ contains
    subroutine no_words_name_all(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
+      type(text_t), allocatable :: words(:)
+
       call check_equal(error, named(""), named("*"), "no words")
-      call check_equal(error, size(split_blank(named(""))), 23, "numbers of the scene")
+      words = split_blank(named(""))
+      call check_equal(error, size(words), 23, "numbers of the scene")
    end subroutine no_words_name_all
 
    !> Check what is said of a wrong word.

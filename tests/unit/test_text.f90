@@ -51,8 +51,8 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! first failure
 
       real(wp) :: back, x
-      integer :: i
-      character(:), allocatable :: s
+      integer :: digits, i
+      character(:), allocatable :: s, shorter
 
       call check_equal(error, exact_text(0.1_wp), "0.1", "one tenth")
       call check_equal(error, exact_text(-1.0e-8_wp), "-1e-8", "a small number")
@@ -66,7 +66,15 @@ contains
          s = exact_text(x)
          read (s, *) back
          call check_close(error, back, x, 0.0_wp, s)
+         do digits = 15, 17  ! the fewest that do, rounded from the number and not from its digits
+            shorter = real_text(x, digits)
+            read (shorter, *) back
+            if (.not. abs(back - x) > 0.0_wp) exit
+         end do
+         call check_equal(error, s, real_text(x, digits), "the fewest digits")
       end do
+      call check_equal(error, exact_text(0.99999999999999989_wp), "0.9999999999999999", "below one")
+      call check_equal(error, exact_text(9.9999999999999995e22_wp), "1e23", "a carry")
       s = exact_text(huge(1.0_wp))
       read (s, *) back
       call check_close(error, back, huge(1.0_wp), 0.0_wp, s)

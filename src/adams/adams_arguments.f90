@@ -1,0 +1,60 @@
+!> Arguments of the statements that a deck has words for; what else a statement says is named.
+!>
+!> Names may be abbreviated, down to one letter: a name that is the beginning of a known one is taken for that.
+!> Source: the public descriptions of the statements of Adams/Solver.
+module adams_arguments
+   use adams_model, only: adams_model_t, leave_out
+   use dataset, only: statement_t
+   use text, only: split_blank, text_t
+   implicit none (type, external)
+   private
+   public :: name_unknown_arguments
+
+contains
+
+   !> Put arguments that nothing reads on the list of what is left out.
+   subroutine name_unknown_arguments(model, statement)
+      type(adams_model_t), intent(inout) :: model      !! the dataset
+      type(statement_t), intent(in) :: statement       !! one of its statements, with its name in full
+
+      type(text_t), allocatable :: known(:)
+      integer :: i, k
+
+      if (known_arguments(statement%keyword) == "") return
+      known = split_blank(known_arguments(statement%keyword))
+      do k = 1, size(statement%arguments)
+         associate (name => statement%arguments(k)%name)
+            if (len(name) == 0) cycle
+            if (any([(index(known(i)%s, name) == 1, i=1, size(known))])) cycle
+            call leave_out(model, statement, "its "//name//" has no place in a deck")
+         end associate
+      end do
+   end subroutine name_unknown_arguments
+
+   !> Arguments that are read, or that say nothing of a mechanism; blank: that is for the reader of the statement to say.
+   pure function known_arguments(keyword) result(names)
+      character(*), intent(in) :: keyword         !! name of the statement
+      character(:), allocatable :: names          !! in capitals, in full
+
+      select case (keyword)
+      case ("PART"); names = "GROUND MASS CM IM IP QG REULER EULER ZG XG VX VY VZ WX WY WZ VM WM EXACT X Y Z PSI THETA PHI MATERIAL"
+      case ("MARKER"); names = "PART QP REULER EULER ZP XP USEXP FLOATING FLEX_BODY POINT_MASS"
+      case ("JOINT")
+         names = "I J REVOLUTE TRANSLATIONAL CYLINDRICAL SPHERICAL UNIVERSAL HOOKE PLANAR FIXED SCREW CONVEL RACKPIN " &
+                 //"PITCH PD IC ICROT ICTRAN"
+      case ("JPRIM"); names = "I J ATPOINT INLINE INPLANE ORIENTATION PARALLEL_AXES PERPENDICULAR"
+      case ("MOTION")
+         names = "JOINT I J TRANSLATIONAL ROTATIONAL X Y Z B1 B2 B3 DISPLACEMENT VELOCITY ACCELERATION ICDISP ICVEL FUNCTION"
+      case ("SFORCE"); names = "I J TRANSLATIONAL ROTATIONAL ACTIONONLY FUNCTION ROUTINE"
+      case ("SPRINGDAMPER"); names = "I J TRANSLATIONAL ROTATIONAL K C LENGTH FORCE KT CT ANGLE TORQUE"
+      case ("VFORCE"); names = "I JFLOAT RM FX FY FZ FUNCTION ROUTINE"
+      case ("VTORQUE"); names = "I JFLOAT RM TX TY TZ FUNCTION ROUTINE"
+      case ("GFORCE"); names = "I JFLOAT RM FX FY FZ TX TY TZ FUNCTION ROUTINE"
+      case ("GEAR"); names = "JOINTS CV"
+      case ("COUPLER"); names = "JOINTS TYPE SCALES FUNCTION ROUTINE"
+      case ("ACCGRAV", "GRAVITY"); names = "IGRAV JGRAV KGRAV"
+      case default; names = ""
+      end select
+   end function known_arguments
+
+end module adams_arguments
