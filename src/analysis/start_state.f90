@@ -81,7 +81,10 @@ contains
          if (allocated(error)) return
       end if
       call find_dependent(system%linkage, q, v, report)
-      system%linkage%solution%is_redundant = size(report%dependent) > 0
+      associate (linkage => system%linkage)
+         linkage%solution%is_redundant = size(report%dependent) > 0
+         if (size(report%dependent) == 0) call linkage%solution%judge_pivots(linkage%inverse_mass, linkage%rows)
+      end associate
       call check_method(scene, system, report, error)
       if (allocated(error)) return
       allocate (y(system%n), source=0.0_wp)

@@ -61,6 +61,7 @@ contains
             subsystem%body = groups%bodies_of(g)
             call new_system(one, levels, subsystem%system)
             subsystem%system%linkage%solution%is_redundant = system%linkage%solution%is_redundant
+            call subsystem%system%linkage%solution%take_least_pivot(system%linkage%solution%least_pivot)
             call find_contacts(system, table, slot, item, subsystem)
             subsystem%rubbing = numbers_of(rubbing_names(subsystem%system), rubbing)
             call find_integrator(scene%settings%dynamic%word("method"), subsystem%method)

@@ -6,13 +6,15 @@ module integrator_registry
    use ida, only: ida_t
    use integrator, only: integrator_t
    use kind_info, only: kind_info_t
+   use radau, only: radau_t
    use rk4, only: rk4_t
+   use rock4, only: rock4_t
    use verner, only: verner_t
    implicit none (type, external)
    private
    public :: find_integrator, n_integrator_kinds, new_integrator
 
-   integer, parameter :: n_integrator_kinds = 6  !! number of methods
+   integer, parameter :: n_integrator_kinds = 8  !! number of methods
 
 contains
 
@@ -28,6 +30,8 @@ contains
       case (4); allocate (adams_t :: method)
       case (5); allocate (bdf_t :: method)
       case (6); allocate (ida_t :: method)
+      case (7); allocate (rock4_t :: method)
+      case (8); allocate (radau_t :: method)
       end select
    end subroutine new_integrator
 

@@ -33,6 +33,7 @@ module step_control
    !> The control.
    type :: step_control_t
       real(wp) :: order = 1.0_wp                  !! p of the method [1]
+      real(wp) :: h_most = huge(1.0_wp)           !! longest step that the method can make [s]
       real(wp) :: h_next = 0.0_wp                 !! step to try next [s]
       real(wp) :: h_before = 0.0_wp               !! step before a disturbance began, 0: none [s]
       real(wp) :: h_event = huge(1.0_wp)          !! time to the next event foretold, huge: none [s]
@@ -66,7 +67,7 @@ contains
    real(wp) function length(self) result(h)
       class(step_control_t), intent(inout) :: self  !! the control
 
-      h = self%h_next
+      h = min(self%h_next, self%h_most)
       self%is_across = behind*self%h_event < h .and. self%h_event <= self%h_across &
                        .and. (behind*self%h_event > worth*h .or. self%h_across < huge(1.0_wp))
       self%is_short = self%is_across .or. (nearer*self%h_event < h .and. self%h_event > min(h/behind, self%h_across))

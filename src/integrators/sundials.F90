@@ -13,22 +13,25 @@ module sundials
    use fida_mod, only: new_ida => fidacreate
    use fkinsol_mod, only: new_kinsol => fkincreate
    use fsundials_core_mod, only: fn_vdestroy, fn_vgetarraypointer, fsuncontext_clearerrhandlers, fsuncontext_create, &
-      fsuncontext_free, fsuncontext_setlogger, fsunlinsolfree, fsunmatdestroy, fsunnonlinsolfree, n_vector, sun_comm_null, &
+      fsuncontext_free, fsuncontext_setlogger, fsunlinsolfree, fsunlinsolinitialize, fsunlinsolsetatimes, &
+      fsunlinsolsetscalingvectors, fsunlinsolsetzeroguess, fsunmatdestroy, fsunnonlinsolfree, n_vector, sun_comm_null, &
       sunlinearsolver, sunmatrix, sunnonlinearsolver
 #else
    use fcvode_mod, only: fcvodecreate, fcvodeseterrfile
    use fida_mod, only: fidacreate, fidaseterrfile
    use fkinsol_mod, only: fkincreate, fkinseterrfile
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
-   use fsundials_linearsolver_mod, only: fsunlinsolfree, sunlinearsolver
+   use fsundials_linearsolver_mod, only: fsunlinsolfree, fsunlinsolinitialize, fsunlinsolsetatimes, fsunlinsolsetscalingvectors, &
+      fsunlinsolsetzeroguess, sunlinearsolver
    use fsundials_matrix_mod, only: fsunmatdestroy, sunmatrix
    use fsundials_nonlinearsolver_mod, only: fsunnonlinsolfree, sunnonlinearsolver
    use fsundials_nvector_mod, only: fn_vdestroy, fn_vgetarraypointer, n_vector
 #endif
    implicit none (type, external)
    private
-   public :: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunmatdestroy, fsunnonlinsolfree, n_vector, &
-      sunlinearsolver, sunmatrix, sunnonlinearsolver
+   public :: fn_vdestroy, fn_vgetarraypointer, fsuncontext_free, fsunlinsolfree, fsunlinsolinitialize, fsunlinsolsetatimes, &
+      fsunlinsolsetscalingvectors, fsunlinsolsetzeroguess, fsunmatdestroy, fsunnonlinsolfree, n_vector, sunlinearsolver, &
+      sunmatrix, sunnonlinearsolver
    public :: new_context, new_cvode, new_ida, new_kinsol, sunindextype
 
 #if SUNDIALS_INDEX == 64

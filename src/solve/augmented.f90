@@ -22,8 +22,10 @@ module augmented
    use kinds, only: i8, wp
    implicit none (type, external)
    private
-   public :: augmented_t, direct_t
+   public :: augmented_t, direct_t, least_pivots
 
+   ! of the diagonal they came from: of independent rows as a rule; of bodies with one light inertia; then what counts as none
+   real(wp), parameter :: least_pivots(3) = [1.0e-5_wp, 1.0e-7_wp, 1.0e-9_wp]  !! (3) least pivots [1]
    real(wp), parameter :: converged = 1.0e-15_wp  !! residual of the rows, of the greatest term, that is round-off [1]
    real(wp), parameter :: stagnant = 0.5_wp       !! ratio of successive residuals that is no progress [1]
 
@@ -40,6 +42,7 @@ module augmented
       procedure(solve_damped_interface), deferred :: solve_damped
       procedure :: name => augmented_name
       procedure :: set_penalty => augmented_set_penalty
+      procedure :: set_least_pivot => augmented_set_least_pivot
       procedure :: memory_size => augmented_memory_size
       procedure :: save => augmented_save
       procedure :: load => augmented_load
@@ -139,6 +142,12 @@ contains
       class(augmented_t), intent(inout) :: self   !! the solver
       real(wp), intent(in) :: penalty             !! of a violated row, of its inverse effective mass [1]
    end subroutine augmented_set_penalty
+
+   !> Take the least pivot of independent rows, of the diagonal it came from: nothing to take for a way that has no such pivots.
+   subroutine augmented_set_least_pivot(self, least)
+      class(augmented_t), intent(inout) :: self   !! the solver
+      real(wp), intent(in) :: least               !! the least pivot [1]
+   end subroutine augmented_set_least_pivot
 
    !> Numbers that a checkpoint needs: none, unless a solution leaves something behind that the next one uses.
    integer function augmented_memory_size(self) result(n)

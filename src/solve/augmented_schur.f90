@@ -5,10 +5,10 @@
 !> S is assembled from a list of pairs of rows that share an unknown body, made once, and factorised as L D L^T in its
 !> envelope; the order of the rows is the given one or that of reverse Cuthill-McKee, whichever costs less. A chain of
 !> bodies costs in proportion to its length.
-!> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: independent rows; a pivot below `threshold` of its diagonal
+!> Source: Flores et al. (2008), eqs. (2.16)-(2.18). Limits: independent rows; a pivot below `least_pivot` of its diagonal
 !> is left to `solve_damped`.
 module augmented_schur
-   use augmented, only: direct_t
+   use augmented, only: direct_t, least_pivots
    use body_kernels, only: body_accelerations
    use body_kernels_planar, only: solve_planar => solve_lone_bodies
    use body_kernels_spatial, only: solve_spatial => solve_lone_bodies
@@ -24,8 +24,6 @@ module augmented_schur
    private
    public :: assemble, augmented_schur_t, schur_is_cheap
 
-   real(wp), parameter :: threshold = 1.0e-5_wp  !! least pivot, as a part of its diagonal: below, rows are nearly dependent [1]
-
    real, parameter :: sparse_cost = 120.0        !! operations that the sparse solver costs for a row or coordinate, measured
    real, parameter :: few = 10.0                 !! how many times that the pairs of a row may cost
 
@@ -35,12 +33,14 @@ module augmented_schur
       type(part_t) :: rest                        !! the other rows
       type(part_t) :: all                         !! all rows
       integer, allocatable :: unknown(:)          !! (bodies) unknown bodies that are not lone
+      real(wp) :: least_pivot = least_pivots(1)   !! of its diagonal: below, rows are nearly dependent [1]
    contains
       procedure, nopass :: info => schur_info
       procedure :: prepare => schur_prepare
       procedure :: solve => schur_solve
       procedure :: factorise => schur_factorise
       procedure :: back_solve => schur_back_solve
+      procedure :: set_least_pivot => schur_set_least_pivot
    end type augmented_schur_t
 
 contains
@@ -96,6 +96,14 @@ contains
       allocate (self%residual(rows%n_solve), source=0.0_wp)
    end subroutine schur_prepare
 
+   !> Take the least pivot of independent rows.
+   subroutine schur_set_least_pivot(self, least)
+      class(augmented_schur_t), intent(inout) :: self  !! the solver
+      real(wp), intent(in) :: least                    !! of the diagonal it came from [1]
+
+      self%least_pivot = least
+   end subroutine schur_set_least_pivot
+
    !> Accelerations and multipliers.
    subroutine schur_solve(self, inverse_mass, rows, g, b, a, lambda, bad_row)
       class(augmented_schur_t), intent(inout) :: self              !! the solver
@@ -113,16 +121,16 @@ contains
       if (rows%n_solve > 0) self%n_factorisations = self%n_factorisations + 1
       if (rows%n_v == n_v_planar) then
          call solve_planar(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, rows%jac, g, &
-                           b, threshold, a, lambda, bad_row)
+                           b, self%least_pivot, a, lambda, bad_row)
       else
          call solve_spatial(self%lone%n, self%lone%body, self%lone%row, self%lone%place, n_body, rows%n, inverse_mass, rows%jac, &
-                            g, b, threshold, a, lambda, bad_row)
+                            g, b, self%least_pivot, a, lambda, bad_row)
       end if
       if (bad_row > 0 .or. size(self%unknown) == 0) return
       associate (part => self%rest)
          if (size(part%order) > 0) then
             call assemble(part, n_body, rows%n, inverse_mass, rows%jac, g, b)
-            call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, threshold, part%s%a, &
+            call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, self%least_pivot, part%s%a, &
                                      part%s%inverse, part%s%row, part%x, bad_row)
             if (bad_row > 0) then
                bad_row = part%order(bad_row)

@@ -8,7 +8,7 @@
 !> decides what is good enough.
 !> Signs: the reaction on the bodies is -Phi_q^T lambda. Source: Flores et al. (2008), eqs. (2.15), (2.23).
 module solution
-   use augmented, only: augmented_t
+   use augmented, only: augmented_t, least_pivots
    use rows, only: rows_t
    use kinds, only: i8, wp
    implicit none (type, external)
@@ -37,9 +37,11 @@ module solution
       real(wp), allocatable :: lambda(:)                 !! (rows) multipliers [N or N.m]
       integer(i8) :: n_damped = 0                        !! evaluations in which rows were dependent, or nearly so
       integer, allocatable :: left_out(:)                !! rows that the form of index 2 leaves out, which depend on others
+      real(wp) :: least_pivot = least_pivots(1)          !! of independent rows, of the diagonal it came from [1]
       integer :: bad_row = 0                             !! row at which the last evaluation was singular, 0: none
    contains
       procedure :: find => solution_find, set_gains => solution_set_gains
+      procedure :: judge_pivots, take_least_pivot
    end type solution_t
 
 contains
@@ -53,6 +55,37 @@ contains
       self%alpha = alpha
       self%beta = beta
    end subroutine solution_set_gains
+
+   !> Find the least pivot of independent rows, at a start where no rows depend on others. A body that is light about one axis, as a thin rod,
+   !> makes small pivots of rows that are independent: where those of the start are small for that reason, smaller ones mean dependence.
+   subroutine judge_pivots(self, inverse_mass, rows)
+      class(solution_t), intent(inout) :: self                 !! the solution
+      real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses, 0 if known [1/kg or 1/(kg.m^2)]
+      type(rows_t), intent(in) :: rows                         !! rows, evaluated at the start
+
+      real(wp), allocatable :: a(:, :), b(:), g(:, :), lambda(:)
+      integer :: bad_row, level
+
+      allocate (a, g, mold=self%a)
+      allocate (b, lambda, mold=self%b)
+      g = 0.0_wp
+      b = 0.0_wp
+      do level = 1, 2
+         call self%take_least_pivot(least_pivots(level))
+         call self%solver%solve(inverse_mass, rows, g, b, a, lambda, bad_row)
+         if (bad_row == 0) exit
+      end do
+      call self%take_least_pivot(least_pivots(merge(3, 1, level == 2)))
+   end subroutine judge_pivots
+
+   !> Take the least pivot of independent rows.
+   subroutine take_least_pivot(self, least)
+      class(solution_t), intent(inout) :: self   !! the solution
+      real(wp), intent(in) :: least              !! of the diagonal it came from [1]
+
+      self%least_pivot = least
+      call self%solver%set_least_pivot(least)
+   end subroutine take_least_pivot
 
    !> Accelerations of the unknown bodies and multipliers of the solved rows, as rows and b were set. Status 1 if rows that always
    !> depend on others contradict them, or if there is no solution.

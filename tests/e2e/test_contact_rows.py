@@ -11,7 +11,7 @@ import pytest
 from conftest import ROOT
 from support import DECK, Run, assert_close, call, changed, plain_deck, scratch, text_of, written
 
-METHODS = ("verner", "dop853", "rk4", "adams", "bdf", "ida")
+METHODS = ("verner", "dop853", "rk4", "rock4", "radau", "adams", "bdf", "ida")
 FOLDERS = ("inputs", "inputs/hard", "inputs/studies")
 STEP = {"inputs/hard/dropped_ball.deck": "10 us", "inputs/bouncing_ball.deck": "10 us"}  # of rk4; others take 1 us
 END = {  # of motions that are long; others run as they are

@@ -86,7 +86,7 @@ f o c y {tilt!r} 0.1 steel normal rough
 """
 
 
-METHODS = [("verner",), ("dop853",), ("rk4", "step = 2 ms"), ("adams",), ("bdf",), ("ida",)]
+METHODS = [("verner",), ("dop853",), ("rock4",), ("radau",), ("rk4", "step = 2 ms"), ("adams",), ("bdf",), ("ida",)]
 
 
 @pytest.mark.parametrize("method", METHODS, ids=[m[0] for m in METHODS])

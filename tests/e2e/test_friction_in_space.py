@@ -108,7 +108,7 @@ def phases(sliding, static, end):
     return times, v
 
 
-@pytest.mark.parametrize("settings", [{}, {"method": "dop853"}, {"method": "adams"}, {"method": "bdf"}, {"method": "ida"}], ids=str)
+@pytest.mark.parametrize("settings", [{}, {"method": "dop853"}, {"method": "rock4"}, {"method": "radau"}, {"method": "adams"}, {"method": "bdf"}, {"method": "ida"}], ids=str)
 def test_coulomb_along_and_about_an_axis(gudgeon, settings):
     """Both bases hold together, slip together, and stop together, when a vector of load and moment says so."""
     run = run_pin(gudgeon, "coulomb", "coefficient static_coefficient", "0.38 0.4", **settings)

@@ -22,7 +22,7 @@ def events_of(run):
     return sorted(run.read("events"), key=lambda row: (row["item"], row["contact"], row["time"]))
 
 
-@pytest.mark.parametrize("method", ["verner", "dop853", "adams", "bdf", "ida"])
+@pytest.mark.parametrize("method", ["verner", "dop853", "rock4", "radau", "adams", "bdf", "ida"])
 def test_apart_as_together(gudgeon, method):
     """All events and the motion are the same to what the tolerance allows, the loads' instants and friction's among them."""
     text = changed(DECK, "analysis.dynamic", method=method, tolerance="1e-10")

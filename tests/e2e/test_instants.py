@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support import at_instants, call, changed, scratch, written
 
-METHODS = ["verner", "dop853", "adams", "bdf", "ida", "rk4"]
+METHODS = ["verner", "dop853", "rock4", "radau", "adams", "bdf", "ida", "rk4"]
 
 # One mass on a guide along x, free or on a spring.
 MASS = """deck = 1

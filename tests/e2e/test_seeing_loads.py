@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support import assert_close, call, scratch, written
 
-METHODS = ["verner", "dop853", "adams", "bdf", "ida", "rk4"]
+METHODS = ["verner", "dop853", "rock4", "radau", "adams", "bdf", "ida", "rk4"]
 
 SLED = """deck = 1
 [bodies]

@@ -33,7 +33,7 @@ WORDS = [
     "1 .. 5 mm in 1000000000", "0 .. 1 in 3 geometric", "-1 .. 1 in 3 geometric", "rk4", "ida", "bdf", "adams", "static", "given", "preload", "book",
     "blend", "foundation", "corners",
 ]
-METHODS = ["verner", "dop853", "rk4", "adams", "bdf", "ida"]
+METHODS = ["verner", "dop853", "rk4", "rock4", "radau", "adams", "bdf", "ida"]
 
 
 def seeds():

@@ -62,7 +62,7 @@ def plan(quick):
     for scene in scenes.SPATIAL[::3] if quick else scenes.SPATIAL:
         yield scene, {
             "gudgeon": [(m, t) for m in ("verner", "dop853") for t in ladder(3, 11)]
-            + ([("bdf", t) for t in ladder(3, 9)] if scene["name"] == "governor" else []),
+            + ([("radau", t) for t in ladder(2, 11)] if scene["name"] == "governor" else []),
             "Simbody": [(m, t) for m in ("merson", "feldberg", "cpodes_bdf" if scene["name"] == "governor" else "cpodes_adams")
                         for t in ladder(2, 7 if scene["loose"] else 9)]}
 

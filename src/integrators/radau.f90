@@ -1,0 +1,369 @@
+!> Radau IIA of order 5: an implicit one-step method for stiff equations, with events by re-stepping and without matrices.
+!>
+!> The state at the end of a step is the last of three stages, the polynomial of degree 3 through the start and the stages
+!> satisfies the equations at each of them:
+!>
+!> $$ Y_i = y_0 + h \sum_j a_{ij} f(t_0 + c_j h, Y_j), c = ((4 - \sqrt 6)/10, (4 + \sqrt 6)/10, 1) $$
+!>
+!> What decays fast is damped away (L-stable), stiff springs without a damper too, and unlike `bdf` nothing is forgotten at an
+!> event: the next step is of order 5 as well. The stages are found by Newton's iteration; its linear equations are solved by GMRES with
+!> differences of the right-hand side along its directions (`radau_products`), so that the work grows with the number of stiff springs,
+!> dampers and films, not with that of coordinates, and stiff forces may turn with the bodies within a step. Quadratures follow from the stages.
+!>
+!> Error: an embedded formula of order 3, filtered by (I - h J/u)^-1, so that stiff components do not spoil it. Since the method
+!> has two orders more, its estimate may be TOL' = TOL^(2/3)/10, which makes the error nearly proportional to TOL; Newton's
+!> iteration ends a good deal below.
+!>
+!> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
+!> stiff forces would make worse; other states and quadratures by the integral of the cubic through the derivatives at the start
+!> and at the stages, of order 5.
+!>
+!> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where more than some
+!> ten forces are stiff, each in its own way, GMRES needs as many directions, and `bdf` is cheaper.
+module radau
+   use integrator, only: advance_no_memory, advance_step
+   use interpolation, only: interpolate
+   use kind_info, only: kind_info_t
+   use kinds, only: eps, wp
+   use krylov_solver, only: krylov_solver_t
+   use memory, only: get, put
+   use ode_system, only: ode_system_t
+   use one_step, only: one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use radau_products, only: a, c, filter_product_t, stage_product_t
+   implicit none (type, external)
+   private
+   public :: radau_t
+
+   integer, parameter :: most_evaluations = 2400        !! of a step: sixteen iterations with forty directions each
+   real(wp), parameter :: diverged = (0.9_wp/0.5_wp)**4 !! norm of a step without stages, which halves it [1]
+
+   !> Stages of a step.
+   type :: stages_t
+      real(wp) :: t = 0.0_wp               !! its start [s]
+      real(wp) :: h = 0.0_wp               !! its length, 0: there are none [s]
+      real(wp), allocatable :: z(:, :)     !! (n, 3) changes of the state, without quadratures [any]
+   end type stages_t
+
+   !> The method.
+   type, extends(one_step_t) :: radau_t
+      private
+      integer :: n = 0                          !! entries of the state without quadratures
+      type(stage_product_t) :: stage            !! the stages in hand
+      type(filter_product_t) :: filter          !! of the error
+      type(krylov_solver_t) :: stage_solver     !! GMRES for Newton's equations
+      type(krylov_solver_t) :: filter_solver    !! GMRES for the filter
+      type(stages_t) :: before                  !! stages of the step before the one in hand
+      type(stages_t) :: now                     !! of the step in hand, as a whole
+      real(wp), allocatable :: z(:, :)          !! (n, 3) changes at the stages in hand [any]
+      real(wp), allocatable :: side(:)          !! (3 n) right side of Newton's equations [any]
+      real(wp), allocatable :: change(:)        !! (3 n) their solution [any]
+      real(wp), allocatable :: weight(:)        !! (3 n) error scales [any]
+      real(wp), allocatable :: y(:)             !! (all) room [any]
+      real(wp) :: norm = 0.0_wp                 !! of the estimate over TOL' [1]
+      real(wp) :: contraction = 1.0_wp          !! theta/(1 - theta) of the last iteration [1]
+   contains
+      procedure, nopass :: info => radau_info
+      procedure, nopass :: is_explicit => radau_is_explicit
+      procedure :: prepare => radau_prepare
+      procedure :: restart => radau_restart
+      procedure :: make_stages => radau_make_stages
+      procedure :: error_norm => radau_error_norm
+      procedure :: prepare_output => radau_prepare_output
+      procedure :: within => radau_within
+      procedure :: memory_size => radau_memory_size
+      procedure :: save => radau_save
+      procedure :: load => radau_load
+   end type radau_t
+
+   interface
+      !> Newton's iteration for the stages. It ends where the error that is left, by its contraction, is below its part of TOL', in a
+      !> part of a step at round-off; where it gets no better it has converged if it is at a hundredth of TOL'.
+      module subroutine find_stages(self, system, h, is_part, is_found, status)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it begins, then what it finds
+         class(ode_system_t), intent(inout), target :: system  !! the system
+         real(wp), intent(in) :: h                             !! length of the step [s]
+         logical, intent(in) :: is_part                        !! of an accepted step
+         logical, intent(out) :: is_found                      !! whether the iteration has converged
+         integer, intent(out) :: status                        !! of the evaluations
+      end subroutine find_stages
+
+      !> Norm of the estimate (I - h J/u)^-1 h/u (f_0 + sum e_i Z_i/h), into `norm`. A stiff component that the start of all, or the
+      !> state after an event, may have makes it too great; then the derivative is taken at the start corrected by it.
+      module subroutine estimate_error(self, system, h, status)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self                 !! the integrator, stages found
+         class(ode_system_t), intent(inout), target :: system  !! the system
+         real(wp), intent(in) :: h                             !! length of the step [s]
+         integer, intent(out) :: status                        !! of the evaluations
+      end subroutine estimate_error
+
+      !> The right-hand side at the stages.
+      module subroutine evaluate_stages(self, system, h, status)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self         !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(in) :: h                     !! length of the step [s]
+         integer, intent(out) :: status                !! of the evaluations
+      end subroutine evaluate_stages
+   end interface
+
+contains
+
+   !> What the method says of itself.
+   function radau_info() result(info)
+      type(kind_info_t) :: info  !! name and help
+
+      info%name = "radau"
+      info%help = "Radau IIA of order 5, implicit: for stiff springs, dampers and films, also where events follow one another"
+      info%source = "Hairer and Wanner (1996)"
+   end function radau_info
+
+   !> A method for stiff equations.
+   pure logical function radau_is_explicit()
+      radau_is_explicit = .false.
+   end function radau_is_explicit
+
+   !> Room for the stages.
+   subroutine radau_prepare(self, n)
+      class(radau_t), intent(inout) :: self  !! the integrator
+      integer, intent(in) :: n               !! entries of the state
+
+      self%order = 4
+      self%n_new_stage = most_evaluations
+      if (.not. allocated(self%y)) allocate (self%y(n), source=0.0_wp)
+   end subroutine radau_prepare
+
+   !> Evaluate anew at the present state: stages of before no longer foretell those ahead.
+   subroutine radau_restart(self, system, step_hint, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: step_hint             !! step that suits what begins now; 0: as before [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      self%now%h = 0.0_wp
+      self%contraction = 1.0_wp
+      call one_step_restart(self, system, step_hint, status)
+      if (status /= advance_step .or. self%n > 0) return
+      self%n = system%n - system%n_quadrature
+      associate (n => self%n)
+         allocate (self%z(n, 3), self%side(3*n), self%change(3*n), self%weight(3*n), self%before%z(n, 3), self%now%z(n, 3), &
+                   source=0.0_wp)
+         call self%stage%open(n, system%n)
+         call self%filter%open(n, system%n)
+         call self%stage_solver%open(3*n, status)
+         if (status == 0) call self%filter_solver%open(n, status)
+      end associate
+      status = merge(advance_step, advance_no_memory, status == 0)
+   end subroutine radau_restart
+
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are asked
+   !> for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the length; where it
+   !> does not converge, as beside a force that jumps, the polynomial of the whole step stands in, which is of order 3.
+   subroutine radau_make_stages(self, system, h, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: h                     !! length of the step [s]
+      integer, intent(out) :: status                !! of the evaluations
+
+      logical :: is_found, is_part
+
+      is_part = self%t > self%step%t0
+      if (.not. is_part .and. self%now%t < self%step%t0) call go_on(self)
+      if (is_part) then
+         call foresee(self%now, self%step%t0, h, self%step%f0, self%z)
+      else
+         call foresee(self%before, self%step%t0, h, self%step%f0, self%z)
+      end if
+      call find_stages(self, system, h, is_part, is_found, status)
+      if (status /= 0) return
+      if (.not. is_found .and. is_part .and. self%now%h > 0.0_wp) then
+         ! the polynomial of the whole step knows the state, if not to its order
+         call foresee(self%now, self%step%t0, h, self%step%f0, self%z)
+         call evaluate_stages(self, system, h, status)
+         if (status /= 0) return
+      else if (.not. is_found) then
+         ! half the step, where steps may be shortened
+         if (is_part .or. self%controls%fixed_step > 0.0_wp) status = 1
+         self%norm = diverged
+         return
+      end if
+      call take_end(self%n, size(self%y), self%step%y0, h, self%z, self%stage%f, self%trial)
+      if (is_part) return
+      self%now%h = h
+      self%now%z(:, :) = self%z
+      call estimate_error(self, system, h, status)
+   end subroutine radau_make_stages
+
+   !> State at the end: the last stage, and the quadratures.
+   pure subroutine take_end(n, n_all, y0, h, z, f, y)
+      integer, intent(in) :: n           !! entries without quadratures
+      integer, intent(in) :: n_all       !! entries
+      real(wp), intent(in) :: y0(n_all)  !! (all) state at the start [any]
+      real(wp), intent(in) :: h          !! length of the step [s]
+      real(wp), intent(in) :: z(n, 3)    !! (n, 3) changes at the stages [any]
+      real(wp), intent(in) :: f(n_all, 3)  !! (all, 3) derivatives there [any]
+      real(wp), intent(out) :: y(n_all)  !! (all) state at the end [any]
+
+      integer :: i
+
+      do i = 1, n
+         y(i) = y0(i) + z(i, 3)
+      end do
+      do i = n + 1, n_all
+         y(i) = y0(i) + h*(a(3, 1)*f(i, 1) + a(3, 2)*f(i, 2) + a(3, 3)*f(i, 3))
+      end do
+   end subroutine take_end
+
+   !> A new step begins: the stages in hand become those before it.
+   subroutine go_on(self)
+      class(radau_t), intent(inout) :: self  !! the integrator
+
+      self%before%t = self%now%t
+      self%before%h = self%now%h
+      self%before%z(:, :) = self%now%z
+      self%now%t = self%step%t0
+      self%now%h = 0.0_wp
+   end subroutine go_on
+
+   !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on the
+   !> tangent there, which friction that begins to slide has its direction from.
+   pure subroutine foresee(stages, t, h, f0, z)
+      type(stages_t), intent(in) :: stages  !! the stages
+      real(wp), intent(in) :: t             !! start of the step in hand [s]
+      real(wp), intent(in) :: h             !! its length [s]
+      real(wp), intent(in) :: f0(:)         !! (all) derivative there [any]
+      real(wp), intent(out) :: z(:, :)      !! (n, 3) changes of the state at its stages [any]
+
+      real(wp) :: p(3), s
+      integer :: i, k
+      logical :: goes_on
+
+      goes_on = stages%t < t
+      if (.not. stages%h > 0.0_wp .or. abs(merge(stages%t + stages%h, stages%t, goes_on) - t) > 4.0_wp*eps*abs(t)) then
+         do k = 1, 3
+            z(:, k) = c(k)*h*f0(:size(z, 1))
+         end do
+         return
+      end if
+      do k = 1, 3
+         s = c(k)*h/stages%h + merge(1.0_wp, 0.0_wp, goes_on)
+         p(1) = s*(s - c(2))*(s - c(3))/(c(1)*(c(1) - c(2))*(c(1) - c(3)))
+         p(2) = s*(s - c(1))*(s - c(3))/(c(2)*(c(2) - c(1))*(c(2) - c(3)))
+         p(3) = s*(s - c(1))*(s - c(2))/(c(3)*(c(3) - c(1))*(c(3) - c(2)))
+         if (goes_on) p(3) = p(3) - 1.0_wp
+         do i = 1, size(z, 1)
+            z(i, k) = p(1)*stages%z(i, 1) + p(2)*stages%z(i, 2) + p(3)*stages%z(i, 3)
+         end do
+      end do
+   end subroutine foresee
+
+   !> Norm of the error estimate of the trial step, over TOL'.
+   real(wp) function radau_error_norm(self, system, h) result(norm)
+      class(radau_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: h                  !! length of the step [s]
+
+      norm = self%norm
+   end function radau_error_norm
+
+   !> No evaluations: the derivatives at the stages are known. Those of another length, as a search in the step leaves them, are made again.
+   subroutine radau_prepare_output(self, system, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! of the evaluations
+
+      status = 0
+      if (self%step%h <= 0.0_wp .or. has_stages(self)) return
+      self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
+      call self%refine(system, 1.0_wp, self%y, status)
+      self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
+   end subroutine radau_prepare_output
+
+   !> Whether the derivatives at hand are those of the last step.
+   pure logical function has_stages(self)
+      class(radau_t), intent(in) :: self  !! the integrator
+
+      has_stages = abs(self%stage%t - self%step%t0) <= 0.0_wp .and. abs(self%stage%h - self%step%h) <= 0.0_wp
+   end function has_stages
+
+   !> State at a place of the last step, by interpolation.
+   subroutine radau_within(self, system, s, y)
+      class(radau_t), intent(in) :: self         !! the integrator
+      class(ode_system_t), intent(in) :: system  !! the system
+      real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+      real(wp), intent(inout) :: y(:)            !! (n) state [any]
+
+      real(wp) :: p(0:3)
+      integer :: i, n
+
+      n = size(y)
+      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
+      call interpolate(self%step, system%n_position, system%traits%n_turning, s, y(:n))
+      if (.not. has_stages(self)) return
+      p = integrals(s)
+      associate (step => self%step, f => self%stage%f)
+         do i = 2*system%n_position - system%traits%n_turning + 1, n
+            y(i) = step%y0(i) + step%h*(p(0)*step%f0(i) + p(1)*f(i, 1) + p(2)*f(i, 2) + p(3)*f(i, 3))
+         end do
+      end associate
+   end subroutine radau_within
+
+   !> Integrals from 0 to s of the cubics of Lagrange through 0 and the places of the stages.
+   pure function integrals(s) result(p)
+      real(wp), intent(in) :: s  !! place in the step [1]
+      real(wp) :: p(0:3)         !! (0:3) the integrals [1]
+
+      real(wp), parameter :: places(0:3) = [0.0_wp, c]
+      real(wp) :: others(3)
+      integer :: k
+
+      do k = 0, 3
+         others = pack(places, [0, 1, 2, 3] /= k)
+         p(k) = s*(-product(others) + s*(0.5_wp*(others(1)*others(2) + others(1)*others(3) + others(2)*others(3)) &
+                                         + s*(-sum(others)/3.0_wp + s*0.25_wp)))/product(places(k) - others)
+      end do
+   end function integrals
+
+   !> Numbers that a checkpoint needs.
+   integer function radau_memory_size(self) result(n)
+      class(radau_t), intent(in) :: self  !! the integrator
+
+      n = one_step_memory_size(self) + 4 + 3*self%n
+   end function radau_memory_size
+
+   !> Write what the integrator remembers.
+   subroutine radau_save(self, row, place)
+      class(radau_t), intent(in) :: self  !! the integrator
+      real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
+      integer, intent(inout) :: place     !! last place used
+
+      integer :: k
+
+      call one_step_save(self, row, place)
+      call put(row, place, [self%now%t, self%now%h, self%contraction, self%pace%h_most])
+      do k = 1, 3
+         call put(row, place, self%now%z(:, k))
+      end do
+   end subroutine radau_save
+
+   !> Read what the integrator remembers.
+   subroutine radau_load(self, row, place)
+      class(radau_t), intent(inout) :: self  !! the integrator
+      real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
+      integer, intent(inout) :: place        !! last place used
+
+      integer :: k
+
+      call one_step_load(self, row, place)
+      call get(row, place, self%now%t)
+      call get(row, place, self%now%h)
+      call get(row, place, self%contraction)
+      call get(row, place, self%pace%h_most)
+      do k = 1, 3
+         call get(row, place, self%now%z(:, k))
+      end do
+      self%stage%h = 0.0_wp
+   end subroutine radau_load
+
+end module radau

@@ -1,0 +1,193 @@
+!> The equations of Radau IIA: Newton's iteration for the stages of a step, and the filtered estimate of its error.
+submodule(radau) radau_equations
+   use integrator_controls, only: norm_euclidean
+   use radau_products, only: real_eigenvalue
+   implicit none (type, external)
+
+   real(wp), parameter :: e(3) = -[13.0_wp + 7.0_wp*sqrt(6.0_wp), 13.0_wp - 7.0_wp*sqrt(6.0_wp), 1.0_wp] &
+                          /3.0_wp                       !! of the error estimate [1]
+
+   integer, parameter :: n_newton(2) = [8, 16]          !! (2) iterations, at most: of a step, and of a part of one
+   integer, parameter :: many = 5                       !! iterations after which the next step is no longer than the last
+   real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
+   real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
+   real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
+   real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: least, most [1]
+   real(wp), parameter :: left_by_filter = 0.1_wp       !! of the residual of the filter of the error [1]
+
+contains
+
+   !> Newton's iteration for the stages.
+   module procedure find_stages
+      real(wp) :: before, enough, eta, least, left, now, theta, tolerance
+      integer :: k, most
+
+      most = n_newton(merge(2, 1, is_part))
+      tolerance = lenient(self%controls%tolerance)
+      enough = max(noise, tolerance*min(part_of_tolerance, sqrt(tolerance)))
+      least = merge(noise, enough, is_part)
+      call self%set_scales(system, self%step%y0)
+      eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
+      if (is_part) eta = left_by_gmres(1)
+      call begin_stages(self, h)
+      self%stage%system => system
+      self%contraction = max(self%contraction, eps)**0.8_wp
+      before = 0.0_wp
+      theta = 0.0_wp
+      is_found = .false.
+      do k = 1, most
+         call evaluate_stages(self, system, h, status)
+         if (status /= 0) exit
+         call set_side(self%n, h, self%z, self%stage%f, self%side)
+         call self%stage_solver%solve(self%stage, self%side, self%weight, eta, self%change, status)
+         if (status /= 0) exit
+         now = greatest(self, self%change)
+         if (.not. now < huge(1.0_wp)) exit
+         call add_change(self%n, self%change, self%z)
+         if (k > 1) then
+            theta = max(eta, now/before)
+            self%contraction = theta/max(1.0_wp - theta, eps)
+         end if
+         left = self%contraction*now
+         is_found = (left <= merge(enough, least, k == most) .and. theta < 1.0_wp) &
+                    .or. (theta >= 0.5_wp .and. now <= 0.01_wp*tolerance)
+         if (is_found .or. (theta >= hopeless .and. .not. is_part)) exit
+         before = now
+      end do
+      nullify (self%stage%system)
+      self%count%n_evaluations = self%count%n_evaluations + self%stage%n_evaluation
+      if (.not. is_found) self%contraction = 1.0_wp
+      if (.not. is_part) self%pace%h_most = merge(h, huge(1.0_wp), k >= many)
+      ! what follows from the derivatives at the stages asks for those at the stages found
+      if (status == 0 .and. is_found .and. size(self%y) > 2*system%n_position - system%traits%n_turning) then
+         call evaluate_stages(self, system, h, status)
+      end if
+   end procedure find_stages
+
+   !> What the products need.
+   subroutine begin_stages(self, h)
+      class(radau_t), intent(inout) :: self  !! the integrator, scales set
+      real(wp), intent(in) :: h              !! length of the step [s]
+
+      integer :: i
+
+      associate (n => self%n)
+         self%stage%t = self%step%t0
+         self%stage%h = h
+         self%stage%n_evaluation = 0
+         self%stage%scale(:) = self%scale(:n)
+         self%stage%size = 1.0_wp
+         do i = 1, n
+            self%stage%size = max(self%stage%size, abs(self%step%y0(i))/self%scale(i))
+         end do
+         self%weight(:n) = self%scale(:n)
+         self%weight(n + 1:2*n) = self%scale(:n)
+         self%weight(2*n + 1:) = self%scale(:n)
+      end associate
+   end subroutine begin_stages
+
+   !> The right-hand side at the stages.
+   module procedure evaluate_stages
+      integer :: i, k
+
+      associate (y => self%stage%y, y0 => self%step%y0)
+         do k = 1, 3
+            do i = 1, self%n
+               y(i, k) = y0(i) + self%z(i, k)
+            end do
+            y(self%n + 1:, k) = y0(self%n + 1:)
+            self%count%n_evaluations = self%count%n_evaluations + 1
+            call system%evaluate(self%step%t0 + c(k)*h, y(:, k), self%stage%f(:, k), status)
+            if (status /= 0) return
+         end do
+      end associate
+   end procedure evaluate_stages
+
+   !> What is left of the equations, -Z_i + h sum a_ij F_j.
+   pure subroutine set_side(n, h, z, f, side)
+      integer, intent(in) :: n            !! entries without quadratures
+      real(wp), intent(in) :: h           !! length of the step [s]
+      real(wp), intent(in) :: z(n, 3)     !! (n, 3) changes at the stages [any]
+      real(wp), intent(in) :: f(:, :)     !! (all, 3) derivatives there [any]
+      real(wp), intent(out) :: side(n, 3) !! (n, 3) what is left [any]
+
+      integer :: i, k
+
+      do k = 1, 3
+         do i = 1, n
+            side(i, k) = h*(a(k, 1)*f(i, 1) + a(k, 2)*f(i, 2) + a(k, 3)*f(i, 3)) - z(i, k)
+         end do
+      end do
+   end subroutine set_side
+
+   !> Add a change to the stages.
+   pure subroutine add_change(n, change, z)
+      integer, intent(in) :: n              !! entries without quadratures
+      real(wp), intent(in) :: change(n, 3)  !! (n, 3) the change [any]
+      real(wp), intent(inout) :: z(n, 3)    !! (n, 3) changes at the stages [any]
+
+      z = z + change
+   end subroutine add_change
+
+   !> TOL': the error that the embedded formula may have.
+   pure elemental real(wp) function lenient(tolerance)
+      real(wp), intent(in) :: tolerance  !! TOL [1]
+
+      lenient = 0.1_wp*tolerance**(2.0_wp/3.0_wp)
+   end function lenient
+
+   !> Norm of one or more vectors over the scales.
+   pure real(wp) function greatest(self, x)
+      class(radau_t), intent(in) :: self   !! the integrator, scales set
+      real(wp), intent(in) :: x(:)         !! (n, or several times n) the vectors [any]
+
+      real(wp) :: part
+      integer :: i
+
+      greatest = 0.0_wp
+      do i = 1, size(x)
+         part = abs(x(i))/self%scale(1 + modulo(i - 1, self%n))
+         if (self%controls%norm == norm_euclidean) then
+            greatest = greatest + part**2
+         else if (.not. part <= greatest) then
+            greatest = part  ! a NaN comes through
+         end if
+      end do
+      if (self%controls%norm == norm_euclidean) greatest = sqrt(greatest)
+   end function greatest
+
+   !> Norm of the estimate.
+   module procedure estimate_error
+      integer :: i, n
+
+      n = self%n
+      call self%set_scales(system, self%trial)
+      associate (filter => self%filter, side => self%side(:n), estimate => self%change(:n))
+         filter%t = self%step%t0
+         filter%h = h
+         filter%size = self%stage%size
+         filter%n_evaluation = 0
+         filter%scale(:) = self%scale(:n)
+         filter%y(:) = self%step%y0
+         filter%f(:) = self%step%f0
+         filter%system => system
+         do i = 1, n
+            side(i) = (h*self%step%f0(i) + e(1)*self%z(i, 1) + e(2)*self%z(i, 2) + e(3)*self%z(i, 3))/real_eigenvalue
+         end do
+         call self%filter_solver%solve(filter, side, filter%scale, left_by_filter, estimate, status)
+         if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
+         if (status == 0 .and. self%norm > 1.0_wp .and. self%before%h <= 0.0_wp) then
+            self%y(:) = self%step%y0
+            self%y(:n) = self%y(:n) + estimate
+            self%count%n_evaluations = self%count%n_evaluations + 1
+            call system%evaluate(self%step%t0, self%y, filter%rate, status)
+            side(:) = side + h/real_eigenvalue*(filter%rate(:n) - self%step%f0(:n))
+            if (status == 0) call self%filter_solver%solve(filter, side, filter%scale, left_by_filter, estimate, status)
+            if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
+         end if
+         nullify (filter%system)
+         self%count%n_evaluations = self%count%n_evaluations + filter%n_evaluation
+      end associate
+   end procedure estimate_error
+
+end submodule radau_equations
