@@ -6,9 +6,10 @@
 !> $$ Y_i = y_0 + h \sum_j a_{ij} f(t_0 + c_j h, Y_j), c = ((4 - \sqrt 6)/10, (4 + \sqrt 6)/10, 1) $$
 !>
 !> What decays fast is damped away (L-stable), stiff springs without a damper too, and unlike `bdf` nothing is forgotten at an
-!> event: the next step is of order 5 as well. The stages are found by Newton's iteration; its linear equations are solved by GMRES with
-!> differences of the right-hand side along its directions (`radau_products`), so that the work grows with the number of stiff springs,
-!> dampers and films, not with that of coordinates, and stiff forces may turn with the bodies within a step. Quadratures follow from the stages.
+!> event: the next step is of order 5 as well. The stages are found by Newton's iteration; its linear equations are solved by
+!> GMRES with differences of the right-hand side along its directions (`radau_products`), so that the work grows with the number
+!> of stiff springs, dampers and films, not with that of coordinates, and stiff forces may turn with the bodies within a step.
+!> Quadratures follow from the stages.
 !>
 !> Error: an embedded formula of order 3, filtered by (I - h J/u)^-1, so that stiff components do not spoil it. Since the method
 !> has two orders more, its estimate may be TOL' = TOL^(2/3)/10, which makes the error nearly proportional to TOL; Newton's
@@ -18,8 +19,8 @@
 !> stiff forces would make worse; other states and quadratures by the integral of the cubic through the derivatives at the start
 !> and at the stages, of order 5.
 !>
-!> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where more than some
-!> ten forces are stiff, each in its own way, GMRES needs as many directions, and `bdf` is cheaper.
+!> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where more
+!> than some ten forces are stiff, each in its own way, GMRES needs as many directions, and `bdf` is cheaper.
 module radau
    use integrator, only: advance_no_memory, advance_step
    use interpolation, only: interpolate
@@ -76,8 +77,8 @@ module radau
    end type radau_t
 
    interface
-      !> Newton's iteration for the stages. It ends where the error that is left, by its contraction, is below its part of TOL', in a
-      !> part of a step at round-off; where it gets no better it has converged if it is at a hundredth of TOL'.
+      !> Newton's iteration for the stages. It ends where the error that is left, by its contraction, is below its part of TOL',
+      !> in a part of a step at round-off; where it gets no better it has converged if it is at a hundredth of TOL'.
       module subroutine find_stages(self, system, h, is_part, is_found, status)
          implicit none (type, external)
          class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it begins, then what it finds
@@ -88,8 +89,8 @@ module radau
          integer, intent(out) :: status                        !! of the evaluations
       end subroutine find_stages
 
-      !> Norm of the estimate (I - h J/u)^-1 h/u (f_0 + sum e_i Z_i/h), into `norm`. A stiff component that the start of all, or the
-      !> state after an event, may have makes it too great; then the derivative is taken at the start corrected by it.
+      !> Norm of the estimate (I - h J/u)^-1 h/u (f_0 + sum e_i Z_i/h), into `norm`. A stiff component that the start of all, or
+      !> the state after an event, may have makes it too great; then the derivative is taken at the start corrected by it.
       module subroutine estimate_error(self, system, h, status)
          implicit none (type, external)
          class(radau_t), intent(inout) :: self                 !! the integrator, stages found
@@ -157,9 +158,10 @@ contains
       status = merge(advance_step, advance_no_memory, status == 0)
    end subroutine radau_restart
 
-   !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are asked
-   !> for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the length; where it
-   !> does not converge, as beside a force that jumps, the polynomial of the whole step stands in, which is of order 3.
+   !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are
+   !> asked for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the
+   !> length; where it does not converge, as beside a force that jumps, the polynomial of the whole step stands in, which is of
+   !> order 3.
    subroutine radau_make_stages(self, system, h, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
@@ -226,8 +228,8 @@ contains
       self%now%h = 0.0_wp
    end subroutine go_on
 
-   !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on the
-   !> tangent there, which friction that begins to slide has its direction from.
+   !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on
+   !> the tangent there, which friction that begins to slide has its direction from.
    pure subroutine foresee(stages, t, h, f0, z)
       type(stages_t), intent(in) :: stages  !! the stages
       real(wp), intent(in) :: t             !! start of the step in hand [s]
@@ -267,7 +269,8 @@ contains
       norm = self%norm
    end function radau_error_norm
 
-   !> No evaluations: the derivatives at the stages are known. Those of another length, as a search in the step leaves them, are made again.
+   !> No evaluations: the derivatives at the stages are known. Those of another length, as a search in the step leaves them, are
+   !> made again.
    subroutine radau_prepare_output(self, system, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system

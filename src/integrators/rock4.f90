@@ -1,20 +1,20 @@
 !> Orthogonal Runge-Kutta-Chebyshev method of order 4: an explicit method for what dampers and films make stiff.
 !>
-!> A step has as many stages s as the fastest decay asks for: its stability reaches to -0.35 s^2 along the negative real axis, so that
-!> the work grows with the square root of the stiffness, and no Jacobian is needed. A recurrence of s - 4 stages is followed by four stages
-!> of a Runge-Kutta method (`rock4_stages`):
+!> A step has as many stages s as the fastest decay asks for: its stability reaches to -0.35 s^2 along the negative real axis, so
+!> that the work grows with the square root of the stiffness, and no Jacobian is needed. A recurrence of s - 4 stages is followed
+!> by four stages of a Runge-Kutta method (`rock4_stages`):
 !>
 !> $$ g_j = \mu_j h f(g_{j-1}) + \nu_j g_{j-1} + \kappa_j g_{j-2}, k_i = f(g_m + h \sum a_{ij} k_j), y_1 = g_m + h \sum b_i k_i $$
 !>
-!> The fastest decay is the spectral radius of the Jacobian, found anew after every event, every 25 steps and after a step that was rejected
-!> (`spectral_radius`). Parts of a step, in search of an event, have the degree of the whole.
+!> The fastest decay is the spectral radius of the Jacobian, found anew after every event, every 25 steps and after a step that
+!> was rejected (`spectral_radius`). Parts of a step, in search of an event, have the degree of the whole.
 !>
 !> Error: the combination of the last five derivatives that vanishes up to order 3. Between the ends of a step: the quintic of
 !> `interpolation`, without evaluations within the step, which stiff forces would make worse.
 !>
 !> Source: A. Abdulle, Fourth order Chebyshev methods with recurrence relation, SIAM J. Sci. Comput. 23 (2002) 2041-2054, with
-!> coefficients of our own. Limits: stiff springs that no damper goes with are followed, not damped: their steps are those of other explicit
-!> methods.
+!> coefficients of our own. Limits: stiff springs that no damper goes with are followed, not damped: their steps are those of
+!> other explicit methods.
 module rock4
    use integrator_controls, only: norm_euclidean
    use kind_info, only: kind_info_t

@@ -1,14 +1,15 @@
 !> The coefficients of `rock4` for each degree: recurrences from orthogonal polynomials, last stages from a table.
 !>
 !> With x = a + z/d, a = 1 - 1/s^2, a step of degree s of y' = z y multiplies by w(x) p(x) / (w(a) p(a)); p is the orthogonal
-!> polynomial of degree s - 4 for the weight w^2/sqrt(1 - x^2). Its recurrence p_j = (x - A_j) p_{j-1} - B_j p_{j-2}, with P_j = p_j(a),
-!> becomes that of the states
+!> polynomial of degree s - 4 for the weight w^2/sqrt(1 - x^2). Its recurrence p_j = (x - A_j) p_{j-1} - B_j p_{j-2}, with P_j =
+!> p_j(a), becomes that of the states
 !>
 !> $$ g_j = \mu_j h f(g_{j-1}) + \nu_j g_{j-1} + \kappa_j g_{j-2}, \mu_j = P_{j-1}/(d P_j), \nu_j = (a - A_j) P_{j-1}/P_j,
 !>    \kappa_j = -B_j P_{j-2}/P_j $$
 !>
 !> Source: A. Abdulle, Fourth order Chebyshev methods with recurrence relation, SIAM J. Sci. Comput. 23 (2002) 2041-2054; the
-!> numbers are those of scripts/make_rock4_table. Limits: degrees up to 162. Recurrences are found when a degree is first wanted, and kept.
+!> numbers are those of scripts/make_rock4_table. Limits: degrees up to 162. Recurrences are found when a degree is first wanted,
+!> and kept.
 module rock4_stages
    use kinds, only: wp
    implicit none (type, external)

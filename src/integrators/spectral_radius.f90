@@ -1,9 +1,10 @@
 !> The spectral radius of the Jacobian of a right-hand side, by the power method on differences.
 !>
-!> The change of the derivative by a small change of the state along it is the direction of the next one; the root of the product of
-!> two successive ratios tends to the radius, for pairs of imaginary eigenvalues, which a spring without a damper has, as well. All are
-!> measured over the error scales. Source: B. P. Sommeijer, L. F. Shampine and J. G. Verwer, RKC: an explicit solver for parabolic PDEs,
-!> J. Comput. Appl. Math. 88 (1998) 315-326. Limits: it comes from below; what is returned is larger by a fifth.
+!> The change of the derivative by a small change of the state along it is the direction of the next one; the root of the product
+!> of two successive ratios tends to the radius, for pairs of imaginary eigenvalues, which a spring without a damper has, as
+!> well. All are measured over the error scales. Source: B. P. Sommeijer, L. F. Shampine and J. G. Verwer, RKC: an explicit
+!> solver for parabolic PDEs, J. Comput. Appl. Math. 88 (1998) 315-326. Limits: it comes from below; what is returned is larger
+!> by a fifth.
 module spectral_radius
    use kinds, only: eps, wp
    use ode_system, only: ode_system_t
@@ -32,7 +33,7 @@ contains
       integer, intent(out) :: n_evaluation             !! evaluations
       integer, intent(out) :: status                   !! of the evaluations
 
-      real(wp) :: before, length, now, ratio, ratio_before
+      real(wp) :: before, length, now, ratio, ratio_before, step
       integer :: k, n
 
       n = system%n - system%n_quadrature
@@ -47,17 +48,16 @@ contains
          direction(:n) = scale(:n)
          length = length_of(n, direction, scale)
       end if
+      step = sqrt(eps)*max(1.0_wp, length_of(n, y, scale))
       do k = 1, most_iterations
-         associate (step => sqrt(eps)*max(1.0_wp, length_of(n, y, scale)))
-            moved = y
-            moved(:n) = y(:n) + step/length*direction(:n)
-            call system%evaluate(t, moved, rate, status)
-            n_evaluation = k
-            if (status /= 0) return
-            direction(:n) = rate(:n) - f(:n)
-            length = length_of(n, direction, scale)
-            ratio = length/step
-         end associate
+         moved = y
+         moved(:n) = y(:n) + step/length*direction(:n)
+         call system%evaluate(t, moved, rate, status)
+         n_evaluation = k
+         if (status /= 0) return
+         direction(:n) = rate(:n) - f(:n)
+         length = length_of(n, direction, scale)
+         ratio = length/step
          if (.not. ratio > 0.0_wp) exit
          now = sqrt(ratio*ratio_before)
          radius = max(now, merge(ratio, 0.0_wp, k == 1))

@@ -56,8 +56,9 @@ contains
       self%beta = beta
    end subroutine solution_set_gains
 
-   !> Find the least pivot of independent rows, at a start where no rows depend on others. A body that is light about one axis, as a thin rod,
-   !> makes small pivots of rows that are independent: where those of the start are small for that reason, smaller ones mean dependence.
+   !> Find the least pivot of independent rows, at a start where no rows depend on others. A body that is light about one axis,
+   !> as a thin rod, makes small pivots of rows that are independent: where those of the start are small for that reason, smaller
+   !> ones mean dependence.
    subroutine judge_pivots(self, inverse_mass, rows)
       class(solution_t), intent(inout) :: self                 !! the solution
       real(wp), intent(in), contiguous :: inverse_mass(:, 0:)  !! (n_v, 0:bodies) inverse masses, 0 if known [1/kg or 1/(kg.m^2)]
