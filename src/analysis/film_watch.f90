@@ -251,7 +251,8 @@ contains
                   call append_text(warnings, "joint '"//set%names(i)%s//"', film '"//set%laws%films%law%name// &
                                    "' is stiff: where it is thinnest it brings the journal to rest within "// &
                                    real_text(1.0e6_wp/decay, 2)//" us, and '"//method//"' takes steps of "// &
-                                   real_text(1.0e6_wp*joint%step, 2)//" us; method = bdf takes steps that follow the motion")
+                                   real_text(1.0e6_wp*joint%step, 2)//" us; method = bdf, or radau, takes steps that "// &
+                                   "follow the motion")
                end associate
             end do
          end associate
