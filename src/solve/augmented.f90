@@ -32,6 +32,7 @@ module augmented
    !> A way of solving the augmented equations.
    type, abstract :: augmented_t
       integer(i8) :: n_factorisations = 0      !! factorisations made
+      logical :: tests_pivots = .false.        !! whether small pivots show dependent rows, see `set_least_pivot`
       logical :: is_iterative = .false.        !! whether `solve_damped` may end without a solution of regular rows
       real(wp) :: left_over = 0.0_wp           !! greatest residual after `solve_damped`, of the greatest term [1]
       real(wp), allocatable :: residual(:)     !! (solved rows) residuals Phi_q a - b after it [m/s^2 or rad/s^2]

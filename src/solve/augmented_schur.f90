@@ -81,6 +81,7 @@ contains
       logical :: is_lone(n_body), is_taken(rows%n_solve)
       integer :: k, n
 
+      self%tests_pivots = .true.
       call find_lone_bodies(rows, self%lone)
       n = sum(self%lone%n)
       is_lone = .false.

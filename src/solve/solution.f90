@@ -67,6 +67,7 @@ contains
       real(wp), allocatable :: a(:, :), b(:), g(:, :), lambda(:)
       integer :: bad_row, level
 
+      if (.not. self%solver%tests_pivots .or. rows%n_solve == 0) return
       allocate (a, g, mold=self%a)
       allocate (b, lambda, mold=self%b)
       g = 0.0_wp

@@ -157,6 +157,7 @@ contains
       real(wp), parameter :: round_off = 1.0e-12_wp  ! of the root mean square [1]
 
       mean = self%mean(k)
+      if (.not. (self%n_sample > 1 .and. self%t_last > self%t_first)) return
       if (abs(mean) < round_off*self%rms(k)) mean = 0.0_wp
    end function shown_mean
 

@@ -41,10 +41,10 @@ def test_one_figure(gudgeon, tmp_path, scripts):
 
 
 def test_changes_of_a_deck(tmp_path, scripts):
-    """Keys are replaced, added and taken out in their section, sections added."""
+    """Tables are renamed; keys are replaced, added and taken out in their section, sections added."""
     deck = tmp_path / "small.deck"
-    deck.write_text("deck = 1\n[output]\nfigures = a b\nevery = 1 s\n[scene]\ntitle = x\n")
-    text = scripts[0].deck_text(deck, {"output": {"every": "2 s", "last": "1 s"}, "ensemble": {"runs": "1"}})
+    deck.write_text("deck = 1\n[output]\nfigures = a b\nevery = 1 s\n[stage]\ntitle = x\n")
+    text = scripts[0].deck_text(deck, {"output": {"every": "2 s", "last": "1 s"}, "ensemble": {"runs": "1"}}, {"stage": "scene"})
     assert text == "deck = 1\n[output]\nlast = 1 s\nevery = 2 s\n[scene]\ntitle = x\n\n[ensemble]\nruns = 1\n"
 
 
