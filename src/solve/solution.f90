@@ -65,6 +65,7 @@ contains
       type(rows_t), intent(in) :: rows                         !! rows, evaluated at the start
 
       real(wp), allocatable :: a(:, :), b(:), g(:, :), lambda(:)
+      integer(i8) :: n_before
       integer :: bad_row, level
 
       if (.not. self%solver%tests_pivots .or. rows%n_solve == 0) return
@@ -72,12 +73,14 @@ contains
       allocate (b, lambda, mold=self%b)
       g = 0.0_wp
       b = 0.0_wp
+      n_before = self%solver%n_factorisations
       do level = 1, 2
          call self%take_least_pivot(least_pivots(level))
          call self%solver%solve(inverse_mass, rows, g, b, a, lambda, bad_row)
          if (bad_row == 0) exit
       end do
       call self%take_least_pivot(least_pivots(merge(3, 1, level == 2)))
+      self%solver%n_factorisations = n_before  ! those of the motion are counted
    end subroutine judge_pivots
 
    !> Take the least pivot of independent rows.
