@@ -460,7 +460,7 @@ def test_with_run_time_checks(gudgeon_debug):
     """All methods, ways and solvers of a short motion with impacts, in the build with run-time checks."""
     text = plain_deck([("analysis.dynamic", "end", "2 ms")]) + ladders(finest="1e-6", step_decades=1)
     study = compared(gudgeon_debug, text, "--methods", "* verner.* verner.projection.*")
-    assert study.summary["settings"] == 6 + 7 + 5
+    assert study.summary["settings"] == 8 + 7 + 5
     assert study.summary["runs"] > 20
 
 

@@ -51,7 +51,7 @@ contains
       call settings_of(split_blank("*"), settings)
       call check_equal(error, size(settings), n_integrator_kinds, "all methods")
       call settings_of(split_blank("*.none.*"), settings)
-      call check_equal(error, size(settings), 30, "all methods and solvers")
+      call check_equal(error, size(settings), 5*n_integrator_kinds, "all methods and solvers")
    end subroutine test_words
 
    !> A wrong part is told with the nearest word.
