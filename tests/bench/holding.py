@@ -24,7 +24,7 @@ from runs import solve  # noqa: E402
 
 TOLERANCES = tuple(f"1e-{k}" for k in range(5, 11))
 STEPS = {"four-bar": ("0.4 ms", "0.2 ms", "0.1 ms", "0.05 ms", "0.025 ms"), "A02 N = 10": ("8 ms", "4 ms", "2 ms", "1 ms", "0.5 ms")}
-SPATIAL = {"A04 Bricard": METHODS, "A05 governor": ("bdf", "ida"), "spatial slider-crank": METHODS}  # multistep methods of each
+SPATIAL = {"A04 Bricard": METHODS, "A05 governor": ("radau", "bdf", "ida"), "spatial slider-crank": METHODS}  # multistep methods of each
 SCENES = (*STEPS, *SPATIAL)
 COLUMNS = ("scene", "method", "tolerance", "error", "violation", "energy_drift", "cpu_ms", "steps", "verdict")
 

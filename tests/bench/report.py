@@ -35,8 +35,9 @@ PARTS = (
      "plane, and translated to space. Instructions of a right-hand side (callgrind); onsets of the first five impacts against the plane's."),
     ("peers/peers_ratio.csv", None, "Other programs on the same scenes (`make bench-peers`)",
      "Time of Simbody (Runge-Kutta-Merson and -Fehlberg; Adams of CPODES for chains), MuJoCo (RK4, implicitfast) and Exudyn (kinematic "
-     "tree with DOPRI5 for chains, index-2 trapezoidal rule for loops) over gudgeon's (verner, ledger off) at the same error; each by its "
-     "cheapest setting. Empty: that error is not reached, or the program is not tried on that scene: contact laws as these cannot be "
+     "tree with DOPRI5 for chains, index-2 trapezoidal rule for loops) over gudgeon's (verner, in space dop853 too, for the governor "
+     "radau; ledger off) at the same error; each by its cheapest setting. Empty: that error is not reached, or the program is not tried "
+     "on that scene: contact laws as these cannot be "
      "given to MuJoCo's and Exudyn's compiled code. Errors: greatest distance of a centre of mass at the end, over the scene's size; "
      "of the slider-crank and of the pendulum in a loose ball and socket the greatest of ten onsets [s]."),
 )
