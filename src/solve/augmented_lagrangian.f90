@@ -33,6 +33,7 @@ module augmented_lagrangian
    integer, parameter :: n_iteration = 40         !! iterations, at most
 
    !> Penalty matrix with its structure.
+   !> Components: five are of every solver, the rest are the matrix and what one iteration leaves to the next.
    type, extends(augmented_t) :: augmented_lagrangian_t
       real(wp) :: penalty = 1.0e5_wp              !! of a violated row, of its inverse effective mass [1]
       type(envelope_t) :: k                       !! penalty matrix, then its factors

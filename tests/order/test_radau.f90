@@ -1,7 +1,7 @@
 !> Radau IIA: its order, what is stiff, its error estimate, what it knows between the ends of a step.
 module test_radau
    use check, only: check_close, check_equal, check_true, suite_t
-   use convergence, only: check_order, converge
+   use convergence, only: check_order, check_quadratures, check_tolerances, converge
    use errors, only: error_t
    use kinds, only: wp
    use ode_examples, only: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t, run_to
@@ -177,27 +177,10 @@ contains
       call check_close(error, method%step%y1([2, 4]), [cos(10.0_wp), -sin(10.0_wp)], 1.0e-7_wp, "soft spring")
    end subroutine test_spring
 
-   !> Ten times the tolerance, about ten times the error.
    subroutine test_tolerance(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(kepler_t) :: system
-      type(radau_t), allocatable :: method
-      real(wp) :: errors(7), y(4)
-      integer :: k, status
-
-      call new_kepler(0.5_wp, system, y)
-      do k = 1, size(errors)
-         allocate (method)
-         method%controls%tolerance = 0.1_wp**(k + 2)
-         call method%start(system, 0.0_wp, y, 20.0_wp, status)
-         call run_to(method, system, 20.0_wp, status)
-         errors(k) = norm2(method%step%y1 - system%exact(20.0_wp))
-         call check_equal(error, status, 0, "status")
-         deallocate (method)
-      end do
-      call check_true(error, all(errors(1:6) > errors(2:7)), "error falls with the tolerance")
-      call check_close(error, log10(errors(1)/errors(7)), 6.0_wp, 1.3_wp, "decades of error over six of tolerance")
+      call check_tolerances("radau", 6, 1.3_wp, error)
    end subroutine test_tolerance
 
    !> States within a step by the method itself are of its order and smooth in the length: differences of neighbours are small.
@@ -223,27 +206,10 @@ contains
       end do
    end subroutine test_parts
 
-   !> Every step is the same, bit for bit, with quadratures and without.
    subroutine test_quadratures(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(pendulum_t) :: plain, rich
-      type(radau_t) :: first, second
-      real(wp), allocatable :: y(:), z(:)
-      integer :: k, status
-
-      call new_pendulum(0.9_wp, .false., plain, y)
-      call new_pendulum(0.9_wp, .true., rich, z)
-      z(3:4) = [1.0e6_wp, -1.0e6_wp]
-      first%controls%tolerance = 1.0e-7_wp
-      second%controls = first%controls
-      call first%start(plain, 0.0_wp, y, 60.0_wp, status)
-      call second%start(rich, 0.0_wp, z, 60.0_wp, status)
-      do k = 1, 60
-         call first%advance(plain, 60.0_wp, status)
-         call second%advance(rich, 60.0_wp, status)
-         call check_close(error, [second%t, second%step%y1(1:2)], [first%t, first%step%y1], 0.0_wp, "a step")
-      end do
+      call check_quadratures("radau", error)
    end subroutine test_quadratures
 
 end module test_radau

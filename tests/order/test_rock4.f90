@@ -1,7 +1,7 @@
 !> The Runge-Kutta-Chebyshev method: order and stability of every degree, the spectral radius, the work that stiffness costs.
 module test_rock4
    use check, only: check_close, check_equal, check_true, suite_t
-   use convergence, only: check_order, converge
+   use convergence, only: check_order, check_quadratures, check_tolerances, converge
    use errors, only: error_t
    use kinds, only: wp
    use ode_examples, only: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t, &
@@ -253,50 +253,16 @@ contains
       call check_true(error, evaluations(2) < 40000.0_wp, "a tenth of what such a decay costs Verner's method")
    end subroutine test_work
 
-   !> Ten times the tolerance, about ten times the error.
    subroutine test_tolerance(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(kepler_t) :: system
-      type(rock4_t), allocatable :: method
-      real(wp) :: errors(6), y(4)
-      integer :: k, status
-
-      call new_kepler(0.5_wp, system, y)
-      do k = 1, size(errors)
-         allocate (method)
-         method%controls%tolerance = 0.1_wp**(k + 2)
-         call method%start(system, 0.0_wp, y, 20.0_wp, status)
-         call run_to(method, system, 20.0_wp, status)
-         errors(k) = norm2(method%step%y1 - system%exact(20.0_wp))
-         call check_equal(error, status, 0, "status")
-         deallocate (method)
-      end do
-      call check_true(error, all(errors(1:5) > errors(2:6)), "error falls with the tolerance")
-      call check_close(error, log10(errors(1)/errors(6)), 5.0_wp, 1.0_wp, "decades of error over five of tolerance")
+      call check_tolerances("rock4", 5, 1.0_wp, error)
    end subroutine test_tolerance
 
-   !> Every step is the same, bit for bit, with quadratures and without.
    subroutine test_quadratures(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(pendulum_t) :: plain, rich
-      type(rock4_t) :: first, second
-      real(wp), allocatable :: y(:), z(:)
-      integer :: k, status
-
-      call new_pendulum(0.9_wp, .false., plain, y)
-      call new_pendulum(0.9_wp, .true., rich, z)
-      z(3:4) = [1.0e6_wp, -1.0e6_wp]
-      first%controls%tolerance = 1.0e-7_wp
-      second%controls = first%controls
-      call first%start(plain, 0.0_wp, y, 60.0_wp, status)
-      call second%start(rich, 0.0_wp, z, 60.0_wp, status)
-      do k = 1, 60
-         call first%advance(plain, 60.0_wp, status)
-         call second%advance(rich, 60.0_wp, status)
-         call check_close(error, [second%t, second%step%y1(1:2)], [first%t, first%step%y1], 0.0_wp, "a step")
-      end do
+      call check_quadratures("rock4", error)
    end subroutine test_quadratures
 
 end module test_rock4
