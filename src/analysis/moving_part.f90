@@ -166,7 +166,9 @@ contains
             return
          end if
          step_hint = 0.0_wp
+         system%traits%contact_begins = .false.
          do k = 1, method%events%n_happened
+            system%traits%contact_begins = system%traits%contact_begins .or. system%is_onset(method%events%happened(k))
             ways(:, k) = sliding_way(system, method%events%happened(k))
          end do
          do k = 1, method%events%n_happened

@@ -15,26 +15,32 @@ module event_prediction
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: time_to_event
+   public :: foretell_event
 
 contains
 
    !> Time from the end of the last step to the first event foretold; huge if there is none.
-   pure real(wp) function time_to_event(events, h) result(time)
+   pure subroutine foretell_event(events, h, time, event)
       type(event_values_t), intent(in) :: events  !! event functions at both ends of the last step
       real(wp), intent(in) :: h                   !! its length [s]
+      real(wp), intent(out) :: time               !! to the event [s]
+      integer, intent(out) :: event               !! its function, 0: none
 
-      real(wp) :: bend, root
+      real(wp) :: ahead, bend, root
       integer :: k
 
       time = huge(1.0_wp)
+      event = 0
       do k = 1, size(events%g1)
          if (events%is_hidden(k) .or. events%g1(k) >= 0.0_wp .or. events%rate1(k) <= 0.0_wp) cycle
          bend = (6.0_wp*(events%g0(k) - events%g1(k))/h + 2.0_wp*events%rate0(k) + 4.0_wp*events%rate1(k))/h
          root = events%rate1(k)**2 - 2.0_wp*bend*events%g1(k)
          if (root <= 0.0_wp) cycle
-         time = min(time, -2.0_wp*events%g1(k)/(events%rate1(k) + sqrt(root)))
+         ahead = -2.0_wp*events%g1(k)/(events%rate1(k) + sqrt(root))
+         if (ahead >= time) cycle
+         time = ahead
+         event = k
       end do
-   end function time_to_event
+   end subroutine foretell_event
 
 end module event_prediction

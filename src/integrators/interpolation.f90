@@ -12,6 +12,7 @@
 module interpolation
    use kinds, only: wp
    use rotations, only: rate_of_parameters, second_rate_of_parameters, spin_of
+   use step_course, only: course_even
    implicit none (type, external)
    private
    public :: inner_places, interpolate, step_t
@@ -26,6 +27,7 @@ module interpolation
    type :: step_t
       real(wp) :: t0 = 0.0_wp                      !! time at its start [s]
       real(wp) :: h = 0.0_wp                       !! its length [s]
+      integer :: course = course_even              !! how time goes along it, see `step_course`
       logical :: has_inner = .false.               !! whether `inner` holds the derivatives at the inner places
       real(wp), allocatable :: y0(:), y1(:)        !! (n) state at its ends [any]
       real(wp), allocatable :: f0(:), f1(:)        !! (n) derivative at its ends [any]

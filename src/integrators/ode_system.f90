@@ -23,6 +23,7 @@ module ode_system
    type :: ode_traits_t
       integer :: n_turning = 0              !! bodies that turn in space, the first ones
       logical :: follows_step = .false.     !! whether `set_step` changes the derivative
+      logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
       logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
    end type ode_traits_t
 
@@ -45,6 +46,7 @@ module ode_system
       procedure :: hold => ode_hold
       procedure :: mend => ode_mend
       procedure :: is_onset => ode_is_onset
+      procedure :: is_parting => ode_is_parting
    end type ode_system_t
 
    abstract interface
@@ -150,5 +152,13 @@ contains
 
       is_onset = .false. .and. k <= self%n_event
    end function ode_is_onset
+
+   !> Whether event k, as things stand, is the end of a contact.
+   logical function ode_is_parting(self, k) result(is_parting)
+      class(ode_system_t), intent(in) :: self  !! the system
+      integer, intent(in) :: k                 !! number of the event function
+
+      is_parting = .false. .and. k <= self%n_event
+   end function ode_is_parting
 
 end module ode_system

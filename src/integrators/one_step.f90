@@ -8,7 +8,7 @@
 !> time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
    use event_location, only: find_first_event
-   use event_prediction, only: time_to_event
+   use event_prediction, only: foretell_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations
    use integrator, only: advance_too_many_steps, advance_too_small, integrator_t
    use integrator_controls, only: onset_located, onset_reject
@@ -27,6 +27,7 @@ module one_step
       type(step_control_t) :: pace     !! length of the steps
       integer :: order = 1             !! order of the method; the estimate falls as the step to this power
       integer :: n_new_stage = 0       !! evaluations of `make_stages`
+      logical :: bends = .false.       !! it knows how time goes as a square, see `step_course`
    contains
       procedure(prepare_interface), deferred :: prepare
       procedure(stages_interface), deferred :: make_stages
@@ -35,6 +36,7 @@ module one_step
       procedure :: advance => one_step_advance
       procedure :: restart => one_step_restart
       procedure :: refine => one_step_refine
+      procedure, nopass :: memory_version => one_step_memory_version
       procedure :: memory_size => one_step_memory_size
       procedure :: save => one_step_save
       procedure :: load => one_step_load
@@ -42,7 +44,7 @@ module one_step
    end type one_step_t
 
    abstract interface
-      !> Room for the stages; sets `order` and `n_new_stage`.
+      !> Room for the stages; sets `order`, `n_new_stage` and, if so, `bends`.
       subroutine prepare_interface(self, n)
          import :: one_step_t
          implicit none (type, external)
@@ -101,7 +103,7 @@ contains
       self%step%t0 = t
       self%step%h = 0.0_wp
       self%step%y1 = y
-      self%pace = step_control_t(order=real(self%order, wp))
+      self%pace = step_control_t(order=real(self%order, wp), bends=self%bends .and. self%controls%onset == onset_located)
       call self%restart(system, 0.0_wp, status)
       if (status /= advance_step) return
       self%pace%h_next = self%controls%initial_step
@@ -142,7 +144,7 @@ contains
       status = advance_step
       if (system%n_event > 0) call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call begin_control(system, self)
-      call self%pace%disturb(step_hint)
+      call self%pace%disturb(step_hint, system%traits%contact_begins)
    end subroutine one_step_restart
 
    !> One accepted step, to an event if there is one on the way.
@@ -165,6 +167,7 @@ contains
          if (status /= advance_step) return
          h = self%controls%fixed_step
          if (.not. is_fixed) h = max(self%pace%length(), least)
+         self%step%course = self%pace%course
          h = min(h, greatest)
          if (self%controls%maximum_step > 0.0_wp) h = min(h, self%controls%maximum_step)
          is_last = self%step%t0 + h*(1.0_wp + 1.0e-10_wp) >= t_stop
@@ -270,7 +273,9 @@ contains
       if (system%n_event == 0) return
       call system%last_events(self%t, self%step%y1, self%events%g1, self%events%rate1)
       if (self%controls%onset /= onset_located) call end_controlled_step(self)
-      self%pace%h_event = time_to_event(self%events, self%step%h)
+      call foretell_event(self%events, self%step%h, self%pace%h_event, event)
+      self%pace%is_parting = .false.
+      if (event > 0) self%pace%is_parting = system%is_parting(event)
       call find_first_event(system, self, event, low, high)
       if (event > 0) call go_to_event(self, system, low, high, event, status)
       if (self%controls%onset /= onset_located .and. status >= 0) call meet_onsets(system, self, status)
@@ -304,6 +309,11 @@ contains
       status = advance_step
       y = self%trial
    end subroutine one_step_refine
+
+   !> Version of the form of what is saved.
+   pure integer function one_step_memory_version() result(version)
+      version = 2
+   end function one_step_memory_version
 
    !> Numbers that a checkpoint needs.
    integer function one_step_memory_size(self) result(n)

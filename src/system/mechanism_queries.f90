@@ -180,6 +180,12 @@ contains
       is_onset = .not. self%loose%sets(slot)%set%contact(item)%is_touching
    end procedure mechanism_is_onset
 
+   !> Whether event k, as things stand, is the end of a contact.
+   module procedure mechanism_is_parting
+      is_parting = self%loose%functions%kind_of(k) == touch_function
+      if (is_parting) is_parting = .not. self%is_onset(k)
+   end procedure mechanism_is_parting
+
    !> Set of a contact and its place there by its number.
    module procedure mechanism_find_contact
       do slot = 1, size(self%loose%sets)

@@ -5,7 +5,7 @@ module ode_examples
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t
+   public :: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t, root_t
    public :: run_to, slope
 
    !> A system without events whose error scales are all one.
@@ -38,6 +38,14 @@ module ode_examples
    contains
       procedure :: evaluate => power_evaluate
    end type power_t
+
+   !> y' = 2.5 |t - root|^1.5 y: as velocities where a contact begins or ends.
+   type, extends(plain_t) :: root_t
+      real(wp) :: root = 0.0_wp  !! where it is [s]
+   contains
+      procedure :: evaluate => root_evaluate
+      procedure :: exact => root_exact
+   end type root_t
 
    !> y_k' = rate_k y_k; cannot be evaluated after a time.
    type, extends(plain_t) :: growth_t
@@ -292,5 +300,25 @@ contains
       g = self%side*(y(self%subject) - self%wall)
       rate = self%side*y(self%n_position + self%subject)
    end subroutine particles_events
+
+   !> y' = 2.5 |t - root|^1.5 y.
+   subroutine root_evaluate(self, t, y, ydot, status)
+      class(root_t), intent(inout) :: self   !! the system
+      real(wp), intent(in) :: t              !! time [s]
+      real(wp), intent(in) :: y(self%n)      !! (1) state [1]
+      real(wp), intent(out) :: ydot(self%n)  !! (1) its derivative [1/s]
+      integer, intent(out) :: status         !! 0
+
+      ydot = 2.5_wp*abs(t - self%root)**1.5_wp*y
+      status = 0
+   end subroutine root_evaluate
+
+   !> The solution that is 1 at the root.
+   pure real(wp) function root_exact(self, t) result(y)
+      class(root_t), intent(in) :: self   !! the system
+      real(wp), intent(in) :: t           !! time [s]
+
+      y = exp(sign(abs(t - self%root)**2.5_wp, t - self%root))
+   end function root_exact
 
 end module ode_examples

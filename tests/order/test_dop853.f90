@@ -6,7 +6,8 @@ module test_dop853
    use errors, only: error_t
    use integrator_controls, only: norm_euclidean, norm_scaled
    use kinds, only: eps, wp
-   use ode_examples, only: kepler_t, new_kepler, new_pendulum, pendulum_t, power_t, run_to
+   use ode_examples, only: kepler_t, new_kepler, new_pendulum, pendulum_t, power_t, root_t, run_to
+   use step_course, only: along, course_even, course_from_root, course_to_root, pace_at, parameter_of
    implicit none (type, external)
    private
    public :: run_test_dop853
@@ -23,6 +24,8 @@ contains
       call suite%test("polynomials_up_to_degree_8_are_exact", test_polynomials)
       call suite%test("interpolant_has_order_7", test_interpolant)
       call suite%test("interpolant_after_a_search_within_the_step", test_after_a_search)
+      call suite%test("how_time_goes", test_course)
+      call suite%test("order_where_a_force_begins_or_ends", test_roots)
       call suite%test("error_follows_the_tolerance", test_tolerance)
       call suite%test("quadratures_stay_out_of_the_norm", test_quadratures)
    end subroutine run_test_dop853
@@ -128,6 +131,81 @@ contains
       call check_order(error, rich, 7.5_wp, 8.5_wp, "with its stages")
       call check_order(error, poor, 4.5_wp, 5.5_wp, "without")
    end subroutine test_interpolant
+
+   !> Places, paces and parameters of each course belong together; a course begins at 0 and ends at 1.
+   subroutine test_course(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: far = 1.0e-5_wp
+      real(wp) :: s
+      integer :: course, k
+
+      do course = course_even, course_to_root
+         call check_close(error, along(course, [0.0_wp, 1.0_wp]), [0.0_wp, 1.0_wp], 0.0_wp, "ends")
+         do k = 1, 9
+            s = 0.1_wp*k
+            call check_close(error, parameter_of(course, along(course, s)), s, 4.0_wp*eps, "parameter")
+            call check_close(error, pace_at(course, s), (along(course, s + far) - along(course, s - far))/(2.0_wp*far), &
+                             1.0e-9_wp, "pace")
+         end do
+      end do
+      call check_close(error, [pace_at(course_from_root, 0.0_wp), pace_at(course_to_root, 1.0_wp)], [0.0_wp, 0.0_wp], 0.0_wp, &
+                       "time stands at the roots")
+   end subroutine test_course
+
+   !> Errors of one step and of its interpolant: of the order h^2.5 where time goes evenly, h^5 where it goes as a square: of
+   !> y = exp(s^5) the powers to s^8 are met, and s^9 has none.
+   subroutine test_roots(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp) :: at_end(n_halving, 2), between(n_halving, 2)
+      integer :: k, way
+
+      do way = course_from_root, course_to_root
+         do k = 1, n_halving
+            call make_step(way, 0.4_wp/2.0_wp**(k - 1), way, at_end(k, 1), between(k, 1))
+            call make_step(way, 0.4_wp/2.0_wp**(k - 1), course_even, at_end(k, 2), between(k, 2))
+         end do
+         call check_order(error, at_end(:, 1), 4.4_wp, 5.6_wp, "as a square")
+         call check_order(error, at_end(:, 2), 2.3_wp, 2.7_wp, "evenly")
+         call check_order(error, between(:, 1), 3.9_wp, 5.6_wp, "between, as a square")
+         call check_order(error, between(:, 2), 2.2_wp, 2.8_wp, "between, evenly")
+         call check_true(error, between(n_halving, 1) < 0.02_wp*between(n_halving, 2), "much better")
+      end do
+   end subroutine test_roots
+
+   !> One step from a root, or to one, and its greatest error there and between.
+   subroutine make_step(way, h, course, at_end, between)
+      integer, intent(in) :: way        !! course_from_root: the root is at the start; course_to_root: at the end
+      real(wp), intent(in) :: h         !! length of the step [s]
+      integer, intent(in) :: course     !! how time goes
+      real(wp), intent(out) :: at_end   !! error at the end [1]
+      real(wp), intent(out) :: between  !! greatest error of the interpolant [1]
+
+      type(root_t) :: system
+      type(dop853_t) :: method
+      real(wp) :: t, y(1)
+      integer :: k, status
+
+      system%n = 1
+      if (way == course_to_root) system%root = h
+      call method%start(system, 0.0_wp, [system%exact(0.0_wp)], h, status)
+      call method%begin_step()
+      method%step%course = course
+      call method%make_stages(system, h, status)
+      method%step%h = h
+      method%t = h
+      method%step%y1 = method%trial
+      call system%evaluate(h, method%step%y1, method%step%f1, status)
+      at_end = abs(method%step%y1(1) - system%exact(h))
+      call method%prepare_output(system, status)
+      between = 0.0_wp
+      do k = 1, 19
+         t = 0.05_wp*k*h
+         call method%state_at(system, t, y)
+         between = max(between, abs(y(1) - system%exact(t)))
+      end do
+   end subroutine make_step
 
    !> `refine` uses the room of the stages: the interpolant afterwards is the same.
    subroutine test_after_a_search(error)

@@ -128,7 +128,7 @@ contains
          call method%start(system, t, y, t + 100.0_wp*h, status)
          call method%advance(system, t + 100.0_wp*h, status)
          if (method%count%n_rejected == 0 .and. method%pace%h_next < 3.99_wp*h) then
-            estimate = tolerance*(0.9_wp*h/method%pace%h_next)**6
+            estimate = tolerance*(0.93_wp*h/method%pace%h_next)**(6.0_wp/0.8125_wp)
             return
          end if
          deallocate (method)
