@@ -9,10 +9,11 @@ module contact_peaks
    use mechanism, only: mechanism_t
    implicit none (type, external)
    private
-   public :: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, peak_t, trend_t
+   public :: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, may_exceed, peak_t, trend_t
 
    real(wp), parameter :: near_depth = 3.0e-5_wp  !! what a parabola may add to a maximum of the penetration, of it [1]
    real(wp), parameter :: near_force = 1.0e-8_wp  !! what may be missing to a maximum of the force, of it [1]
+   real(wp), parameter :: close_by = 0.25_wp      !! rise above the ends of a step that are near a maximum, of them [1]
    integer, parameter :: n_search = 24            !! places looked at in search of a maximum
    integer, parameter :: n_halving = 3            !! one of so many is the middle
    integer, parameter :: n_smooth = 5             !! places before the first middle
@@ -87,6 +88,26 @@ contains
          call narrow(place, here, bracket)
       end do
    end subroutine find_penetration_peak
+
+   !> Whether a maximum within a step may be greater than a value. It is not if the ends are near it and the cubic of Hermite through
+   !> them would have to rise above them more than twice as high as it does.
+   pure logical function may_exceed(left, right, h, value)
+      type(trend_t), intent(in) :: left    !! what is at the start of the step
+      type(trend_t), intent(in) :: right   !! what is at its end
+      real(wp), intent(in) :: h            !! length of the step [s]
+      real(wp), intent(in) :: value        !! the value [N or m]
+
+      real(wp) :: greater, rise, s
+      type(bracket_t) :: bracket
+
+      bracket = bracket_t(h=h, a=left, b=right)
+      s = maximum_in(bracket)
+      greater = max(left%value, right%value)
+      rise = left%value*(1.0_wp + 2.0_wp*s)*(1.0_wp - s)**2 + right%value*s*s*(3.0_wp - 2.0_wp*s) &
+             + h*s*(1.0_wp - s)*(left%rate*(1.0_wp - s) - right%rate*s) - greater
+      may_exceed = .not. (rise <= close_by*greater .and. min(left%value, right%value) > 0.5_wp*greater &
+                          .and. greater + 2.0_wp*rise < value)
+   end function may_exceed
 
    !> Maximum of the normal force within the last step, first sought on its interpolant; the place that was found, and others if it
    !> is not the one, are reached by the method itself, so that the force is as accurate as the step.

@@ -45,8 +45,12 @@ contains
       if (self%friction%grips%n_bristle > 0) call self%bristle_weights(scale)
       swing = -1.0_wp
       do k = 1, size(self%loose%sets)
-         if (self%loose%sets(k)%set%n_touching == 0) cycle
-         swing = max(swing, maxval(self%loose%sets(k)%set%contact%swing, mask=self%loose%sets(k)%set%contact%is_touching))
+         associate (set => self%loose%sets(k)%set)
+            if (set%n_touching == 0) cycle
+            do i = 1, set%n_contact
+               if (set%contact(i)%is_touching) swing = max(swing, set%contact(i)%swing)
+            end do
+         end associate
       end do
       if (swing < 0.0_wp) return
       rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%linkage%scales%tolerance*rate))
