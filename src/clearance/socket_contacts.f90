@@ -84,6 +84,8 @@ module socket_contacts
 
 contains
 
+   include "../math/space_vectors.inc"
+
    !> Measure the contacts that act.
    subroutine socket_measure_acting(self, motion)
       class(socket_contacts_t), intent(inout) :: self  !! the set; kinematics are set
@@ -111,33 +113,53 @@ contains
       type(motion_t), intent(in) :: motion             !! positions and velocities
       type(point_contact_t), intent(inout) :: contact  !! its kinematics
 
-      type(station_t) :: at
-      real(wp) :: distance, normal(3), reach(3)
-      integer :: i, item, j
+      integer :: item
 
       item = (k - 1)/self%n_contact_item + 1
-      i = self%items%body(1, item)
-      j = self%items%body(2, item)
-      associate (socket => self%socket(item))
-         at = station_of(socket, k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), i, j, motion)
-         distance = norm2(at%e)
-         normal = socket%side*direction_of(at, distance)
-         contact%delta = socket%side*distance - socket%clearance
-         if (.not. at%is_there) contact%delta = -socket%clearance
-         contact%normal = normal
-         if (any(abs(at%pin) > 0.0_wp)) then
-            contact%normal = normal - dot_product(normal, at%pin)/dot_product(at%u, at%pin)*at%u
-         end if
-         contact%rate = dot_product(contact%normal, at%w)
-         reach = (socket%radius_j - 0.5_wp*contact%delta)*contact%normal
-         contact%arm_j = at%arm_j + reach
-         contact%arm_i = motion%r(:, j) + contact%arm_j - motion%r(:, i)
-      end associate
-      if (.not. with_sliding) return
-      call set_sliding(motion, i, j, contact)
+      call measure_socket(self%socket(item), k - (item - 1)*self%n_contact_item, self%items%s_i(:, item), self%items%s_j(:, item), &
+                          self%items%body(1, item), self%items%body(2, item), ubound(motion%r, 2), motion%r, motion%rot, motion%v, &
+                          motion%omega, contact)
+      if (with_sliding) call set_sliding(motion, self%items%body(1, item), self%items%body(2, item), contact)
    end subroutine measure_one
 
-   !> Where a ball or base is.
+   !> All but the sliding velocity, on plain arrays.
+   pure subroutine measure_socket(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, contact)
+      type(socket_t), intent(in) :: socket                !! the surfaces
+      integer, intent(in) :: base                         !! of a bushing: 1 or 2, of the two ends of the pin
+      real(wp), intent(in) :: s_i(3)                      !! (3) centre of socket or bushing, frame of body i [m]
+      real(wp), intent(in) :: s_j(3)                      !! (3) centre of ball or pin, frame of body j [m]
+      integer, intent(in) :: i                            !! body i
+      integer, intent(in) :: j                            !! body j
+      integer, intent(in) :: n_body                       !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)              !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)         !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)              !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)          !! (3, 0:bodies) angular velocities, world frame [rad/s]
+      type(point_contact_t), intent(inout) :: contact     !! its kinematics
+
+      type(station_t) :: at
+      real(wp) :: distance, normal(3), reach
+
+      call find_station(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
+      distance = sqrt(at%e(1)**2 + at%e(2)**2 + at%e(3)**2)
+      if (distance > tiny(1.0_wp)) then
+         normal = socket%side*(at%e/distance)
+      else
+         normal = socket%side*direction_of(at, distance)
+      end if
+      contact%delta = socket%side*distance - socket%clearance
+      if (.not. at%is_there) contact%delta = -socket%clearance
+      if (socket%has_axis) then
+         if (any(abs(at%pin) > 0.0_wp)) normal = normal - dot_product(normal, at%pin)/dot_product(at%u, at%pin)*at%u
+      end if
+      contact%normal = normal
+      contact%rate = normal(1)*at%w(1) + normal(2)*at%w(2) + normal(3)*at%w(3)
+      reach = socket%radius_j - 0.5_wp*contact%delta
+      contact%arm_j = at%arm_j + reach*normal
+      contact%arm_i = r(:, j) + contact%arm_j - r(:, i)
+   end subroutine measure_socket
+
+   !> Where a ball or base is, at a motion.
    pure function station_of(socket, base, s_i, s_j, i, j, motion) result(at)
       type(socket_t), intent(in) :: socket   !! the surfaces
       integer, intent(in) :: base            !! of a bushing: 1 or 2, of the two ends of the pin
@@ -148,19 +170,37 @@ contains
       type(motion_t), intent(in) :: motion   !! positions and velocities
       type(station_t) :: at                  !! the station
 
+      call find_station(socket, base, s_i, s_j, i, j, ubound(motion%r, 2), motion%r, motion%rot, motion%v, motion%omega, at)
+   end function station_of
+
+   !> The same on plain arrays.
+   pure subroutine find_station(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
+      type(socket_t), intent(in) :: socket            !! the surfaces
+      integer, intent(in) :: base                     !! of a bushing: 1 or 2, of the two ends of the pin
+      real(wp), intent(in) :: s_i(3)                  !! (3) centre of socket or bushing, frame of body i [m]
+      real(wp), intent(in) :: s_j(3)                  !! (3) centre of ball or pin, frame of body j [m]
+      integer, intent(in) :: i                        !! body i
+      integer, intent(in) :: j                        !! body j
+      integer, intent(in) :: n_body                   !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)          !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)     !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(in) :: v(3, 0:n_body)          !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: omega(3, 0:n_body)      !! (3, 0:bodies) angular velocities, world frame [rad/s]
+      type(station_t), intent(out) :: at              !! the station
+
       real(wp) :: arm_i(3), cosine, place, side, zeta
 
-      arm_i = turned(motion, i, s_i)
-      at%arm_j = turned(motion, j, s_j)
+      arm_i = turned(rot(:, :, i), s_i)
+      at%arm_j = turned(rot(:, :, j), s_j)
       if (socket%has_axis) then
          side = real(2*base - 3, wp)
          place = side*socket%half_j
-         at%u = turned(motion, i, socket%axis_i)
-         at%pin = turned(motion, j, socket%axis_j)
+         at%u = turned(rot(:, :, i), socket%axis_i)
+         at%pin = turned(rot(:, :, j), socket%axis_j)
          if (socket%has_ends) then
             ! stations of the pin's axis in the bushing: zeta(place) = zeta + place u . u_j, between the ends
             cosine = dot_product(at%u, at%pin)
-            zeta = dot_product(motion%r(:, j) + at%arm_j - motion%r(:, i) - arm_i, at%u)
+            zeta = dot_product(r(:, j) + at%arm_j - r(:, i) - arm_i, at%u)
             at%is_there = abs(zeta) < socket%half_i + socket%half_j*abs(cosine)
             if (abs(zeta + place*cosine) > socket%half_i .and. at%is_there) then
                place = (sign(socket%half_i, zeta + place*cosine) - zeta)/cosine
@@ -174,10 +214,11 @@ contains
             at%pin = 0.0_wp
          end if
       end if
-      at%rho = motion%r(:, j) + at%arm_j - motion%r(:, i) - arm_i
-      at%w = motion%v(:, j) + cross(motion%omega(:, j), at%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), arm_i + at%rho)
-      at%e = at%rho - dot_product(at%rho, at%u)*at%u
-   end function station_of
+      at%rho = r(:, j) + at%arm_j - r(:, i) - arm_i
+      at%w = v(:, j) + across(omega(:, j), at%arm_j) - v(:, i) - across(omega(:, i), arm_i + at%rho)
+      at%e = at%rho
+      if (socket%has_axis) at%e = at%rho - dot_product(at%rho, at%u)*at%u
+   end subroutine find_station
 
    !> Direction of the eccentricity; of none, that of the velocity, or any across the axis.
    pure function direction_of(at, distance) result(normal)
@@ -201,16 +242,6 @@ contains
          normal = [1.0_wp, 0.0_wp, 0.0_wp]
       end if
    end function direction_of
-
-   !> A vector of a body in the world.
-   pure function turned(motion, body, s) result(a)
-      type(motion_t), intent(in) :: motion   !! positions
-      integer, intent(in) :: body            !! the body
-      real(wp), intent(in) :: s(3)           !! (3) body's frame [any]
-      real(wp) :: a(3)                       !! (3) world frame [any]
-
-      a = motion%rot(:, 1, body)*s(1) + motion%rot(:, 2, body)*s(2) + motion%rot(:, 3, body)*s(3)
-   end function turned
 
    !> Second derivative of a penetration by time.
    pure real(wp) function socket_penetration_acceleration(self, k, motion, contact) result(acceleration)
@@ -264,10 +295,10 @@ contains
       integer :: c
 
       associate (socket => self%socket(item), i => self%items%body(1, item), j => self%items%body(2, item))
-         d = motion%r(:, j) + turned(motion, j, self%items%s_j(:, item)) - motion%r(:, i) &
-             - turned(motion, i, self%items%s_i(:, item))
-         u = turned(motion, i, socket%axis_i)
-         pin = turned(motion, j, socket%axis_j)
+         d = motion%r(:, j) + turned(motion%rot(:, :, j), self%items%s_j(:, item)) - motion%r(:, i) &
+             - turned(motion%rot(:, :, i), self%items%s_i(:, item))
+         u = turned(motion%rot(:, :, i), socket%axis_i)
+         pin = turned(motion%rot(:, :, j), socket%axis_j)
          cosine = dot_product(u, pin)
          zeta = dot_product(d, u)
          select case (code)
@@ -276,7 +307,7 @@ contains
          case (of_moment)
             value = 0.0_wp
             do c = 1, size(contacts)
-               value = value + cross(contacts(c)%arm_j - turned(motion, j, self%items%s_j(:, item)), &
+               value = value + cross(contacts(c)%arm_j - turned(motion%rot(:, :, j), self%items%s_j(:, item)), &
                                      self%force_on_j(contacts(c), f_n(c), f_t(c)))
             end do
          case (of_tilt)

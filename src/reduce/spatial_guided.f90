@@ -58,6 +58,7 @@ module spatial_guided
 contains
 
    include "../math/sine_cosine.inc"
+   include "../math/space_vectors.inc"
    include "carried_point.inc"
 
    !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.

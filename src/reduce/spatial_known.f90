@@ -39,6 +39,7 @@ module spatial_known
 contains
 
    include "../math/sine_cosine.inc"
+   include "../math/space_vectors.inc"
    include "carried_point.inc"
 
    !> Positions, velocities and accelerations of the known bodies at a time, up to the first body whose driver says what is no

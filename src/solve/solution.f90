@@ -105,6 +105,11 @@ contains
       integer :: k
 
       status = 0
+      if (rows%n_solve == 0) then
+         self%bad_row = 0
+         call find_free(rows%n_unknown, rows%unknown, rows%n_v, ubound(g, 2), inverse_mass, g, self%a)
+         return
+      end if
       self%bad_row = 1
       if (.not. self%is_redundant) call self%solver%solve(inverse_mass, rows, g, self%b, self%a, self%lambda, self%bad_row)
       if (self%bad_row == 0) return
@@ -119,6 +124,23 @@ contains
       end if
       if (self%bad_row > 0) status = 1
    end subroutine solution_find
+
+   !> Accelerations of bodies that nothing holds.
+   pure subroutine find_free(n, body, n_v, n_body, inverse_mass, g, a)
+      integer, intent(in) :: n                              !! number of bodies that are not known
+      integer, intent(in) :: body(n)                        !! (n) these bodies
+      integer, intent(in) :: n_v                            !! rates of a body
+      integer, intent(in) :: n_body                         !! number of bodies
+      real(wp), intent(in) :: inverse_mass(n_v, 0:n_body)   !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
+      real(wp), intent(in) :: g(n_v, 0:n_body)              !! (n_v, 0:bodies) loads [N or N.m]
+      real(wp), intent(inout) :: a(n_v, 0:n_body)           !! (n_v, 0:bodies) accelerations, these are set [m/s^2 or rad/s^2]
+
+      integer :: k
+
+      do k = 1, n
+         a(:, body(k)) = inverse_mass(:, body(k))*g(:, body(k))
+      end do
+   end subroutine find_free
 
    !> Less damping, where refinement does not get over it: rows that do not depend on others may still hold little, as about the
    !> axis of a thin rod. What is left of rows that do not quite agree, off the constraints, is no reason for it.
