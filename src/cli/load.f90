@@ -33,6 +33,7 @@ module load
    use study_info, only: sweep_info
    use sweep_values, only: read_sweep
    use swept, only: sweep_t
+   use spelling, only: nearest_word
    use text, only: append_text, join, text_t, to_text
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
@@ -195,7 +196,7 @@ contains
       type(scene_t), intent(inout) :: scene                !! levels, tolerance and method are changed
       type(error_t), allocatable, intent(out) :: error     !! an unknown method
 
-      character(:), allocatable :: known
+      character(:), allocatable :: known, nearest
       integer :: c, i, k
 
       if (options%change%is_ideal) then
@@ -229,8 +230,11 @@ contains
       if (allocated(options%change%method)) then
          c = column_of(scene%settings%dynamic%info, "method")
          known = scene%settings%dynamic%info%columns(c)%choices
-         if (index(" "//known//" ", " "//options%change%method//" ") == 0) then
-            call set_error(error, exit_usage, "unknown method '"//options%change%method//"'"//new_line("a")//"  = methods: "//known)
+         if (index(options%change%method, " ") > 0 .or. index(" "//known//" ", " "//options%change%method//" ") == 0) then
+            nearest = nearest_word(options%change%method, known)
+            if (len(nearest) > 0) nearest = "did you mean '"//nearest//"'? "
+            call set_error(error, exit_usage, "unknown method '"//options%change%method//"'"//new_line("a")//"  = "//nearest// &
+                           "methods: "//known)
             return
          end if
          scene%settings%dynamic%values(c)%text = options%change%method

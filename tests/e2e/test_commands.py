@@ -232,9 +232,11 @@ def test_wrong_command_lines(gudgeon, arguments):
 
 
 def test_nearest_verb_and_option(gudgeon):
-    """A misspelt verb or option gets the nearest one."""
+    """A misspelt verb, option or method gets the nearest one; two methods are none."""
     assert "run" in call(gudgeon, "rum", DECK, expect=USAGE).stderr
     assert "--tolerance" in call(gudgeon, "run", DECK, "--tolerence", "1e-6", expect=USAGE).stderr
+    assert "did you mean 'verner'" in call(gudgeon, "run", DECK, "--method", "vernr", expect=USAGE).stderr
+    assert "unknown method" in call(gudgeon, "run", DECK, "--method", "verner dop853", expect=USAGE).stderr
 
 
 @pytest.mark.parametrize("verb", ["run", "check", "explain"])
