@@ -3,6 +3,7 @@ module load
    use build_clearances, only: has_ideal
    use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
    use catalogue, only: catalogue_t
+   use change_scene, only: scene_with_changes
    use channels, only: list_scalars, select_channels, selection_t
    use columns, only: column_of, find_column
    use deck_file, only: read_deck
@@ -24,6 +25,7 @@ module load
    use memory_purpose, only: memory_is_for
    use name_table, only: name_table_t
    use options, only: options_t
+   use parameter_change, only: change_parameters
    use read_scene, only: scene_from_deck
    use run_limits, only: check_conditions
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t, table_formulas
@@ -38,7 +40,7 @@ module load
    use time_plan, only: new_time_plan, time_plan_t
    implicit none (type, external)
    private
-   public :: check_swept_words, load_deck, loaded_t
+   public :: check_swept_words, load_case, load_deck, loaded_t
 
    !> A deck that is ready to run.
    type :: loaded_t
@@ -60,9 +62,7 @@ contains
       type(loaded_t), intent(out) :: loaded                !! the deck
       type(error_t), allocatable, intent(out) :: error     !! mistakes of the command line or the deck
 
-      type(catalogue_t) :: catalogue
       type(diagnostics_t) :: mistakes
-      logical :: has_all_words
 
       if (size(options%operands) /= 1) then
          call set_error(error, exit_usage, "'gudgeon "//options%verb//"' needs one deck: gudgeon "//options%verb// &
@@ -78,7 +78,39 @@ contains
          call read_sweep(loaded%deck, sweep_info(), loaded%sweep, mistakes)
       end if
       call mistakes%to_error(loaded%deck%sources, error)
-      if (allocated(error)) return
+      if (.not. allocated(error)) call prepare(options, loaded, error)
+   end subroutine load_deck
+
+   !> Load the deck once more with other parameters: what they do not stand in is not read again. It is the very same as if all of
+   !> it were (`load_deck`), which is done where words or settings change, and where there are mistakes, to tell these in full.
+   subroutine load_case(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line, but for `--set` that of before
+      type(loaded_t), intent(inout) :: loaded              !! the deck as it was loaded before
+      type(error_t), allocatable, intent(out) :: error     !! mistakes of the parameters
+
+      logical :: is_done
+      logical, allocatable :: is_touched(:)
+
+      is_done = .not. allocated(options%legacy%way)
+      if (is_done) call change_parameters(loaded%deck, options%change%overrides, is_touched, is_done)
+      if (is_done) call scene_with_changes(loaded%deck, is_touched, loaded%scene, is_done)
+      if (is_done) then
+         call prepare(options, loaded, error)
+         is_done = .not. allocated(error)
+      end if
+      if (.not. is_done) call load_deck(options, loaded, error)
+   end subroutine load_case
+
+   !> From a scene to its system, its times and what it can report.
+   subroutine prepare(options, loaded, error)
+      type(options_t), intent(in) :: options               !! the command line
+      type(loaded_t), intent(inout) :: loaded              !! deck and scene are known; the rest is set
+      type(error_t), allocatable, intent(out) :: error     !! mistakes of the command line or the deck
+
+      type(catalogue_t) :: catalogue
+      type(diagnostics_t) :: mistakes
+      logical :: has_all_words
+
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies and what they report")
       has_all_words = runs_as_written(options, loaded%scene)
       if (.not. has_all_words) call list_words(loaded%deck, loaded%scene, catalogue, mistakes)
@@ -110,7 +142,7 @@ contains
          call check_drawn_figures(loaded%scene, loaded%system, loaded%plan, loaded%catalogue, mistakes)
       end if
       call mistakes%to_error(loaded%deck%sources, error)
-   end subroutine load_deck
+   end subroutine prepare
 
    !> Whether the run has all that a deck can have words for: it is the deck's first analysis, and no joint is taken as ideal.
    logical function runs_as_written(options, scene)

@@ -1,13 +1,14 @@
 !> The runs of a sweep, each in a process of its own, as many at once as wanted.
 !>
 !> The process of a run is a copy of this one, which has read the deck and all that it names: it does what `gudgeon run DECK
-!> --set ... --member K` does, and gives the very numbers of that command. A case is loaded here, once for all its runs, unless so
-!> many run at once that this process could not keep up; then each loads it, from the same memory. What it found comes back and is
-!> written to the journal at once. A run that fails is recorded with its exit code and its message, and the others go on.
+!> --set ... --member K` does, and gives the very numbers of that command. The first case is loaded here; from it each run goes to
+!> its own, which reads again only what the parameters stand in (`load_case`). Where a case has many runs that is done here, once
+!> for all of them. What a run found comes back and is written to the journal at once. A run that fails is recorded with its exit
+!> code and its message, and the others go on.
 module sweep_runs
    use errors, only: error_t, exit_file, exit_ok, set_error
    use kinds, only: i8, wp
-   use load, only: load_deck, loaded_t
+   use load, only: load_case, load_deck, loaded_t
    use member_result, only: member_result_t
    use members, only: hand_back, next_member, start_member
    use options, only: options_t
@@ -32,14 +33,13 @@ module sweep_runs
    real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
    real(wp), parameter :: write_share = 200.0_wp    !! and this many times as long as writing them took [1]
 
-   integer, parameter :: most_fed = 8                !! runs at once for which this process can load all cases
-
    !> The case whose runs are being started.
    type :: ready_t
       integer :: number = 0                       !! of the case; 0: none
+      integer :: loaded_number = 0                !! of the case that is loaded; 0: none
       type(options_t) :: options                  !! its command line
-      type(loaded_t), allocatable :: loaded       !! its deck; unallocated: not yet loaded
-      type(error_t), allocatable :: error         !! the deck has mistakes
+      type(loaded_t) :: loaded                    !! the deck of the case that is loaded
+      type(error_t), allocatable :: error         !! the deck of that case has mistakes
       real(wp) :: cpu = 0.0_wp                    !! processor time of loading it, until a run has been charged with it [s]
    end type ready_t
 
@@ -74,7 +74,7 @@ contains
       do while (ended < size(due))
          do while (next - ended <= jobs .and. next <= size(due))
             call make_ready(options, loaded%sweep, due(next), work, ready)
-            if (jobs <= most_fed .or. work%results%n_member > 1) call load_case(ready)
+            if (ready%loaded_number == 0 .or. work%results%n_member > 1) call turn_to_case(ready)
             call start_run(ready, due(next), directory, work, processes(next), error)
             if (allocated(error)) return
             next = next + 1
@@ -132,9 +132,6 @@ contains
 
       case_number = (number - 1)/work%results%n_member + 1
       if (ready%number /= case_number) then
-         if (allocated(ready%loaded)) deallocate (ready%loaded)
-         if (allocated(ready%error)) deallocate (ready%error)
-         ready%cpu = 0.0_wp
          ready%number = case_number
          ready%options = case_options(options, sweep, case_number)
       end if
@@ -142,19 +139,23 @@ contains
       ready%options%directory = work%directories(number)%s
    end subroutine make_ready
 
-   !> Load a case, unless that is done.
-   subroutine load_case(ready)
+   !> Load a case, unless that is done: from the one that is loaded, if that has no mistakes.
+   subroutine turn_to_case(ready)
       type(ready_t), intent(inout) :: ready   !! the case
 
       real(wp) :: after, before
 
-      if (allocated(ready%loaded)) return
+      if (ready%loaded_number == ready%number) return
       call cpu_time(before)
-      allocate (ready%loaded)
-      call load_deck(ready%options, ready%loaded, ready%error)
+      if (ready%loaded_number > 0 .and. .not. allocated(ready%error)) then
+         call load_case(ready%options, ready%loaded, ready%error)
+      else
+         call load_deck(ready%options, ready%loaded, ready%error)
+      end if
+      ready%loaded_number = ready%number
       call cpu_time(after)
       ready%cpu = after - before
-   end subroutine load_case
+   end subroutine turn_to_case
 
    !> Start a run. The copy of this process that makes it ends here.
    subroutine start_run(ready, number, directory, work, process, error)
@@ -195,7 +196,7 @@ contains
 
       start = ready%cpu
       ready%cpu = 0.0_wp
-      call load_case(ready)
+      call turn_to_case(ready)
       member%cpu_start = start + ready%cpu
       call cpu_time(start)
       if (allocated(ready%error)) then

@@ -38,6 +38,7 @@ module deck_types
       type(text_t), allocatable :: parameter_text(:) !! (n_parameter) values of the parameters as written
       type(location_t), allocatable :: parameter_change(:) !! (n_parameter) where `--set` changed the deck; else nowhere
       type(text_list_t) :: defaults                !! `kind item key = default`
+      integer :: n_written = 0                     !! of these, those for cells and keys; the others follow from values
       logical :: is_readable = .true.              !! .false.: it is not a deck at all; that was reported
    end type deck_t
 

@@ -15,9 +15,9 @@ module parameters
    use tokens, only: lex_line, span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private
-   public :: read_parameters
+   public :: read_parameters, section_name
 
-   character(*), parameter :: section_name = "parameters"
+   character(*), parameter :: section_name = "parameters"  !! where they stand
 
    !> An override of the command line.
    type :: override_t
@@ -43,7 +43,8 @@ contains
       do k = 1, deck%n_line
          if (deck%sections(deck%lines(k)%section)%name == section_name) n = n + 1
       end do
-      deallocate (deck%parameter_text)
+      if (allocated(deck%parameter_text)) deallocate (deck%parameter_text)
+      if (allocated(deck%parameter_change)) deallocate (deck%parameter_change)
       allocate (deck%parameter_text(n), deck%parameter_change(n))
       call deck%symbols%start(n)
       i = 0

@@ -4,6 +4,7 @@ module read_films
    use diagnostics, only: diagnostics_t
    use film_law, only: film_slot_t
    use film_registry, only: n_film_kinds, new_film_law
+   use item, only: item_t
    use kind_list, only: film_info
    use lubricant, only: lubricant_mistake
    use references, only: add_names, directory_t
@@ -12,7 +13,7 @@ module read_films
    use tables, only: read_items
    implicit none (type, external)
    private
-   public :: check_lubricants, films_from_deck
+   public :: check_lubricants, films_from_deck, make_films
 
 contains
 
@@ -23,7 +24,7 @@ contains
       type(directory_t), intent(inout) :: directory       !! names of the films are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      integer :: before, i, k, n
+      integer :: before, k, n
 
       allocate (scene%lubrication%films(0), directory%films(0))
       do k = 1, n_film_kinds
@@ -34,17 +35,32 @@ contains
             n = size(scene%lubrication%films)
             call grow_films(scene%lubrication%films, n + size(items))
             call report_doubled(items, directory%films, diagnostics)
-            do i = 1, size(items)
-               call new_film_law(k, scene%lubrication%films(n + i)%law)
-               if (diagnostics%count() > before) cycle  ! no film is made of rows with mistakes
-               call scene%lubrication%films(n + i)%law%prepare(items(i))
-               if (scene%lubrication%films(n + i)%law%mistake() == "") cycle
-               call diagnostics%add(items(i)%location, scene%lubrication%films(n + i)%law%mistake(), "in this row")
-            end do
+            call make_films(k, items, diagnostics%count() > before, scene%lubrication%films(n + 1:), diagnostics)
             call add_names(items, directory%films)
          end associate
       end do
    end subroutine films_from_deck
+
+   !> The films of the rows of one kind.
+   subroutine make_films(kind, items, has_mistakes, films, diagnostics)
+      integer, intent(in) :: kind                         !! number in the registry
+      type(item_t), intent(in) :: items(:)                !! (n) rows
+      logical, intent(in) :: has_mistakes                 !! no film is made of rows with mistakes
+      type(film_slot_t), intent(inout) :: films(:)        !! (n or more) the films
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: i
+      logical :: is_broken
+
+      is_broken = has_mistakes
+      do i = 1, size(items)
+         call new_film_law(kind, films(i)%law)
+         if (is_broken) cycle
+         call films(i)%law%prepare(items(i))
+         is_broken = films(i)%law%mistake() /= ""
+         if (is_broken) call diagnostics%add(items(i)%location, films(i)%law%mistake(), "in this row")
+      end do
+   end subroutine make_films
 
    !> Rows of lubricants as a whole.
    subroutine check_lubricants(scene, diagnostics)

@@ -9,7 +9,7 @@ module read_requests
    use kinds, only: wp
    use name_table, only: name_table_t
    use references, only: add_names, directory_t, resolve
-   use requests, only: motion_request_info, reaction_info, request_info
+   use requests, only: motion_request_info, reaction_info, request_info, requests_t
    use scene, only: scene_t, table_bodies, table_formulas, table_motions, table_points, table_reactions
    use sight, only: place_t, sees_angle, sees_angular_velocity, sees_distance, sees_distance_rate, sight_t
    use sight_words, only: read_sight_word
@@ -45,12 +45,13 @@ contains
 
    !> Requests of a scene whose points are placed; expressions over channels wait until these are known.
    subroutine make_requests(scene, diagnostics)
-      type(scene_t), intent(inout) :: scene               !! requests are set
+      type(scene_t), intent(inout) :: scene               !! requests are set; those of before are gone
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
       integer :: k
 
       associate (requests => scene%requests, tables => scene%tables%requests)
+         requests = requests_t()
          requests%is_spatial = scene%settings%is_spatial
          allocate (requests%motions(size(tables(table_motions)%items)), requests%reactions(size(tables(table_reactions)%items)))
          allocate (requests%formulas(0))

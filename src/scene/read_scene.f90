@@ -9,7 +9,7 @@ module read_scene
    use figure_list, only: join_figures
    use force_registry, only: n_force_kinds
    use guard_info, only: guards_info
-   use item, only: place_of
+   use item, only: item_t, place_of
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space, kind_info_t
@@ -32,7 +32,7 @@ module read_scene
    use tables, only: read_items
    implicit none (type, external)
    private
-   public :: scene_from_deck
+   public :: check_space, finish_scene, list_names, make_frictions, make_laws, resolve_tables, scene_from_deck
 
 contains
 
@@ -43,7 +43,6 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
       type(directory_t) :: directory
-      integer :: k
 
       call read_section(deck, scene_info(), scene%settings%header, diagnostics)
       scene%settings%is_spatial = scene%settings%header%word("space") == "spatial"
@@ -54,17 +53,12 @@ contains
       call check_sections(deck, known, scene%settings%is_spatial, diagnostics)
       call functions_from_deck(deck, scene, diagnostics)
       call read_analyses(deck, scene%settings, diagnostics)
-      scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
       call read_section(deck, guards_info(), scene%settings%guards, diagnostics)
       call read_section(deck, output_info(), scene%settings%output, diagnostics)
       call join_figures(scene%settings%output%values(place_of(scene%settings%output, "figures")), diagnostics)
       call read_studies(deck, scene%settings, diagnostics)
       call read_tables(deck, scene, diagnostics)
-      call add_names(scene%tables%base(table_bodies)%items, directory%bodies)
-      call add_names(scene%tables%base(table_points)%items, directory%points)
-      call add_names(scene%tables%base(table_materials)%items, directory%materials)
-      call add_names(scene%tables%base(table_lubricants)%items, directory%lubricants)
-      call add_joints(scene, directory)
+      call list_names(scene, directory)
       call read_laws(deck, scene, directory, diagnostics)
       call films_from_deck(deck, scene, directory, diagnostics)
       call requests_from_deck(deck, directory, scene, diagnostics)
@@ -76,7 +70,19 @@ contains
       call check_lubricants(scene, diagnostics)
       call check_space(scene, diagnostics)
       if (diagnostics%count() > 0) return
+      deck%n_written = deck%defaults%n
+      call finish_scene(deck, scene, diagnostics)
+   end subroutine scene_from_deck
 
+   !> From tables without mistakes, their references resolved, to what they mean.
+   subroutine finish_scene(deck, scene, diagnostics)
+      type(deck_t), intent(inout) :: deck                 !! the deck; defaults that follow from values are noted
+      type(scene_t), intent(inout) :: scene               !! sections, tables, laws and films are set
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: k
+
+      scene%analysis = findloc(scene%settings%has_analysis, .true., dim=1)
       scene%title = scene%settings%header%word("title")
       scene%gravity = scene%settings%header%values(place_of(scene%settings%header, "gravity"))%vector%x
       if (scene%settings%is_spatial) then
@@ -93,7 +99,7 @@ contains
       call make_requests(scene, diagnostics)
       call place_sights(scene, diagnostics)
       call check_meaning(deck, scene, diagnostics)
-   end subroutine scene_from_deck
+   end subroutine finish_scene
 
    !> One section of settings: defaults if the deck has none.
    subroutine read_section(deck, info, section, diagnostics)
@@ -246,7 +252,7 @@ contains
       type(directory_t), intent(inout) :: directory       !! names of the laws are set
       type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
 
-      integer :: before, i, k, n
+      integer :: before, k, n
 
       allocate (scene%laws(0), scene%frictions(0), directory%laws(0), directory%frictions(0))
       do k = 1, n_law_kinds
@@ -257,13 +263,7 @@ contains
             n = size(scene%laws)
             call grow_laws(scene%laws, n + size(items))
             call report_doubled(items, directory%laws, diagnostics)
-            do i = 1, size(items)
-               call new_normal_law(k, scene%laws(n + i)%law)
-               if (diagnostics%count() > before) cycle  ! no law is made of rows with mistakes
-               call scene%laws(n + i)%law%prepare(items(i))
-               if (scene%laws(n + i)%law%mistake() == "") cycle
-               call diagnostics%add(items(i)%location, scene%laws(n + i)%law%mistake(), "in this row")
-            end do
+            call make_laws(k, items, diagnostics%count() > before, scene%laws(n + 1:), diagnostics)
             call add_names(items, directory%laws)
          end associate
       end do
@@ -279,17 +279,53 @@ contains
             n = size(scene%frictions)
             call grow_frictions(scene%frictions, n + size(items))
             call report_doubled(items, directory%frictions, diagnostics)
-            do i = 1, size(items)
-               call new_friction_law(k, scene%frictions(n + i)%law)
-               if (diagnostics%count() > before) cycle
-               call scene%frictions(n + i)%law%prepare(items(i))
-               if (scene%frictions(n + i)%law%mistake() == "") cycle
-               call diagnostics%add(items(i)%location, scene%frictions(n + i)%law%mistake(), "in this row")
-            end do
+            call make_frictions(k, items, diagnostics%count() > before, scene%frictions(n + 1:), diagnostics)
             call add_names(items, directory%frictions)
          end associate
       end do
    end subroutine read_laws
+
+   !> The normal laws of the rows of one kind.
+   subroutine make_laws(kind, items, has_mistakes, laws, diagnostics)
+      integer, intent(in) :: kind                         !! number in the registry
+      type(item_t), intent(in) :: items(:)                !! (n) rows
+      logical, intent(in) :: has_mistakes                 !! no law is made of rows with mistakes
+      type(law_slot_t), intent(inout) :: laws(:)          !! (n or more) the laws
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: i
+      logical :: is_broken
+
+      is_broken = has_mistakes
+      do i = 1, size(items)
+         call new_normal_law(kind, laws(i)%law)
+         if (is_broken) cycle
+         call laws(i)%law%prepare(items(i))
+         is_broken = laws(i)%law%mistake() /= ""
+         if (is_broken) call diagnostics%add(items(i)%location, laws(i)%law%mistake(), "in this row")
+      end do
+   end subroutine make_laws
+
+   !> The friction laws of the rows of one kind.
+   subroutine make_frictions(kind, items, has_mistakes, laws, diagnostics)
+      integer, intent(in) :: kind                         !! number in the registry
+      type(item_t), intent(in) :: items(:)                !! (n) rows
+      logical, intent(in) :: has_mistakes                 !! no law is made of rows with mistakes
+      type(friction_slot_t), intent(inout) :: laws(:)     !! (n or more) the laws
+      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
+
+      integer :: i
+      logical :: is_broken
+
+      is_broken = has_mistakes
+      do i = 1, size(items)
+         call new_friction_law(kind, laws(i)%law)
+         if (is_broken) cycle
+         call laws(i)%law%prepare(items(i))
+         is_broken = laws(i)%law%mistake() /= ""
+         if (is_broken) call diagnostics%add(items(i)%location, laws(i)%law%mistake(), "in this row")
+      end do
+   end subroutine make_frictions
 
    !> Longer list of laws.
    subroutine grow_laws(laws, n)
@@ -320,6 +356,18 @@ contains
       end do
       call move_alloc(grown, laws)
    end subroutine grow_frictions
+
+   !> Names of all that can be referred to, but for laws and films.
+   subroutine list_names(scene, directory)
+      type(scene_t), intent(in) :: scene              !! tables
+      type(directory_t), intent(inout) :: directory   !! names are set
+
+      call add_names(scene%tables%base(table_bodies)%items, directory%bodies)
+      call add_names(scene%tables%base(table_points)%items, directory%points)
+      call add_names(scene%tables%base(table_materials)%items, directory%materials)
+      call add_names(scene%tables%base(table_lubricants)%items, directory%lubricants)
+      call add_joints(scene, directory)
+   end subroutine list_names
 
    !> Names and kinds of all joints and drivers.
    subroutine add_joints(scene, directory)

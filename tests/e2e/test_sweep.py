@@ -76,6 +76,54 @@ def test_a_sweep_gives_the_numbers_of_single_runs(gudgeon):
             assert "bodies/velocity" in sweep[f"channels/{k + 1}"]
 
 
+def swept_everywhere():
+    """A deck whose parameters stand in rows, laws, expressions of loads, settings, requests, and in each other."""
+    text = short(end="2 ms")
+    text = text.replace("[parameters]", "[parameters]\nload = 1 N\ndouble = {2*load}\ndigits = 1e-8\nshare = 0.5\n", 1)
+    text = text.replace("tolerance   = 1e-8", "tolerance   = {digits}", 1)
+    return text + """
+[force.point]
+name     point   fx
+push     pin     {double*sin(2*pi*share*t/1ms)}
+
+[request]
+name     value                    unit
+power    {share*motor.moment}     N.m
+"""
+
+
+@pytest.mark.parametrize(
+    "parameter, values",
+    [
+        ("c", "0.5 0.2 mm"),
+        ("restitution", "0.9 0.5"),
+        ("friction", "0.1 0"),
+        ("speed", "5000 4000 rpm"),
+        ("law", "lankarani_nikravesh hertz"),
+        ("load", "1 5 N"),
+        ("share", "0.5 0.75"),
+        ("digits", "1e-8 1e-6"),
+    ],
+)
+def test_every_case_is_that_of_a_deck_read_anew(gudgeon, parameter, values):
+    """Wherever the parameter stands: all channels, and what the deck is said to mean."""
+    text = swept_everywhere()
+    out, _ = swept(gudgeon, text + f"\n[sweep]\n{parameter} = {values}\nkeep = channels\n", "--jobs", 1)
+    words = values.split()
+    unit = words.pop() if len(words) == 3 else ""
+    with h5py.File(out / "sweep.h5") as sweep:
+        for k, word in enumerate(words):
+            directory = scratch()
+            deck = written(directory, text)
+            call(gudgeon, "run", deck, "--out", directory / "out", "--quiet", "--set", f"{parameter}={word}{unit}")
+            run = Run(directory / "out")
+            kept = sweep[f"channels/{k + 1}"]
+            assert "bodies/velocity" in kept
+            for path in ("time", "bodies/velocity", "clearances/force", "energy/residual"):
+                if path in kept:
+                    assert kept[path][()].tobytes() == run.rows(path).tobytes(), (path, word)
+
+
 def test_the_number_of_jobs_does_not_matter(gudgeon):
     one, two = four_cases(gudgeon, 1), four_cases(gudgeon, 2)
     for name in ("sweep.csv", "cases.csv"):
