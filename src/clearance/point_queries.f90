@@ -107,14 +107,16 @@ contains
       has_sliding = .false.
       do m = 1, readings%n
          select case (readings%code(m))
-         case (of_force:of_contact_point, of_moment, of_contact_angle:of_p_v)
+         case (of_sliding_speed:of_p_v)
             has_contacts = .true.
-            has_sliding = has_sliding .or. (readings%code(m) >= of_sliding_speed .and. readings%code(m) <= of_p_v)
+            has_sliding = .true.
+         case (of_force:of_contact_point, of_moment, of_contact_angle)
+            has_contacts = .true.
          end select
       end do
       do item = 1, self%n
          first = (item - 1)*n
-         if (has_contacts) call find_forces(self, item, motion, contacts, f_n(:n), f_t(:n), f_elastic(:n), has_sliding)
+         if (has_contacts) call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, has_sliding)
          do m = 1, readings%n
             associate (values => groups(readings%group(m))%data)
                if (readings%code(m) == of_contact_point) then
@@ -148,7 +150,7 @@ contains
       integer :: c, n
 
       n = self%n_contact_item
-      call find_forces(self, item, motion, contacts(:n), f_n(:n), f_t(:n), f_elastic(:n), .false.)
+      call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, .false.)
       force = 0.0_wp
       moment = 0.0_wp
       do c = 1, n
@@ -251,7 +253,7 @@ contains
       real(wp), intent(in) :: r_j(3)                        !! (3) centre of mass of j, world frame [m]
       integer, intent(in) :: n                              !! contacts
       type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
-      real(wp), intent(inout) :: values(:, :)               !! (2 or 3, n) the points, world frame [m]
+      real(wp), intent(inout), contiguous :: values(:, :)   !! (2 or 3, n) the points, world frame [m]
 
       integer :: c
 
@@ -267,7 +269,7 @@ contains
       type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
       real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
       real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
-      real(wp), intent(inout) :: force(:)                   !! (2 or 3) the force, world frame [N]
+      real(wp), intent(inout), contiguous :: force(:)       !! (2 or 3) the force, world frame [N]
 
       real(wp) :: f(3)
       integer :: c
@@ -280,20 +282,20 @@ contains
    end subroutine report_force
 
    !> Kinematics and forces of the contacts of an item at a motion: forces are zero of those that are free.
-   subroutine find_forces(self, item, motion, contacts, f_n, f_t, f_elastic, with_sliding)
+   subroutine find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, with_sliding)
       class(point_contacts_t), intent(in) :: self           !! the set
       integer, intent(in) :: item                           !! the item
+      integer, intent(in) :: n                              !! contacts of an item
       type(motion_t), intent(in) :: motion                  !! positions and velocities
-      type(point_contact_t), intent(inout) :: contacts(:)   !! (n_contact_item) kinematics
-      real(wp), intent(out) :: f_n(:)                       !! (n_contact_item) normal forces [N]
-      real(wp), intent(out) :: f_t(:)                       !! (n_contact_item) friction forces on j along t [N]
-      real(wp), intent(out) :: f_elastic(:)                 !! (n_contact_item) elastic parts of the normal forces [N]
+      type(point_contact_t), intent(inout) :: contacts(n)   !! (n) kinematics
+      real(wp), intent(out) :: f_n(n)                       !! (n) normal forces [N]
+      real(wp), intent(out) :: f_t(n)                       !! (n) friction forces on j along t [N]
+      real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
       logical, intent(in) :: with_sliding                   !! sliding velocities are wanted
 
       real(wp), dimension(most_of_item) :: f_rub, speed
-      integer :: c, first, n
+      integer :: c, first
 
-      n = self%n_contact_item
       first = (item - 1)*n
       f_n = 0.0_wp
       f_t = 0.0_wp
@@ -307,7 +309,7 @@ contains
       if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub(:n))
       if (.not. allocated(self%laws%friction)) return
       if (self%grip%memory == memory_none) then
-         call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub(:n), speed(:n), f_t)
+         call rub_by_law(n, self%laws%friction, self%contact(first + 1:first + n), contacts, f_rub, speed, f_t)
       else  ! of the last evaluation: it is no function of the motion alone
          do c = 1, n
             if (.not. self%contact(first + c)%is_touching) cycle

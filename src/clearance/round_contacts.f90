@@ -298,7 +298,7 @@ contains
       integer, intent(in) :: k                       !! the item
       type(film_motion_t), intent(in) :: film        !! motion of its film
       type(film_state_t), intent(in) :: state        !! what the film does, where the channel needs it
-      real(wp), intent(inout) :: value(:)            !! (components) the value [any]
+      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
       select case (code)
       case (of_force); value(1:2) = value(1:2) + state%force
@@ -321,10 +321,10 @@ contains
       integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      type(point_contact_t), intent(in) :: contacts(:)    !! (1) kinematics of its contact
-      real(wp), intent(in) :: f_n(:)                      !! (1) normal force [N]
-      real(wp), intent(in) :: f_t(:)                      !! (1) friction force on j along t [N]
-      real(wp), intent(inout) :: value(:)                 !! (2) the value [m]
+      type(point_contact_t), intent(in), contiguous :: contacts(:)  !! (1) kinematics of its contact
+      real(wp), intent(in), contiguous :: f_n(:)          !! (1) normal force [N]
+      real(wp), intent(in), contiguous :: f_t(:)          !! (1) friction force on j along t [N]
+      real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
 
       real(wp) :: distance, s_i(2), s_j(2)
 

@@ -113,7 +113,7 @@ contains
       integer, intent(in) :: k                       !! the item
       type(film_motion_t), intent(in) :: film        !! motion of its film
       type(film_state_t), intent(in) :: state        !! what the film does
-      real(wp), intent(inout) :: value(:)            !! (components) the value [any]
+      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
       select case (code)
       case (of_force); value = value + state%load

@@ -215,7 +215,7 @@ module coordinates
          implicit none (type, external)
          integer, intent(in) :: code                !! the channel, one of `bodies`
          type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-         real(wp), intent(inout) :: values(:, :)    !! (components, bodies) values [any]
+         real(wp), intent(inout), contiguous :: values(:, :)  !! (components, bodies) values [any]
       end subroutine report_interface
 
       !> The row of a direction at a point of a body: its product with the rates is the velocity of the point that way.

@@ -353,7 +353,7 @@ contains
    pure subroutine spatial_report(code, motion, values)
       integer, intent(in) :: code                !! the channel
       type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-      real(wp), intent(inout) :: values(:, :)    !! (components, bodies) values [any]
+      real(wp), intent(inout), contiguous :: values(:, :)  !! (components, bodies) values [any]
 
       real(wp) :: p(4)
       integer :: k

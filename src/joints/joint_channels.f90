@@ -78,7 +78,7 @@ contains
       integer, intent(in) :: before                   !! places before the body's in the rows
       integer, intent(in) :: n                        !! rates of a body
       real(wp), intent(in), contiguous :: jac(:, :)   !! (2 n, rows) Phi_q [1 or m]
-      real(wp), intent(in) :: lambda(:)               !! (rows) multipliers [N or N.m]
+      real(wp), intent(in), contiguous :: lambda(:)   !! (rows) multipliers [N or N.m]
       real(wp), intent(inout) :: load(most_rates)     !! (n) first: the load [N or N.m]
 
       integer :: i, k, row

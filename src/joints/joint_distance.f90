@@ -121,9 +121,9 @@ contains
       type(motion_t), intent(in) :: motion             !! positions and velocities
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
-      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N]
-      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s]
-      real(wp), intent(inout) :: value(:)              !! (components) the value [any]
+      real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N]
+      real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s]
+      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
       if (code == of_own) then
          value(1) = lambda(self%first_row + k)

@@ -122,9 +122,9 @@ module joint_set
          type(motion_t), intent(in) :: motion             !! positions and velocities
          class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
          type(rows_t), intent(in) :: rows                 !! rows at the motion
-         real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
-         real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
-         real(wp), intent(inout) :: value(:)              !! (components) the value [any]
+         real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
+         real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
+         real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
       end subroutine report_shared
 
       !> Reaction of an item on body i, or j: force, and moment about its reaction point.
@@ -135,7 +135,7 @@ module joint_set
          type(motion_t), intent(in) :: motion             !! positions and velocities
          class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
          type(rows_t), intent(in) :: rows                 !! rows at the motion
-         real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+         real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
          real(wp), intent(out) :: force(3)                !! (3) force on the body, world frame [N]
          real(wp), intent(out) :: moment(3)               !! (3) moment on the body about the reaction point [N.m]
          integer, intent(in), optional :: side            !! 1: body i, 2: body j; absent: body i

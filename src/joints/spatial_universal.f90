@@ -118,9 +118,9 @@ contains
       type(motion_t), intent(in) :: motion             !! positions and velocities
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
-      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
-      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
-      real(wp), intent(inout) :: value(:)              !! (components) the value [any]
+      real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
+      real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
+      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
       type(scalar_t) :: angle
 
