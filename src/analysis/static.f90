@@ -89,7 +89,7 @@ contains
       if (allocated(error)) return
       if (system%loose%has_films) then
          call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
-         is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system)
+         is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system) + least_unbalance(balance)
          if (is_settled .and. is_full) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
                                                          equilibrium%steps, error)
          if (allocated(error)) return
