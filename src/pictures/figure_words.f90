@@ -217,7 +217,10 @@ contains
       call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
       if (starts_with(message, unknown_channel) .and. bad == word) then
          message = "unknown figure"//piece(message, len(unknown_channel) + 1)
-         calls = [(text_t(piece(call_words(k), 1, index(call_words(k), "(") - 1)), k=figure_portrait, figure_animation)]
+         allocate (calls(figure_portrait:figure_animation))
+         do k = figure_portrait, figure_animation
+            calls(k)%s = piece(call_words(k), 1, index(call_words(k), "(") - 1)
+         end do
          nearest = nearest_word(word(:index(word//"(", "(") - 1), calls)
          if (len(nearest) > 0 .and. .not. starts_with(hint, "did you mean")) hint = "did you mean '"//nearest//"'? "//hint
          hint = hint//"; figures are a channel, JOINT.orbit, portrait(X,Y), section(X,Y), spectrum(X), "// &
