@@ -12,7 +12,7 @@ import time
 
 import h5py
 import pytest
-from conftest import DIRECTORY, ROOT, built
+from conftest import ROOT, built, directory_of
 from support import Run, call, changed, scratch, text_of, written
 
 FOLDERS = ("inputs", "inputs/hard", "inputs/studies")
@@ -93,7 +93,7 @@ def try_deck(program, deck):
 @pytest.fixture(scope="module")
 def everything(request):
     """The chosen decks, as many at a time as there are processors: a future of each."""
-    program = built(DIRECTORY["debug"] / "gudgeon")
+    program = built(directory_of("debug") / "gudgeon")
     chosen = [item.callspec.params["deck"] for item in request.session.items if getattr(item, "function", None) is test_deck]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         yield {deck: pool.submit(try_deck, program, deck) for deck in chosen}
