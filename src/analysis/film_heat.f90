@@ -14,7 +14,7 @@ module film_heat
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use static_film, only: settle_in_films
-   use static_problem, only: balance_t, load_scale, look_at
+   use static_problem, only: balance_t, is_balanced, look_at
    use text, only: real_text
    implicit none (type, external)
    private
@@ -49,7 +49,7 @@ contains
          begun = 0
          call settle_in_films(system, part, most, q, balance, begun, is_settled)
          steps = steps + begun
-         if (norm2(balance%load) > tolerance*load_scale(system)) exit
+         if (.not. is_balanced(system, balance, tolerance)) exit
       end do
       call set_error(error, exit_assembly, "the heat of the film of joint '"//worst//"' finds no balance: "// &
                      real_text(missing, 3)//" K are missing"//new_line("a")// &

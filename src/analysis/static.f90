@@ -27,9 +27,9 @@ module static
    use scene, only: analysis_static, scene_t
    use static_kinsol, only: polish
    use static_film, only: settle_in_films
-   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, &
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, position_scale, &
       square_frequencies
-   use static_relaxation, only: least_unbalance, relax
+   use static_relaxation, only: relax
    use steady_stability, only: find_eigenvalues, gather_films, is_steady, mode_words, no_growth
    use text, only: append_text, real_text, to_text
    use whirl_onset, only: find_onset
@@ -89,7 +89,7 @@ contains
       if (allocated(error)) return
       if (system%loose%has_films) then
          call settle_in_films(system, to_round_off, most, q, balance, equilibrium%steps, is_exact)
-         is_settled = norm2(balance%load) <= equilibrium%tolerance*load_scale(system) + least_unbalance(balance)
+         is_settled = is_balanced(system, balance, equilibrium%tolerance)
          if (is_settled .and. is_full) call balance_heat(system, to_round_off, equilibrium%tolerance, most, q, balance, &
                                                          equilibrium%steps, error)
          if (allocated(error)) return
@@ -192,8 +192,7 @@ contains
       call solve_positions(system%linkage, 0.0_wp, newton, q_new, outcome)
       call evaluate_balance(system, q_new, balance)
       call free_stiffness(system, q_new, balance)
-      equilibrium%is_polished = equilibrium%is_polished .and. &
-                                norm2(balance%load) <= equilibrium%tolerance*load_scale(system) + least_unbalance(balance)
+      equilibrium%is_polished = equilibrium%is_polished .and. is_balanced(system, balance, equilibrium%tolerance)
       q = q_new
    end subroutine try_to_polish
 

@@ -14,14 +14,14 @@
 module static_problem
    use consistent_start, only: evaluate_rows, scaled_jacobian
    use inverse_dynamics, only: find_reactions
-   use kinds, only: i8, wp
+   use kinds, only: eps, i8, wp
    use lapack, only: dsyev, dsygv
    use mobility, only: split_space
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_rates
    implicit none (type, external)
    private
-   public :: balance_t, evaluate_balance, free_stiffness, load_scale, look_at, position_scale, square_frequencies
+   public :: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, position_scale, square_frequencies
    public :: unbalanced_load
 
    real(wp), parameter :: difference = 1.0e-7_wp  !! step of the central differences, of the size or a radian [1]
@@ -159,6 +159,19 @@ contains
       if (n > 0) call dsyev("V", "U", n, k_free, n, balance%stiffness, work, size(work), info)
       balance%modes = matmul(balance%free, k_free)
    end subroutine free_stiffness
+
+   !> Whether no more is out of balance than a part of the loads, and what the round-off of the positions puts out of balance.
+   logical function is_balanced(system, balance, part)
+      class(mechanism_t), intent(in) :: system   !! the system, balance evaluated
+      type(balance_t), intent(in) :: balance     !! with its stiffness
+      real(wp), intent(in) :: part               !! unbalanced load allowed, of the largest [1]
+
+      real(wp) :: limit
+
+      limit = part*load_scale(system)
+      if (size(balance%stiffness) > 0) limit = limit + 8.0_wp*eps*maxval(abs(balance%stiffness))
+      is_balanced = norm2(balance%load) <= limit
+   end function is_balanced
 
    !> Squares of the natural frequencies without damping, ascending; negative where a push grows.
    !>

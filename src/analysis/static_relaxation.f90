@@ -12,13 +12,13 @@
 !> path may keep it from settling.
 module static_relaxation
    use coordinates, only: coordinates_t
-   use kinds, only: eps, wp
+   use kinds, only: wp
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, solve_positions
-   use static_problem, only: balance_t, evaluate_balance, free_stiffness, load_scale, position_scale
+   use static_problem, only: balance_t, evaluate_balance, free_stiffness, is_balanced, position_scale
    implicit none (type, external)
    private
-   public :: least_unbalance, relax
+   public :: relax
 
    real(wp), parameter :: longest_step = 0.3_wp    !! turn of a body, or motion over the extent [1]
    real(wp), parameter :: sizes = 10.0_wp          !! sizes of the bodies that count as extent at least [1]
@@ -42,21 +42,13 @@ contains
       call evaluate_balance(system, q, balance)
       do
          call free_stiffness(system, q, balance)
-         is_settled = norm2(balance%load) <= part*load_scale(system) + least_unbalance(balance)
+         is_settled = is_balanced(system, balance, part)
          if (is_settled .or. steps >= most) return
          call downhill(system%linkage%coordinates, balance, extent_of(system), direction)
          call go_along(system, direction, q, balance)
          steps = steps + 1
       end do
    end subroutine relax
-
-   !> Load that the round-off of the positions puts out of balance.
-   pure real(wp) function least_unbalance(balance) result(load)
-      type(balance_t), intent(in) :: balance  !! with its stiffness
-
-      load = 0.0_wp
-      if (size(balance%stiffness) > 0) load = 8.0_wp*eps*maxval(abs(balance%stiffness))
-   end function least_unbalance
 
    !> Extent of the mechanism in sizes of its bodies.
    pure real(wp) function extent_of(system) result(extent)

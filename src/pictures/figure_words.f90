@@ -217,7 +217,7 @@ contains
       call bind_curves(phrase, catalogue, figure%scalars, figure%curves, message, hint, bad)
       if (starts_with(message, unknown_channel) .and. bad == word) then
          message = "unknown figure"//piece(message, len(unknown_channel) + 1)
-         allocate (calls(figure_portrait:figure_animation))  ! one by one: results of functions in a constructor are never freed
+         allocate (calls(figure_portrait:figure_animation))
          do k = figure_portrait, figure_animation
             calls(k)%s = piece(call_words(k), 1, index(call_words(k), "(") - 1)
          end do

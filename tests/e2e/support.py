@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -42,6 +43,12 @@ def call(program, *arguments, expect=0, cwd=None, limit=LIMIT):
         f"exit code {done.returncode}, not {expect}: {' '.join(command)}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
     )
     return done
+
+
+def answer_signals():
+    """For a child that is about to become the program: signals end it, also where whoever began the tests ignores them (nohup, a job in the background)."""
+    for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def changed(text, section, **settings):

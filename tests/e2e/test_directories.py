@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import pytest
-from support import Run, call, plain_deck, scratch, written
+from support import Run, answer_signals, call, plain_deck, scratch, written
 
 SHORT = (("analysis.dynamic", "end", "0.2 ms"),)
 LONG = (("analysis.dynamic", "end", "5 s"), ("output", "every", "5 us"))
@@ -40,7 +40,7 @@ def started(program, place, out):
     written(place, plain_deck(LONG), "long.deck")
     process = subprocess.Popen(
         [str(program), "run", str(place / "long.deck"), "--out", str(place / out), "--quiet"],
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=answer_signals,
     )
     limit = time.monotonic() + 30.0
     while not (place / out / "run.h5").exists():

@@ -9,7 +9,7 @@ import time
 
 import h5py
 import pytest
-from support import ROOT, Run, call, changed, made, plain_deck, written
+from support import ROOT, Run, answer_signals, call, changed, made, plain_deck, written
 from test_groups import balls
 
 
@@ -41,10 +41,9 @@ def test_large_scenes_and_groups(gudgeon, tmp_path):
 LONG = (("analysis.dynamic", "end", "100 s"), ("analysis.dynamic", "checkpoint", "1 ms"))
 
 
-def begun(gudgeon, deck, out, number=None):
-    """A run in the background that has saved something, by default action of a signal."""
-    process = subprocess.Popen([gudgeon, "run", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True,
-                               preexec_fn=number and (lambda: signal.signal(number, signal.SIG_DFL)))
+def begun(gudgeon, deck, out):
+    """A run in the background that has saved something."""
+    process = subprocess.Popen([gudgeon, "run", deck, "--out", out, "--quiet"], stderr=subprocess.PIPE, text=True, preexec_fn=answer_signals)
     for _ in range(1000):
         if (out / "checkpoint.h5").exists():
             return process
@@ -58,7 +57,7 @@ def begun(gudgeon, deck, out, number=None):
 def test_a_signal_saves_the_run(gudgeon, tmp_path, number):
     """Exit code 7, status stopped, and a run of another deck does not go on from there."""
     deck, out = written(tmp_path, plain_deck(LONG)), tmp_path / "out"
-    process = begun(gudgeon, deck, out, number)
+    process = begun(gudgeon, deck, out)
     process.send_signal(number)
     said = process.communicate(timeout=60)[1]
     assert process.returncode == 7 and "--resume goes on from there" in said

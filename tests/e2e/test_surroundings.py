@@ -10,7 +10,7 @@ import subprocess
 import time
 
 import pytest
-from support import DECK, Run, call, changed, made, plain_deck, scratch, written
+from support import DECK, Run, answer_signals, call, changed, made, plain_deck, scratch, written
 
 SHORT = (("analysis.dynamic", "end", "0.2 ms"),)
 
@@ -134,7 +134,8 @@ def test_gnuplot_ends_with_the_run(gudgeon, place, number):
     """A run that is killed while gnuplot draws leaves no gnuplot, even one that ignores TERM; its numbers are readable."""
     length = "200" + str(os.getpid()) + str(int(number))
     env = gnuplot(place, f"trap '' TERM INT HUP\nexec sleep {length}\n")
-    process = subprocess.Popen([str(gudgeon), "run", str(place / "figures.deck"), "--out", str(place / "out"), "--quiet"], env=env)
+    process = subprocess.Popen([str(gudgeon), "run", str(place / "figures.deck"), "--out", str(place / "out"), "--quiet"], env=env,
+                               preexec_fn=answer_signals)
     word = f"sleep\0{length}"
     for _ in range(400):
         if alive(word):
