@@ -89,8 +89,8 @@ contains
       end do
    end subroutine find_penetration_peak
 
-   !> Whether a maximum within a step may be greater than a value. It is not if the ends are near it and the cubic of Hermite through
-   !> them would have to rise above them more than twice as high as it does.
+   !> Whether a maximum within a step may be greater than a value. It is not if the ends are near it and the cubic of Hermite
+   !> through them would have to rise above them more than twice as high as it does.
    pure logical function may_exceed(left, right, h, value)
       type(trend_t), intent(in) :: left    !! what is at the start of the step
       type(trend_t), intent(in) :: right   !! what is at its end

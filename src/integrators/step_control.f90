@@ -1,7 +1,7 @@
 !> Length of the steps of a one-step method, from its error estimates and the events that are foretold.
 !>
-!> A step is accepted if the norm E of the error estimate over the tolerance is at most 1. With p the order of the method and E_0 the
-!> norm of the step before, but at least 0.01,
+!> A step is accepted if the norm E of the error estimate over the tolerance is at most 1. With p the order of the method and E_0
+!> the norm of the step before, but at least 0.01,
 !>
 !> $$ h' = 0.93 E^{-0.8125/p} E_0^{0.25/p} h, $$
 !>
