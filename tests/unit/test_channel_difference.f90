@@ -41,8 +41,10 @@ contains
       run%kind = [sort_positions, sort_reactions]
       run%factor_of = [1.0_wp, 0.5_wp]
       run%goes_round = [.false., .false.]
-      run%further = [channel_kind_t(room_energy, class_energy, 0, ""), channel_kind_t(room_clearances, class_other, 0, "Pa"), &
-                     channel_kind_t(room_clearances, class_other, 0, "m^3/s")]
+      allocate (run%further(3))
+      run%further(1) = channel_kind_t(room_energy, class_energy, 0, "")
+      run%further(2) = channel_kind_t(room_clearances, class_other, 0, "Pa")
+      run%further(3) = channel_kind_t(room_clearances, class_other, 0, "m^3/s")
       run%sort = [sort_positions, sort_velocities]
       allocate (run%values(2, n_instant), run%series%x(2, n_instant), source=0.0_wp)
       run%values(1, :) = run%t
