@@ -9,7 +9,7 @@ module contact_peaks
    use mechanism, only: mechanism_t
    implicit none (type, external)
    private
-   public :: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, may_exceed, peak_t, trend_t
+   public :: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, may_exceed, peak_t, trend_t
 
    real(wp), parameter :: near_depth = 3.0e-5_wp  !! what a parabola may add to a maximum of the penetration, of it [1]
    real(wp), parameter :: near_force = 1.0e-8_wp  !! what may be missing to a maximum of the force, of it [1]
@@ -88,6 +88,18 @@ contains
          call narrow(place, here, bracket)
       end do
    end subroutine find_penetration_peak
+
+   !> Whether a force has a maximum within a step that may be greater than a value. Where a contact ends its force may have no rate.
+   pure logical function has_peak_above(left, right, end_penetration, h, value) result(has_peak)
+      type(trend_t), intent(in) :: left              !! the force at the start of the step
+      type(trend_t), intent(in) :: right             !! the force at its end
+      type(trend_t), intent(in) :: end_penetration   !! penetration at its end
+      real(wp), intent(in) :: h                      !! length of the step [s]
+      real(wp), intent(in) :: value                  !! the value [N]
+
+      has_peak = left%rate >= 0.0_wp .and. (right%rate < 0.0_wp .or. (right%rate <= 0.0_wp .and. end_penetration%rate < 0.0_wp))
+      if (has_peak) has_peak = may_exceed(left, right, h, value)
+   end function has_peak_above
 
    !> Whether a maximum within a step may be greater than a value. It is not if the ends are near it and the cubic of Hermite
    !> through them would have to rise above them more than twice as high as it does.

@@ -5,7 +5,7 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use clearance_set, only: loss_contact, loss_friction
-   use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, look, may_exceed, peak_t, trend_t
+   use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, peak_t, trend_t
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
@@ -112,13 +112,8 @@ contains
             number = system%loose%sets(k)%set%before%contacts + i
             call look(system, k, i, force, penetration)
             has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
-            ! where a contact ends its force may have no rate
-            has_force_peak = self%force(number)%rate >= 0.0_wp &
-                             .and. (force%rate < 0.0_wp .or. (force%rate <= 0.0_wp .and. penetration%rate < 0.0_wp))
-            if (has_force_peak) then
-               has_force_peak = may_exceed(self%force(number), force, method%step%h, &
-                                           system%loose%sets(k)%set%contact(i)%peak_force)
-            end if
+            has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, &
+                                            system%loose%sets(k)%set%contact(i)%peak_force)
             deepest = penetration%value
             deepest_at = method%t
             if (has_peak) then

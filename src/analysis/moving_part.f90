@@ -13,6 +13,7 @@ module moving_part
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use mechanism_energy, only: energy_of, energy_t
+   use ode_system, only: contact_onset
    use recorder, only: event_t, recorder_t
    use run_failure, only: constraints_lost, describe_failure, events_without_end, film_ended
    use run_tally, only: run_tally_t
@@ -166,9 +167,9 @@ contains
             return
          end if
          step_hint = 0.0_wp
-         system%traits%contact_begins = .false.
+         system%traits%contact_begins = any([(system%contact_change(method%events%happened(k)) == contact_onset, &
+                                              k=1, method%events%n_happened)])
          do k = 1, method%events%n_happened
-            system%traits%contact_begins = system%traits%contact_begins .or. system%is_onset(method%events%happened(k))
             ways(:, k) = sliding_way(system, method%events%happened(k))
          end do
          do k = 1, method%events%n_happened

@@ -142,11 +142,7 @@ contains
 
       call find_station(socket, base, s_i, s_j, i, j, n_body, r, rot, v, omega, at)
       distance = sqrt(at%e(1)**2 + at%e(2)**2 + at%e(3)**2)
-      if (distance > tiny(1.0_wp)) then
-         normal = socket%side*(at%e/distance)
-      else
-         normal = socket%side*direction_of(at, distance)
-      end if
+      normal = socket%side*direction_of(at, distance)
       contact%delta = socket%side*distance - socket%clearance
       if (.not. at%is_there) contact%delta = -socket%clearance
       if (socket%has_axis) then

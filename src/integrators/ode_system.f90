@@ -11,13 +11,18 @@
 !> (the gains of some stabilisations follow it). A system that sets `holds` has its `hold` called on
 !> every state that an integrator gives out: the end of an accepted step before its derivative is
 !> taken, the states tried in search of an event, the states of `refine`. `mend` is called on a state
-!> that did not come from the equations at all, and `is_onset` says which events are onsets of contacts, for
-!> integrators that meet them in another way (see `onset_control`).
+!> that did not come from the equations at all, and `contact_change` says which events are onsets and ends of
+!> contacts, for integrators that meet onsets in another way (`onset_control`) or suit their steps to both (`step_control`).
 module ode_system
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ode_system_t
+   public :: contact_end, contact_onset, no_contact_change, ode_system_t
+
+   ! what an event is to a contact
+   integer, parameter :: no_contact_change = 0   !! nothing
+   integer, parameter :: contact_onset = 1       !! its onset
+   integer, parameter :: contact_end = 2         !! its end
 
    !> What a system is like, and what is asked of it.
    type :: ode_traits_t
@@ -45,8 +50,7 @@ module ode_system
       procedure :: set_step => ode_set_step
       procedure :: hold => ode_hold
       procedure :: mend => ode_mend
-      procedure :: is_onset => ode_is_onset
-      procedure :: is_parting => ode_is_parting
+      procedure :: contact_change => ode_contact_change
    end type ode_system_t
 
    abstract interface
@@ -145,20 +149,12 @@ contains
       call self%hold(t, y, status)
    end subroutine ode_mend
 
-   !> Whether event k, as things stand, is the onset of a contact.
-   logical function ode_is_onset(self, k) result(is_onset)
+   !> What event k, as things stand, is to a contact: its onset, its end, or nothing.
+   integer function ode_contact_change(self, k) result(change)
       class(ode_system_t), intent(in) :: self  !! the system
       integer, intent(in) :: k                 !! number of the event function
 
-      is_onset = .false. .and. k <= self%n_event
-   end function ode_is_onset
-
-   !> Whether event k, as things stand, is the end of a contact.
-   logical function ode_is_parting(self, k) result(is_parting)
-      class(ode_system_t), intent(in) :: self  !! the system
-      integer, intent(in) :: k                 !! number of the event function
-
-      is_parting = .false. .and. k <= self%n_event
-   end function ode_is_parting
+      change = no_contact_change
+   end function ode_contact_change
 
 end module ode_system

@@ -13,7 +13,7 @@ module one_step
    use integrator, only: advance_too_many_steps, advance_too_small, integrator_t
    use integrator_controls, only: onset_located, onset_reject
    use kinds, only: eps, wp
-   use ode_system, only: ode_system_t
+   use ode_system, only: contact_end, ode_system_t
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
    use step_control, only: n_control_number, step_control_t
    implicit none (type, external)
@@ -275,7 +275,7 @@ contains
       if (self%controls%onset /= onset_located) call end_controlled_step(self)
       call foretell_event(self%events, self%step%h, self%pace%h_event, event)
       self%pace%is_parting = .false.
-      if (event > 0) self%pace%is_parting = system%is_parting(event)
+      if (event > 0) self%pace%is_parting = system%contact_change(event) == contact_end
       call find_first_event(system, self, event, low, high)
       if (event > 0) call go_to_event(self, system, low, high, event, status)
       if (self%controls%onset /= onset_located .and. status >= 0) call meet_onsets(system, self, status)

@@ -19,7 +19,7 @@ module onset_control
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, integrator_t
    use integrator_controls, only: onset_interpolate
    use kinds, only: wp
-   use ode_system, only: ode_system_t
+   use ode_system, only: contact_onset, ode_system_t
    implicit none (type, external)
    private
    public :: begin_control, end_controlled_step, is_too_deep, meet_onsets
@@ -46,7 +46,7 @@ contains
       integer :: k
 
       do k = 1, system%n_event
-         method%events%is_hidden(k) = system%is_onset(k) .or. method%onset%is_waiting(k)
+         method%events%is_hidden(k) = system%contact_change(k) == contact_onset .or. method%onset%is_waiting(k)
       end do
       call method%hide_events(method%events%g1, method%events%rate1)
    end subroutine hide
@@ -63,7 +63,7 @@ contains
       call system%last_events(t, y, method%onset%end_gap, method%onset%end_rate)
       is_too_deep = .false.
       do k = 1, system%n_event
-         if (.not. system%is_onset(k) .or. method%onset%gap(k) > method%controls%onset_limit) cycle
+         if (system%contact_change(k) /= contact_onset .or. method%onset%gap(k) > method%controls%onset_limit) cycle
          is_too_deep = is_too_deep .or. method%onset%end_gap(k) > method%controls%onset_limit
       end do
    end function is_too_deep
@@ -88,7 +88,8 @@ contains
 
       if (status == advance_event) call system%last_events(method%t, method%step%y1, method%onset%end_gap, method%onset%end_rate)
       do k = 1, system%n_event
-         has_begun(k) = system%is_onset(k) .and. method%onset%end_gap(k) > 0.0_wp .and. method%onset%end_rate(k) > 0.0_wp &
+         has_begun(k) = system%contact_change(k) == contact_onset .and. method%onset%end_gap(k) > 0.0_wp &
+                        .and. method%onset%end_rate(k) > 0.0_wp &
                         .and. .not. method%onset%is_waiting(k)
       end do
       if (.not. any(has_begun)) then

@@ -9,7 +9,8 @@ module change_scene
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space
    use read_films, only: check_lubricants, make_films
-   use read_scene, only: check_space, finish_scene, list_names, make_frictions, make_laws, resolve_tables
+   use read_laws, only: make_frictions, make_laws
+   use read_scene, only: check_space, finish_scene, list_names, resolve_tables
    use references, only: add_names, directory_t
    use scene, only: n_base, scene_t, table_t
    use tables, only: read_items

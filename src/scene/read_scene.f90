@@ -3,27 +3,27 @@ module read_scene
    use bodies, only: bodies_info, material_info, new_bodies, new_materials, new_points, points_info
    use clearance_registry, only: n_clearance_kinds
    use columns, only: column_of
-   use contact_registry, only: n_friction_kinds, n_law_kinds, new_friction_law, new_normal_law
    use deck_types, only: deck_t, location_of_end
    use diagnostics, only: diagnostics_t
    use figure_list, only: join_figures
    use force_registry, only: n_force_kinds
    use guard_info, only: guards_info
-   use item, only: item_t, place_of
+   use item, only: place_of
    use imsl_names, only: fold_imsl_names
    use joint_registry, only: n_joint_kinds
    use kind_info, only: is_of_space, kind_info_t
-   use kind_list, only: ask_all, clearance_info, force_info, friction_info, joint_info, known, law_info
+   use kind_list, only: ask_all, clearance_info, force_info, joint_info, known
    use option_check, only: check_options
    use precision_info, only: check_precision, precision_section
    use lubricant, only: lubricant_info, oil_of_row
    use read_films, only: check_lubricants, films_from_deck
+   use read_laws, only: laws_from_deck
    use read_functions, only: functions_from_deck
    use read_requests, only: make_requests, place_sights, requests_from_deck
    use references, only: add_names, directory_t, resolve
-   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, friction_slot_t, law_slot_t, n_analysis, n_base, &
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, n_base, &
       scene_t, section_t, settings_t, table_bodies, table_lubricants, table_materials, table_points, table_shapes, table_t
-   use scene_checks, only: check_meaning, check_names, report_doubled
+   use scene_checks, only: check_meaning, check_names
    use shapes, only: mistake_of_shape, shapes_info
    use section_info, only: dynamic_info, kinematic_info, output_info, scene_info, static_info
    use settings, only: check_sections, has_section, read_settings
@@ -32,7 +32,7 @@ module read_scene
    use tables, only: read_items
    implicit none (type, external)
    private
-   public :: check_space, finish_scene, list_names, make_frictions, make_laws, resolve_tables, scene_from_deck
+   public :: check_space, finish_scene, list_names, resolve_tables, scene_from_deck
 
 contains
 
@@ -59,7 +59,7 @@ contains
       call read_studies(deck, scene%settings, diagnostics)
       call read_tables(deck, scene, diagnostics)
       call list_names(scene, directory)
-      call read_laws(deck, scene, directory, diagnostics)
+      call laws_from_deck(deck, scene, directory, diagnostics)
       call films_from_deck(deck, scene, directory, diagnostics)
       call requests_from_deck(deck, directory, scene, diagnostics)
       if (size(scene%tables%base(table_bodies)%items) == 0 .and. diagnostics%count() == 0) then
@@ -244,118 +244,6 @@ contains
          end do
       end associate
    end subroutine check_space
-
-   !> Normal laws and friction laws: one object per row, names unique over all kinds of laws.
-   subroutine read_laws(deck, scene, directory, diagnostics)
-      type(deck_t), intent(inout) :: deck                 !! the deck
-      type(scene_t), intent(inout) :: scene               !! laws are set
-      type(directory_t), intent(inout) :: directory       !! names of the laws are set
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
-
-      integer :: before, k, n
-
-      allocate (scene%laws(0), scene%frictions(0), directory%laws(0), directory%frictions(0))
-      do k = 1, n_law_kinds
-         scene%tables%laws(k)%info = law_info(k)
-         before = diagnostics%count()
-         call read_items(deck, scene%tables%laws(k)%info, scene%tables%laws(k)%items, diagnostics)
-         associate (items => scene%tables%laws(k)%items)
-            n = size(scene%laws)
-            call grow_laws(scene%laws, n + size(items))
-            call report_doubled(items, directory%laws, diagnostics)
-            call make_laws(k, items, diagnostics%count() > before, scene%laws(n + 1:), diagnostics)
-            call add_names(items, directory%laws)
-         end associate
-      end do
-      do k = 1, n_friction_kinds
-         scene%tables%frictions(k)%info = friction_info(k)
-         before = diagnostics%count()
-         if (is_of_space(scene%tables%frictions(k)%info, scene%settings%is_spatial)) then
-            call read_items(deck, scene%tables%frictions(k)%info, scene%tables%frictions(k)%items, diagnostics)
-         else
-            allocate (scene%tables%frictions(k)%items(0))
-         end if
-         associate (items => scene%tables%frictions(k)%items)
-            n = size(scene%frictions)
-            call grow_frictions(scene%frictions, n + size(items))
-            call report_doubled(items, directory%frictions, diagnostics)
-            call make_frictions(k, items, diagnostics%count() > before, scene%frictions(n + 1:), diagnostics)
-            call add_names(items, directory%frictions)
-         end associate
-      end do
-   end subroutine read_laws
-
-   !> The normal laws of the rows of one kind.
-   subroutine make_laws(kind, items, has_mistakes, laws, diagnostics)
-      integer, intent(in) :: kind                         !! number in the registry
-      type(item_t), intent(in) :: items(:)                !! (n) rows
-      logical, intent(in) :: has_mistakes                 !! no law is made of rows with mistakes
-      type(law_slot_t), intent(inout) :: laws(:)          !! (n or more) the laws
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
-
-      integer :: i
-      logical :: is_broken
-
-      is_broken = has_mistakes
-      do i = 1, size(items)
-         call new_normal_law(kind, laws(i)%law)
-         if (is_broken) cycle
-         call laws(i)%law%prepare(items(i))
-         is_broken = laws(i)%law%mistake() /= ""
-         if (is_broken) call diagnostics%add(items(i)%location, laws(i)%law%mistake(), "in this row")
-      end do
-   end subroutine make_laws
-
-   !> The friction laws of the rows of one kind.
-   subroutine make_frictions(kind, items, has_mistakes, laws, diagnostics)
-      integer, intent(in) :: kind                         !! number in the registry
-      type(item_t), intent(in) :: items(:)                !! (n) rows
-      logical, intent(in) :: has_mistakes                 !! no law is made of rows with mistakes
-      type(friction_slot_t), intent(inout) :: laws(:)     !! (n or more) the laws
-      type(diagnostics_t), intent(inout) :: diagnostics   !! mistakes found
-
-      integer :: i
-      logical :: is_broken
-
-      is_broken = has_mistakes
-      do i = 1, size(items)
-         call new_friction_law(kind, laws(i)%law)
-         if (is_broken) cycle
-         call laws(i)%law%prepare(items(i))
-         is_broken = laws(i)%law%mistake() /= ""
-         if (is_broken) call diagnostics%add(items(i)%location, laws(i)%law%mistake(), "in this row")
-      end do
-   end subroutine make_frictions
-
-   !> Longer list of laws.
-   subroutine grow_laws(laws, n)
-      type(law_slot_t), allocatable, intent(inout) :: laws(:)  !! list, grown
-      integer, intent(in) :: n                                 !! new length
-
-      type(law_slot_t), allocatable :: grown(:)
-      integer :: k
-
-      allocate (grown(n))
-      do k = 1, size(laws)
-         call move_alloc(laws(k)%law, grown(k)%law)
-      end do
-      call move_alloc(grown, laws)
-   end subroutine grow_laws
-
-   !> Longer list of friction laws.
-   subroutine grow_frictions(laws, n)
-      type(friction_slot_t), allocatable, intent(inout) :: laws(:)  !! list, grown
-      integer, intent(in) :: n                                      !! new length
-
-      type(friction_slot_t), allocatable :: grown(:)
-      integer :: k
-
-      allocate (grown(n))
-      do k = 1, size(laws)
-         call move_alloc(laws(k)%law, grown(k)%law)
-      end do
-      call move_alloc(grown, laws)
-   end subroutine grow_frictions
 
    !> Names of all that can be referred to, but for laws and films.
    subroutine list_names(scene, directory)

@@ -72,8 +72,7 @@ module mechanism
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
       procedure :: event_noise => mechanism_event_noise, set_step => mechanism_set_step
       procedure :: hold => mechanism_hold, mend => mechanism_mend, take_way => mechanism_take_way
-      procedure :: is_parting => mechanism_is_parting
-      procedure :: find_contact => mechanism_find_contact, is_onset => mechanism_is_onset, in_state
+      procedure :: find_contact => mechanism_find_contact, contact_change => mechanism_contact_change, in_state
       procedure :: take_bristles => mechanism_take_bristles, bristle_rates => mechanism_bristle_rates
       procedure :: bristle_place => mechanism_bristle_place, rubbing_place => mechanism_rubbing_place
       procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
@@ -136,19 +135,12 @@ module mechanism
          integer, intent(out) :: status             !! 0: done
       end subroutine mechanism_mend
 
-      !> Whether event k, as things stand, is the onset of a contact.
-      module logical function mechanism_is_onset(self, k) result(is_onset)
-         implicit none (type, external)
-         class(mechanism_t), intent(in) :: self  !! the system
-         integer, intent(in) :: k                !! number of the event function
-      end function mechanism_is_onset
-
-      !> Whether event k, as things stand, is the end of a contact.
-      module logical function mechanism_is_parting(self, k) result(is_parting)
+      !> What event k, as things stand, is to a contact.
+      module integer function mechanism_contact_change(self, k) result(change)
          implicit none (type, external)
          class(mechanism_t), intent(in) :: self  !! the mechanism
          integer, intent(in) :: k                !! number of the event function
-      end function mechanism_is_parting
+      end function mechanism_contact_change
 
       !> Forces of the contacts that stick, and the accelerations with them.
       module subroutine mechanism_stick(self, status)

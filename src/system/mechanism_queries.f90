@@ -3,6 +3,7 @@ submodule(mechanism) mechanism_queries
    use contact_memory, only: rests
    use contact_places, only: touch_function, transition_function, turn_function
    use gap_noise, only: find_gap_noise
+   use ode_system, only: contact_end, contact_onset, no_contact_change
    implicit none (type, external)
 
 contains
@@ -170,21 +171,15 @@ contains
       end if
    end procedure mechanism_event_noise
 
-   !> Whether event k, as things stand, is the onset of a contact.
-   module procedure mechanism_is_onset
+   !> What event k, as things stand, is to a contact.
+   module procedure mechanism_contact_change
       integer :: item, slot
 
-      is_onset = .false.
+      change = no_contact_change
       if (self%loose%functions%kind_of(k) /= touch_function) return
       call self%find_contact(k, slot, item)
-      is_onset = .not. self%loose%sets(slot)%set%contact(item)%is_touching
-   end procedure mechanism_is_onset
-
-   !> Whether event k, as things stand, is the end of a contact.
-   module procedure mechanism_is_parting
-      is_parting = self%loose%functions%kind_of(k) == touch_function
-      if (is_parting) is_parting = .not. self%is_onset(k)
-   end procedure mechanism_is_parting
+      change = merge(contact_end, contact_onset, self%loose%sets(slot)%set%contact(item)%is_touching)
+   end procedure mechanism_contact_change
 
    !> Set of a contact and its place there by its number.
    module procedure mechanism_find_contact
