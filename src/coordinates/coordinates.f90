@@ -39,6 +39,8 @@ module coordinates
       procedure(along_interface), deferred, nopass :: along
       procedure(info_interface), deferred, nopass :: bodies_info
       procedure(weigh_interface), deferred :: weigh_positions
+      procedure(to_local_interface), deferred :: to_local
+      procedure(from_local_interface), deferred :: from_local
       procedure :: scales => coordinates_scales
       procedure :: change_scales => coordinates_change_scales
       procedure :: greatest_rate => coordinates_greatest_rate
@@ -167,6 +169,32 @@ module coordinates
          integer, intent(in) :: n                   !! how many bodies
          real(wp), intent(out) :: scale(self%n_q*n) !! (n_q n) scales [m or 1]
       end subroutine weigh_interface
+
+      !> Small changes of coordinates and rates of bodies, along the bodies' own axes.
+      pure subroutine to_local_interface(self, n, q, q_change, v_change, x, w)
+         import :: coordinates_t, wp
+         implicit none (type, external)
+         class(coordinates_t), intent(in) :: self         !! the coordinates
+         integer, intent(in) :: n                         !! how many bodies
+         real(wp), intent(in) :: q(self%n_q, n)           !! (n_q, n) their coordinates [any]
+         real(wp), intent(in) :: q_change(self%n_q, n)    !! (n_q, n) changes of these [any]
+         real(wp), intent(in) :: v_change(self%n_v, n)    !! (n_v, n) changes of the rates [any]
+         real(wp), intent(out) :: x(self%n_v, n)          !! (n_v, n) displacements and turns, along axes of the bodies [m or rad]
+         real(wp), intent(out) :: w(self%n_v, n)          !! (n_v, n) changes of velocities, the same way [m/s or rad/s]
+      end subroutine to_local_interface
+
+      !> The inverse of `to_local`.
+      pure subroutine from_local_interface(self, n, q, x, w, q_change, v_change)
+         import :: coordinates_t, wp
+         implicit none (type, external)
+         class(coordinates_t), intent(in) :: self         !! the coordinates
+         integer, intent(in) :: n                         !! how many bodies
+         real(wp), intent(in) :: q(self%n_q, n)           !! (n_q, n) their coordinates [any]
+         real(wp), intent(in) :: x(self%n_v, n)           !! (n_v, n) displacements and turns, along axes of the bodies [m or rad]
+         real(wp), intent(in) :: w(self%n_v, n)           !! (n_v, n) changes of velocities, the same way [m/s or rad/s]
+         real(wp), intent(out) :: q_change(self%n_q, n)   !! (n_q, n) changes of the coordinates [any]
+         real(wp), intent(out) :: v_change(self%n_v, n)   !! (n_v, n) changes of the rates [any]
+      end subroutine from_local_interface
 
       !> Greatest of velocity over a length and angular velocity of a body, by components.
       pure function rate_interface(motion, body, length) result(rate)

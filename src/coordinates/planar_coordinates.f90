@@ -30,6 +30,8 @@ module planar_coordinates
       procedure :: add_change => planar_add_change
       procedure :: difference => planar_difference
       procedure :: weigh_positions => planar_weigh_positions
+      procedure :: to_local => planar_to_local
+      procedure :: from_local => planar_from_local
       procedure :: find_acceleration => planar_find_acceleration
       procedure, nopass :: kinetic_energy => planar_kinetic_energy
       procedure, nopass :: rate_of => planar_rate_of
@@ -277,6 +279,53 @@ contains
       scale(2::3) = length
       scale(3::3) = 1.0_wp
    end subroutine planar_weigh_positions
+
+   !> Along the bodies' axes; turns are the same.
+   pure subroutine planar_to_local(self, n, q, q_change, v_change, x, w)
+      class(planar_coordinates_t), intent(in) :: self   !! the coordinates
+      integer, intent(in) :: n                          !! how many bodies
+      real(wp), intent(in) :: q(self%n_q, n)            !! (3, n) x, y, angle [m, m, rad]
+      real(wp), intent(in) :: q_change(self%n_q, n)     !! (3, n) their changes [m, m, rad]
+      real(wp), intent(in) :: v_change(self%n_v, n)     !! (3, n) changes of the rates [m/s, m/s, rad/s]
+      real(wp), intent(out) :: x(self%n_v, n)           !! (3, n) displacements and turns, body frames [m, m, rad]
+      real(wp), intent(out) :: w(self%n_v, n)           !! (3, n) changes of velocities, body frames [m/s, m/s, rad/s]
+
+      call turn(n, q, -1.0_wp, q_change, v_change, x, w)
+   end subroutine planar_to_local
+
+   !> Along the world's axes.
+   pure subroutine planar_from_local(self, n, q, x, w, q_change, v_change)
+      class(planar_coordinates_t), intent(in) :: self   !! the coordinates
+      integer, intent(in) :: n                          !! how many bodies
+      real(wp), intent(in) :: q(self%n_q, n)            !! (3, n) x, y, angle [m, m, rad]
+      real(wp), intent(in) :: x(self%n_v, n)            !! (3, n) displacements and turns, body frames [m, m, rad]
+      real(wp), intent(in) :: w(self%n_v, n)            !! (3, n) changes of velocities, body frames [m/s, m/s, rad/s]
+      real(wp), intent(out) :: q_change(self%n_q, n)    !! (3, n) changes of the coordinates [m, m, rad]
+      real(wp), intent(out) :: v_change(self%n_v, n)    !! (3, n) changes of the rates [m/s, m/s, rad/s]
+
+      call turn(n, q, 1.0_wp, x, w, q_change, v_change)
+   end subroutine planar_from_local
+
+   !> Two vectors for each body, turned by its angle or back.
+   pure subroutine turn(n, q, sense, x, w, x_turned, w_turned)
+      integer, intent(in) :: n                   !! how many bodies
+      real(wp), intent(in) :: q(3, n)            !! (3, n) x, y, angle [m, m, rad]
+      real(wp), intent(in) :: sense              !! 1: from the body's axes to the world's, -1: back [1]
+      real(wp), intent(in) :: x(3, n)            !! (3, n) x, y and angle of the first [any]
+      real(wp), intent(in) :: w(3, n)            !! (3, n) of the second [any]
+      real(wp), intent(out) :: x_turned(3, n)    !! (3, n) the first turned [any]
+      real(wp), intent(out) :: w_turned(3, n)    !! (3, n) the second turned [any]
+
+      real(wp) :: c, s
+      integer :: k
+
+      do k = 1, n
+         call sine_cosine(q(3, k), s, c)
+         s = sense*s
+         x_turned(:, k) = [c*x(1, k) - s*x(2, k), s*x(1, k) + c*x(2, k), x(3, k)]
+         w_turned(:, k) = [c*w(1, k) - s*w(2, k), s*w(1, k) + c*w(2, k), w(3, k)]
+      end do
+   end subroutine turn
 
    !> Greatest of velocities over a length and angular velocity.
    pure function planar_rate_of(motion, body, length) result(rate)

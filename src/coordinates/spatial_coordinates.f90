@@ -13,7 +13,8 @@ module spatial_coordinates
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
-   use rotations, only: euler_parameters_of, product_of, rate_of_parameters, rotation_of_parameters, rotation_vector_of, turned_by
+   use rotations, only: euler_parameters_of, product_of, rate_of_parameters, rotation_of_parameters, rotation_vector_of, spin_of, &
+      turned_by
    use spatial_bodies, only: of_orientation, of_spin, spatial_bodies_info
    implicit none (type, external)
    private
@@ -36,6 +37,8 @@ module spatial_coordinates
       procedure :: add_change => spatial_add_change
       procedure :: difference => spatial_difference
       procedure :: weigh_positions => spatial_weigh_positions
+      procedure :: to_local => spatial_to_local
+      procedure :: from_local => spatial_from_local
       procedure :: find_acceleration => spatial_find_acceleration
       procedure, nopass :: kinetic_energy => spatial_kinetic_energy
       procedure, nopass :: rate_of => spatial_rate_of
@@ -300,6 +303,50 @@ contains
          scale(n_q*k - 3:n_q*k) = 0.5_wp
       end do
    end subroutine spatial_weigh_positions
+
+   !> Along the bodies' axes, where turns and angular velocities are already.
+   pure subroutine spatial_to_local(self, n, q, q_change, v_change, x, w)
+      class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
+      integer, intent(in) :: n                          !! how many bodies
+      real(wp), intent(in) :: q(self%n_q, n)            !! (7, n) positions and Euler parameters [m and 1]
+      real(wp), intent(in) :: q_change(self%n_q, n)     !! (7, n) their changes [m and 1]
+      real(wp), intent(in) :: v_change(self%n_v, n)     !! (6, n) changes of the rates [m/s and rad/s]
+      real(wp), intent(out) :: x(self%n_v, n)           !! (6, n) displacements and turns, body frames [m and rad]
+      real(wp), intent(out) :: w(self%n_v, n)           !! (6, n) changes of velocities, body frames [m/s and rad/s]
+
+      real(wp) :: rot(3, 3)
+      integer :: k
+
+      do k = 1, n
+         rot = rotation_of_parameters(q(4:7, k))
+         x(1:3, k) = matmul(q_change(1:3, k), rot)
+         x(4:6, k) = spin_of(q(4:7, k), q_change(4:7, k))
+         w(1:3, k) = matmul(v_change(1:3, k), rot)
+         w(4:6, k) = v_change(4:6, k)
+      end do
+   end subroutine spatial_to_local
+
+   !> Along the world's axes, and the change of Euler parameters that a turn makes.
+   pure subroutine spatial_from_local(self, n, q, x, w, q_change, v_change)
+      class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
+      integer, intent(in) :: n                          !! how many bodies
+      real(wp), intent(in) :: q(self%n_q, n)            !! (7, n) positions and Euler parameters [m and 1]
+      real(wp), intent(in) :: x(self%n_v, n)            !! (6, n) displacements and turns, body frames [m and rad]
+      real(wp), intent(in) :: w(self%n_v, n)            !! (6, n) changes of velocities, body frames [m/s and rad/s]
+      real(wp), intent(out) :: q_change(self%n_q, n)    !! (7, n) changes of the coordinates [m and 1]
+      real(wp), intent(out) :: v_change(self%n_v, n)    !! (6, n) changes of the rates [m/s and rad/s]
+
+      real(wp) :: rot(3, 3)
+      integer :: k
+
+      do k = 1, n
+         rot = rotation_of_parameters(q(4:7, k))
+         q_change(1:3, k) = matmul(rot, x(1:3, k))
+         q_change(4:7, k) = rate_of_parameters(q(4:7, k), x(4:6, k))
+         v_change(1:3, k) = matmul(rot, w(1:3, k))
+         v_change(4:6, k) = w(4:6, k)
+      end do
+   end subroutine spatial_from_local
 
    !> Greatest of velocities over a length and angular velocities.
    pure function spatial_rate_of(motion, body, length) result(rate)

@@ -13,6 +13,10 @@
 !> taken, the states tried in search of an event, the states of `refine`. `mend` is called on a state
 !> that did not come from the equations at all, and `contact_change` says which events are onsets and ends of
 !> contacts, for integrators that meet onsets in another way (`onset_control`) or suit their steps to both (`step_control`).
+!>
+!> Local changes: small changes of a state resolved along axes that move with it, so that they stay nearly the same as the motion
+!> goes on: one displacement or turn for each rate, then the rates, then the other states; quadratures have none. `to_local` and
+!> `from_local` lead there and back, and `free_directions` says which of them invariants leave.
 module ode_system
    use kinds, only: wp
    implicit none (type, external)
@@ -51,6 +55,10 @@ module ode_system
       procedure :: hold => ode_hold
       procedure :: mend => ode_mend
       procedure :: contact_change => ode_contact_change
+      procedure :: to_local => ode_to_local
+      procedure :: from_local => ode_from_local
+      procedure :: free_directions => ode_free_directions
+      procedure :: evaluate_unheld => ode_evaluate_unheld
    end type ode_system_t
 
    abstract interface
@@ -156,5 +164,58 @@ contains
 
       change = no_contact_change
    end function ode_contact_change
+
+   !> The local change that a small change of a state is. Without bodies that turn there is no difference.
+   subroutine ode_to_local(self, y, change, x)
+      class(ode_system_t), intent(in) :: self  !! the system
+      real(wp), intent(in) :: y(:)             !! (n) state, quadratures are not read [any]
+      real(wp), intent(in) :: change(:)        !! (n less quadratures) its change [any]
+      real(wp), intent(out) :: x(:)            !! (n less quadratures and turning bodies) local change [any]
+
+      x = change + 0.0_wp*y(:size(change))
+   end subroutine ode_to_local
+
+   !> The small change of a state that a local change is: the inverse of `to_local`.
+   subroutine ode_from_local(self, y, x, change)
+      class(ode_system_t), intent(in) :: self  !! the system
+      real(wp), intent(in) :: y(:)             !! (n) state, quadratures are not read [any]
+      real(wp), intent(in) :: x(:)             !! (n less quadratures and turning bodies) local change [any]
+      real(wp), intent(out) :: change(:)       !! (n less quadratures) change of the state [any]
+
+      change = x + 0.0_wp*y(:size(change))
+   end subroutine ode_from_local
+
+   !> Directions D of local displacements, and of local rates, that nothing hinders at a state, and how much R^T x of each a
+   !> change x has, R^T D = I. A system without invariants has all. Where there are more than room for them, only their number is
+   !> found.
+   subroutine ode_free_directions(self, t, y, n, direction, reading)
+      class(ode_system_t), intent(inout) :: self   !! the system
+      real(wp), intent(in) :: t                    !! time [s]
+      real(wp), intent(in) :: y(:)                 !! (n) state [any]
+      integer, intent(out) :: n                    !! their number
+      real(wp), intent(inout) :: direction(:, :)   !! (rates, room) D, a column each [any]
+      real(wp), intent(inout) :: reading(:, :)     !! (rates, room) R, a column each [any]
+
+      integer :: k
+
+      n = size(direction, 1)
+      if (n > size(direction, 2) .or. t > huge(t) .or. size(y) < n) return
+      direction = 0.0_wp
+      do k = 1, n
+         direction(k, k) = 1.0_wp
+      end do
+      reading = direction
+   end subroutine ode_free_directions
+
+   !> Derivatives of the rates without what holds the invariants; other entries are not set. Where there are none: the derivative.
+   subroutine ode_evaluate_unheld(self, t, y, ydot, status)
+      class(ode_system_t), intent(inout) :: self   !! the system
+      real(wp), intent(in) :: t                    !! time [s]
+      real(wp), intent(in) :: y(self%n)            !! (n) state [any]
+      real(wp), intent(inout) :: ydot(self%n)      !! (n) derivatives of the rates [any]
+      integer, intent(out) :: status               !! outcome
+
+      call self%evaluate(t, y, ydot, status)
+   end subroutine ode_evaluate_unheld
 
 end module ode_system

@@ -18,7 +18,7 @@ module one_step
    use step_control, only: n_control_number, step_control_t
    implicit none (type, external)
    private
-   public :: one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
 
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
 

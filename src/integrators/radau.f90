@@ -1,4 +1,4 @@
-!> Radau IIA of order 5: an implicit one-step method for stiff equations, with events by re-stepping and without matrices.
+!> Radau IIA of order 5: an implicit one-step method for stiff equations, with events by re-stepping.
 !>
 !> The state at the end of a step is the last of three stages, the polynomial of degree 3 through the start and the stages
 !> satisfies the equations at each of them:
@@ -6,10 +6,14 @@
 !> $$ Y_i = y_0 + h \sum_j a_{ij} f(t_0 + c_j h, Y_j), c = ((4 - \sqrt 6)/10, (4 + \sqrt 6)/10, 1) $$
 !>
 !> What decays fast is damped away (L-stable), stiff springs without a damper too, and unlike `bdf` nothing is forgotten at an
-!> event: the next step is of order 5 as well. The stages are found by Newton's iteration; its linear equations are solved by
-!> GMRES with differences of the right-hand side along its directions (`radau_products`), so that the work grows with the number
-!> of stiff springs, dampers and films, not with that of coordinates, and stiff forces may turn with the bodies within a step.
-!> Quadratures follow from the stages.
+!> event: the next step is of order 5 as well. Quadratures follow from the stages.
+!>
+!> The stages are found by Newton's iteration. Where there are few freedoms, its matrix is that in their directions, which follow
+!> the bodies, made when the iteration becomes slow (`radau_matrix`), and the iteration is accelerated by what its steps teach
+!> (`anderson`). Else, where steps may be much longer than this iteration can make them, as with films, and where it fails again
+!> though the step was halved for it, its linear equations are solved by GMRES with differences of the right-hand side along its
+!> directions (`radau_products`): the work grows with the number of stiff springs, dampers and films, not with that of
+!> coordinates.
 !>
 !> Error: an embedded formula of order 3, filtered by (I - h J/u)^-1, so that stiff components do not spoil it. Since the method
 !> has two orders more, its estimate may be TOL' = TOL^(2/3)/10, which makes the error nearly proportional to TOL; Newton's
@@ -19,9 +23,11 @@
 !> stiff forces would make worse; other states and quadratures by the integral of the cubic through the derivatives at the start
 !> and at the stages, of order 5.
 !>
-!> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where more
-!> than some ten forces are stiff, each in its own way, GMRES needs as many directions, and `bdf` is cheaper.
+!> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
+!> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
+!> directions, and `bdf` is cheaper.
 module radau
+   use anderson, only: anderson_t
    use integrator, only: advance_no_memory, advance_step
    use interpolation, only: interpolate
    use kind_info, only: kind_info_t
@@ -29,13 +35,16 @@ module radau
    use krylov_solver, only: krylov_solver_t
    use memory, only: get, put
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use radau_matrix, only: radau_matrix_t
    use radau_products, only: a, c, filter_product_t, stage_product_t
    implicit none (type, external)
    private
    public :: radau_t
 
    integer, parameter :: most_evaluations = 2400        !! of a step: sixteen iterations with forty directions each
+   real(wp), parameter :: wide = 2.0_wp                 !! times longer than with the matrix a step must be, to be worth GMRES [1]
+   real(wp), parameter :: forgets = 1.1_wp              !! growth of what the matrix is thought to do, in a step by GMRES [1]
    real(wp), parameter :: diverged = (0.9_wp/0.5_wp)**4 !! norm of a step without stages, which halves it [1]
 
    !> Stages of a step.
@@ -51,11 +60,19 @@ module radau
       integer :: n = 0                          !! entries of the state without quadratures
       type(stage_product_t) :: stage            !! the stages in hand
       type(filter_product_t) :: filter          !! of the error
+      type(radau_matrix_t) :: matrix            !! Newton's matrix, where there are few freedoms
+      logical :: is_stale = .true.              !! whether it is to be made anew before the next step
+      logical :: has_failed = .false.           !! whether the iteration with a new one has in the step in hand
+      logical :: is_wide = .false.              !! whether the step in hand is longer than it can do
+      real(wp) :: h_matrix = huge(1.0_wp)       !! longest step with it [s]
+      real(wp) :: h_gmres = huge(1.0_wp)        !! longest step by GMRES [s]
+      type(anderson_t) :: secants               !! acceleration of the iteration with it
       type(krylov_solver_t) :: stage_solver     !! GMRES for Newton's equations
       type(krylov_solver_t) :: filter_solver    !! GMRES for the filter
       type(stages_t) :: before                  !! stages of the step before the one in hand
       type(stages_t) :: now                     !! of the step in hand, as a whole
       real(wp), allocatable :: z(:, :)          !! (n, 3) changes at the stages in hand [any]
+      real(wp), allocatable :: first_z(:, :)    !! (n, 3) where an iteration begins [any]
       real(wp), allocatable :: side(:)          !! (3 n) right side of Newton's equations [any]
       real(wp), allocatable :: change(:)        !! (3 n) their solution [any]
       real(wp), allocatable :: weight(:)        !! (3 n) error scales [any]
@@ -67,6 +84,7 @@ module radau
       procedure, nopass :: is_explicit => radau_is_explicit
       procedure :: prepare => radau_prepare
       procedure :: restart => radau_restart
+      procedure :: advance => radau_advance
       procedure :: make_stages => radau_make_stages
       procedure :: error_norm => radau_error_norm
       procedure :: prepare_output => radau_prepare_output
@@ -144,12 +162,15 @@ contains
 
       self%now%h = 0.0_wp
       self%contraction = 1.0_wp
+      self%is_stale = .true.
       call one_step_restart(self, system, step_hint, status)
       if (status /= advance_step .or. self%n > 0) return
       self%n = system%n - system%n_quadrature
       associate (n => self%n)
-         allocate (self%z(n, 3), self%side(3*n), self%change(3*n), self%weight(3*n), self%before%z(n, 3), self%now%z(n, 3), &
-                   source=0.0_wp)
+         allocate (self%z(n, 3), self%first_z(n, 3), self%side(3*n), self%change(3*n), self%weight(3*n), &
+                   self%before%z(n, 3), self%now%z(n, 3), source=0.0_wp)
+         call self%matrix%open(system)
+         call self%secants%open(3*n)
          call self%stage%open(n, system%n)
          call self%filter%open(n, system%n)
          call self%stage_solver%open(3*n, status)
@@ -157,6 +178,19 @@ contains
       end associate
       status = merge(advance_step, advance_no_memory, status == 0)
    end subroutine radau_restart
+
+   !> One step, by GMRES where it may be much longer than with the matrix.
+   subroutine radau_advance(self, system, t_stop, status)
+      class(radau_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      self%is_wide = self%pace%h_next/wide > self%h_matrix
+      if (self%is_wide) self%h_matrix = forgets*self%h_matrix
+      self%pace%h_most = merge(self%h_gmres, self%h_matrix, self%is_wide .or. .not. self%matrix%is_known)
+      call one_step_advance(self, system, t_stop, status)
+   end subroutine radau_advance
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`. Parts of an accepted step are
    !> asked for in search of an event: there the iteration goes on to round-off, so that the state is a smooth function of the
@@ -226,6 +260,7 @@ contains
       self%before%z(:, :) = self%now%z
       self%now%t = self%step%t0
       self%now%h = 0.0_wp
+      self%has_failed = .false.
    end subroutine go_on
 
    !> Where the iteration begins: on the polynomial through stages of a step that ends, or begins, where this one begins; else on
@@ -332,7 +367,7 @@ contains
    integer function radau_memory_size(self) result(n)
       class(radau_t), intent(in) :: self  !! the integrator
 
-      n = one_step_memory_size(self) + 4 + 3*self%n
+      n = one_step_memory_size(self) + 6 + 3*self%n + self%matrix%memory_size()
    end function radau_memory_size
 
    !> Write what the integrator remembers.
@@ -344,10 +379,12 @@ contains
       integer :: k
 
       call one_step_save(self, row, place)
-      call put(row, place, [self%now%t, self%now%h, self%contraction, self%pace%h_most])
+      call put(row, place, [self%now%t, self%now%h, self%contraction, self%h_matrix, self%h_gmres])
+      call put(row, place, self%is_stale)
       do k = 1, 3
          call put(row, place, self%now%z(:, k))
       end do
+      call self%matrix%save(row, place)
    end subroutine radau_save
 
    !> Read what the integrator remembers.
@@ -362,10 +399,13 @@ contains
       call get(row, place, self%now%t)
       call get(row, place, self%now%h)
       call get(row, place, self%contraction)
-      call get(row, place, self%pace%h_most)
+      call get(row, place, self%h_matrix)
+      call get(row, place, self%h_gmres)
+      call get(row, place, self%is_stale)
       do k = 1, 3
          call get(row, place, self%now%z(:, k))
       end do
+      call self%matrix%load(row, place)
       self%stage%h = 0.0_wp
    end subroutine radau_load
 

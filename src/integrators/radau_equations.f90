@@ -8,28 +8,86 @@ submodule(radau) radau_equations
                           /3.0_wp                       !! of the error estimate [1]
 
    integer, parameter :: n_newton(2) = [8, 16]          !! (2) iterations, at most: of a step, and of a part of one
-   integer, parameter :: many = 5                       !! iterations after which the next step is no longer than the last
+   integer, parameter :: many(2) = [5, 4]               !! (2) iterations after which the next step is no longer than the last: by
+                                                        !! GMRES, and with the matrix
+   integer, parameter :: too_many = 5                   !! iterations, slower than `slow`, after which the matrix is made anew
+   real(wp), parameter :: slow = 0.2_wp                 !! ratio of successive changes [1]
+   real(wp), parameter :: least_ratio = 0.1_wp          !! of successive changes with the matrix; acceleration makes some less [1]
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
+   real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
    real(wp), parameter :: left_by_gmres(2) = [3.0e-4_wp, 1.0e-2_wp]  !! (2) of the residual of Newton's equations: least, most [1]
    real(wp), parameter :: left_by_filter = 0.1_wp       !! of the residual of the filter of the error [1]
 
 contains
 
-   !> Newton's iteration for the stages.
+   !> Newton's iteration for the stages: with the matrix that is at hand, then with a new one; where it is not known, the step is
+   !> too long for it, or a new one does not do though the step has been shortened for it or cannot be, by GMRES.
    module procedure find_stages
+      logical :: is_new
+
+      call self%set_scales(system, self%step%y0)
+      self%first_z(:, :) = self%z
+      is_new = self%is_stale .and. .not. self%is_wide
+      if (is_new) call renew_matrix(self, system)
+      if (self%matrix%is_known .and. .not. self%is_wide) then
+         call iterate(self, system, h, is_part, .true., is_found, status)
+         if (is_found .or. status < 0) return
+         if (.not. is_new) then
+            self%z(:, :) = self%first_z
+            call renew_matrix(self, system)
+            if (self%matrix%is_known) call iterate(self, system, h, is_part, .true., is_found, status)
+            if (is_found .or. status < 0) return
+         end if
+         if (.not. (is_part .or. self%has_failed .or. self%controls%fixed_step > 0.0_wp)) then
+            self%has_failed = .true.
+            return
+         end if
+         self%z(:, :) = self%first_z
+      end if
+      call iterate(self, system, h, is_part, .false., is_found, status)
+   end procedure find_stages
+
+   !> The matrix at the start of the step.
+   subroutine renew_matrix(self, system)
+      class(radau_t), intent(inout) :: self                  !! the integrator, scales set
+      class(ode_system_t), intent(inout), target :: system   !! the system
+
+      call begin_differences(self, system)
+      call self%matrix%renew(system, self%filter)
+      nullify (self%filter%system)
+      self%count%n_evaluations = self%count%n_evaluations + self%filter%n_evaluation
+      self%is_stale = .false.
+   end subroutine renew_matrix
+
+   !> The iteration, with the matrix or by GMRES. Where no estimate of the error says what is enough, as with fixed steps, that
+   !> with the matrix, which gains little with each of its cheap iterations, goes on to round-off.
+   !> Length: one loop, what it begins with and what it leaves.
+   subroutine iterate(self, system, h, is_part, by_matrix, is_found, status)
+      class(radau_t), intent(inout) :: self                 !! the integrator; `z` is where it begins, then what it finds
+      class(ode_system_t), intent(inout), target :: system  !! the system
+      real(wp), intent(in) :: h                             !! length of the step [s]
+      logical, intent(in) :: is_part                        !! of an accepted step
+      logical, intent(in) :: by_matrix                      !! with the matrix
+      logical, intent(out) :: is_found                      !! whether the iteration has converged
+      integer, intent(out) :: status                        !! of the evaluations
+
       real(wp) :: before, enough, eta, least, left, now, theta, tolerance
       integer :: k, most
 
       most = n_newton(merge(2, 1, is_part))
       tolerance = lenient(self%controls%tolerance)
-      enough = max(noise, tolerance*min(part_of_tolerance, sqrt(tolerance)))
-      least = merge(noise, enough, is_part)
-      call self%set_scales(system, self%step%y0)
+      enough = max(noise, tolerance*min(part_of_tolerance, merge(conservative, 1.0_wp, by_matrix)*sqrt(tolerance)))
+      least = merge(noise, enough, is_part .or. (by_matrix .and. self%controls%fixed_step > 0.0_wp))
       eta = min(max(left_by_gmres(1), 10.0_wp*tolerance), left_by_gmres(2))
       if (is_part) eta = left_by_gmres(1)
       call begin_stages(self, h)
+      if (by_matrix) then
+         eta = least_ratio
+         call self%matrix%factorise(h)
+         call self%secants%begin()
+      end if
       self%stage%system => system
       self%contraction = max(self%contraction, eps)**0.8_wp
       before = 0.0_wp
@@ -39,10 +97,15 @@ contains
          call evaluate_stages(self, system, h, status)
          if (status /= 0) exit
          call set_side(self%n, h, self%z, self%stage%f, self%side)
-         call self%stage_solver%solve(self%stage, self%side, self%weight, eta, self%change, status)
+         if (by_matrix) then
+            call solve_by_matrix(self, system, self%n, self%side, self%change)
+         else
+            call self%stage_solver%solve(self%stage, self%side, self%weight, eta, self%change, status)
+         end if
          if (status /= 0) exit
          now = greatest(self, self%change)
          if (.not. now < huge(1.0_wp)) exit
+         if (by_matrix) call self%secants%improve(self%weight, self%change)
          call add_change(self%n, self%change, self%z)
          if (k > 1) then
             theta = max(eta, now/before)
@@ -57,34 +120,75 @@ contains
       nullify (self%stage%system)
       self%count%n_evaluations = self%count%n_evaluations + self%stage%n_evaluation
       if (.not. is_found) self%contraction = 1.0_wp
-      if (.not. is_part) self%pace%h_most = merge(h, huge(1.0_wp), k >= many)
+      if (by_matrix) self%is_stale = k >= too_many .and. theta > slow
+      if (.not. is_part) then
+         if (by_matrix) then
+            self%h_matrix = merge(h, huge(1.0_wp), self%has_failed .or. k >= many(2))
+         else
+            self%h_gmres = merge(h, huge(1.0_wp), k >= many(1))
+         end if
+      end if
       ! what follows from the derivatives at the stages asks for those at the stages found
       if (status == 0 .and. is_found .and. size(self%y) > 2*system%n_position - system%traits%n_turning) then
          call evaluate_stages(self, system, h, status)
       end if
-   end procedure find_stages
+   end subroutine iterate
+
+   !> Newton's equations with the matrix.
+   subroutine solve_by_matrix(self, system, n, side, change)
+      class(radau_t), intent(inout) :: self          !! the integrator, stages evaluated
+      class(ode_system_t), intent(in) :: system      !! the system
+      integer, intent(in) :: n                       !! entries without quadratures
+      real(wp), intent(in) :: side(n, 3)             !! (n, 3) what is left of the equations [any]
+      real(wp), intent(out) :: change(n, 3)          !! (n, 3) changes of the stages [any]
+
+      call self%matrix%solve_stages(system, self%stage%y, side, change)
+   end subroutine solve_by_matrix
+
+   !> What differences at the start of the step need.
+   subroutine begin_differences(self, system)
+      class(radau_t), intent(inout) :: self                  !! the integrator, scales set
+      class(ode_system_t), intent(in), target :: system      !! the system
+
+      associate (filter => self%filter)
+         filter%t = self%step%t0
+         filter%size = state_size(self)
+         filter%n_evaluation = 0
+         filter%scale(:) = self%scale(:self%n)
+         filter%y(:) = self%step%y0
+         filter%f(:) = self%step%f0
+         filter%system => system
+      end associate
+   end subroutine begin_differences
 
    !> What the products need.
    subroutine begin_stages(self, h)
       class(radau_t), intent(inout) :: self  !! the integrator, scales set
       real(wp), intent(in) :: h              !! length of the step [s]
 
-      integer :: i
-
       associate (n => self%n)
          self%stage%t = self%step%t0
          self%stage%h = h
          self%stage%n_evaluation = 0
          self%stage%scale(:) = self%scale(:n)
-         self%stage%size = 1.0_wp
-         do i = 1, n
-            self%stage%size = max(self%stage%size, abs(self%step%y0(i))/self%scale(i))
-         end do
+         self%stage%size = state_size(self)
          self%weight(:n) = self%scale(:n)
          self%weight(n + 1:2*n) = self%scale(:n)
          self%weight(2*n + 1:) = self%scale(:n)
       end associate
    end subroutine begin_stages
+
+   !> The state at the start over the scales, at least one.
+   pure real(wp) function state_size(self)
+      class(radau_t), intent(in) :: self   !! the integrator, scales set
+
+      integer :: i
+
+      state_size = 1.0_wp
+      do i = 1, self%n
+         state_size = max(state_size, abs(self%step%y0(i))/self%scale(i))
+      end do
+   end function state_size
 
    !> The right-hand side at the stages.
    module procedure evaluate_stages
@@ -161,20 +265,15 @@ contains
       integer :: i, n
 
       n = self%n
+      status = 0
       call self%set_scales(system, self%trial)
+      call begin_differences(self, system)
       associate (filter => self%filter, side => self%side(:n), estimate => self%change(:n))
-         filter%t = self%step%t0
          filter%h = h
-         filter%size = self%stage%size
-         filter%n_evaluation = 0
-         filter%scale(:) = self%scale(:n)
-         filter%y(:) = self%step%y0
-         filter%f(:) = self%step%f0
-         filter%system => system
          do i = 1, n
             side(i) = (h*self%step%f0(i) + e(1)*self%z(i, 1) + e(2)*self%z(i, 2) + e(3)*self%z(i, 3))/real_eigenvalue
          end do
-         call self%filter_solver%solve(filter, side, filter%scale, left_by_filter, estimate, status)
+         call apply_filter()
          if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
          if (status == 0 .and. self%norm > 1.0_wp .and. self%before%h <= 0.0_wp) then
             self%y(:) = self%step%y0
@@ -182,12 +281,27 @@ contains
             self%count%n_evaluations = self%count%n_evaluations + 1
             call system%evaluate(self%step%t0, self%y, filter%rate, status)
             side(:) = side + h/real_eigenvalue*(filter%rate(:n) - self%step%f0(:n))
-            if (status == 0) call self%filter_solver%solve(filter, side, filter%scale, left_by_filter, estimate, status)
+            if (status == 0) call apply_filter()
             if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
          end if
          nullify (filter%system)
          self%count%n_evaluations = self%count%n_evaluations + filter%n_evaluation
       end associate
+
+   contains
+
+      !> The filter.
+      subroutine apply_filter()
+         associate (side => self%side(:self%n), estimate => self%change(:self%n))
+            if (self%matrix%is_known) call self%matrix%factorise(h)
+            if (self%matrix%is_known) then
+               call self%matrix%solve_filter(system, self%step%y0, side, estimate)
+            else
+               call self%filter_solver%solve(self%filter, side, self%filter%scale, left_by_filter, estimate, status)
+            end if
+         end associate
+      end subroutine apply_filter
+
    end procedure estimate_error
 
 end submodule radau_equations

@@ -3,8 +3,8 @@ module lapack
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ddot, dgeev, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dpbtrf, dpbtrs, dsyev, dsygv
-   public :: dtrtrs
+   public :: ddot, dgeev, dgels, dgelsd, dgeqp3, dgeqrf, dgesc2, dgesvd, dgetc2, dgetrf, dgetrs, dormqr, dpbtrf, dpbtrs, dsyev
+   public :: dsygv, dtrtrs, zgetrf, zgetrs
 
    interface
       !> Sum of products.
@@ -164,6 +164,19 @@ module lapack
          integer, intent(out) :: info                !! 0: done
       end subroutine dgetrs
 
+      !> Product of the orthogonal matrix of dgeqrf or dgeqp3 with another one.
+      subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: side, trans                !! L: from the left; N: not transposed
+         integer, intent(in) :: m, n, k, lda, ldc, lwork     !! sizes
+         real(wp), intent(in) :: a(lda, *)                   !! (lda, k) reflections as the factorisation left them [any]
+         real(wp), intent(in) :: tau(*)                      !! (k) factors of these [1]
+         real(wp), intent(inout) :: c(ldc, *)                !! (ldc, n) matrix, then the product [any]
+         real(wp), intent(inout) :: work(*)                  !! (lwork) room [any]
+         integer, intent(out) :: info                        !! 0: done
+      end subroutine dormqr
+
       !> Cholesky factorisation of a symmetric positive definite band matrix.
       subroutine dpbtrf(uplo, n, kd, ab, ldab, info)
          import :: wp
@@ -184,6 +197,28 @@ module lapack
          real(wp), intent(inout) :: b(ldb, *)            !! (ldb, nrhs) right-hand sides, then solutions [any]
          integer, intent(out) :: info                    !! 0: done
       end subroutine dpbtrs
+
+      !> LU factorisation of a complex matrix with partial pivoting.
+      subroutine zgetrf(m, n, a, lda, ipiv, info)
+         import :: wp
+         implicit none (type, external)
+         integer, intent(in) :: m, n, lda          !! sizes
+         complex(wp), intent(inout) :: a(lda, *)   !! (lda, n) matrix, then its factors [any]
+         integer, intent(out) :: ipiv(*)           !! (min(m, n)) row exchanges
+         integer, intent(out) :: info              !! 0: done; k: pivot k is zero
+      end subroutine zgetrf
+
+      !> Solution from the factors of zgetrf.
+      subroutine zgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         implicit none (type, external)
+         character, intent(in) :: trans              !! N: no transpose
+         integer, intent(in) :: n, nrhs, lda, ldb    !! sizes
+         complex(wp), intent(in) :: a(lda, *)        !! (lda, n) factors [any]
+         integer, intent(in) :: ipiv(*)              !! (n) row exchanges
+         complex(wp), intent(inout) :: b(ldb, *)     !! (ldb, nrhs) right-hand sides, then solutions [any]
+         integer, intent(out) :: info                !! 0: done
+      end subroutine zgetrs
 
       !> Solution of triangular equations.
       subroutine dtrtrs(uplo, trans, diag, n, nrhs, a, lda, b, ldb, info)

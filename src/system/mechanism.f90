@@ -78,6 +78,8 @@ module mechanism
       procedure :: stick => mechanism_stick, decide_slip => mechanism_decide_slip, bristle_weights => mechanism_bristle_weights
       procedure :: rub => mechanism_rub, rub_by_multipliers => mechanism_rub_by_multipliers
       procedure :: friction_events => mechanism_friction_events, turns => mechanism_turns
+      procedure :: to_local => mechanism_to_local, from_local => mechanism_from_local
+      procedure :: free_directions => mechanism_free_directions, evaluate_unheld => mechanism_evaluate_unheld
       procedure :: list_memory => mechanism_list_memory
       procedure :: memory_size => mechanism_memory_size, save => mechanism_save, load => mechanism_load
    end type mechanism_t
@@ -223,6 +225,41 @@ module mechanism
          real(wp), intent(in) :: t, y(:)            !! time [s] and (n) state [any]
          integer, intent(in) :: slot, k             !! set of the contact, and its number there
       end subroutine mechanism_decide_slip
+
+      !> The local change that a small change of a state is: along the bodies' axes.
+      module subroutine mechanism_to_local(self, y, change, x)
+         implicit none (type, external)
+         class(mechanism_t), intent(in) :: self        !! the system
+         real(wp), intent(in) :: y(:), change(:)       !! (n) state, and (n less quadratures) its change [any]
+         real(wp), intent(out) :: x(:)                 !! (n less quadratures and turning bodies) local change [any]
+      end subroutine mechanism_to_local
+
+      !> The small change of a state that a local change is.
+      module subroutine mechanism_from_local(self, y, x, change)
+         implicit none (type, external)
+         class(mechanism_t), intent(in) :: self        !! the system
+         real(wp), intent(in) :: y(:), x(:)            !! (n) state, and local change [any]
+         real(wp), intent(out) :: change(:)            !! (n less quadratures) change of the state [any]
+      end subroutine mechanism_from_local
+
+      !> Directions of local displacements that the rows leave, and how to read them.
+      module subroutine mechanism_free_directions(self, t, y, n, direction, reading)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self                     !! the system
+         real(wp), intent(in) :: t, y(:)                               !! time [s] and (n) state [any]
+         integer, intent(out) :: n                                     !! their number
+         real(wp), intent(inout) :: direction(:, :), reading(:, :)     !! (rates, room) a column each [any]
+      end subroutine mechanism_free_directions
+
+      !> Accelerations of the bodies without their joints.
+      module subroutine mechanism_evaluate_unheld(self, t, y, ydot, status)
+         implicit none (type, external)
+         class(mechanism_t), intent(inout) :: self  !! the system
+         real(wp), intent(in) :: t                  !! time [s]
+         real(wp), intent(in) :: y(self%n)          !! (n) state [any]
+         real(wp), intent(inout) :: ydot(self%n)    !! (n) derivatives of the rates of unknown bodies [any]
+         integer, intent(out) :: status             !! outcome
+      end subroutine mechanism_evaluate_unheld
 
       !> List what the system saves, in the order in which it does.
       module subroutine mechanism_list_memory(self, pieces)

@@ -5,7 +5,7 @@ module ode_examples
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, power_t, root_t
+   public :: growth_t, kepler_t, new_kepler, new_particles, new_pendulum, particles_t, pendulum_t, plain_t, power_t, root_t
    public :: run_to, slope
 
    !> A system without events whose error scales are all one.
