@@ -210,6 +210,10 @@ contains
          system%loose%has_films = system%loose%has_films .or. slot%set%laws%films%acts
       end if
       call slot%set%prepare(items)
+      if (film > 0) then
+         if (slot%set%laws%films%acts) system%loose%film_clearance = min(system%loose%film_clearance, &
+                                                                         minval(slot%set%items%clearance))
+      end if
       do i = 1, size(items)
          if (ties(i)%by_joint) call slot%set%take_joint(i, joints(i)%set)
       end do

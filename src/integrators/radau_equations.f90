@@ -14,6 +14,7 @@ submodule(radau) radau_equations
    real(wp), parameter :: slow = 0.2_wp                 !! ratio of successive changes [1]
    real(wp), parameter :: least_ratio = 0.1_wp          !! of successive changes with the matrix; acceleration makes some less [1]
    real(wp), parameter :: hopeless = 2.0_wp             !! ratio of successive changes at which the iteration is given up [1]
+   real(wp), parameter :: out_of_reach = 1.0_wp/sqrt(eps)  !! change of the stages over the scales that no motion makes [1]
    real(wp), parameter :: part_of_tolerance = 0.03_wp   !! of TOL': error left by the iteration, at most [1]
    real(wp), parameter :: conservative = 3.0_wp         !! ratio of that, as it is estimated with the matrix, to what is left [1]
    real(wp), parameter :: noise = 10.0_wp*eps           !! least error of the iteration, over the scales [1]
@@ -104,7 +105,7 @@ contains
          end if
          if (status /= 0) exit
          now = greatest(self, self%change)
-         if (.not. now < huge(1.0_wp)) exit
+         if (.not. now < out_of_reach) exit
          if (by_matrix) call self%secants%improve(self%weight, self%change)
          call add_change(self%n, self%change, self%z)
          if (k > 1) then

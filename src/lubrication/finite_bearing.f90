@@ -131,8 +131,9 @@ contains
       real(wp), dimension(n_ratio) :: all, all_mu, all_nu, row, row_nu
       integer :: i, i_first, j_first
 
-      i_first = floor(mu/knot_distance)
-      j_first = floor(nu/knot_distance)
+      ! within the table even for what is no number
+      i_first = min(max(floor(mu/knot_distance), n_local/2 - 1 - n_mu), n_mu - n_local/2)
+      j_first = min(max(floor(nu/knot_distance), 0), n_nu - n_local/2)
       call basis(mu/knot_distance - real(i_first, wp), b, b_slope)
       call basis(nu/knot_distance - real(j_first, wp), c, c_slope)
       all = 0.0_wp

@@ -34,6 +34,7 @@ module mechanism
       integer :: n = 0                                 !! loose joints in all
       integer :: n_contact = 0                         !! contacts of all of them
       logical :: has_films = .false.                   !! lubricant films act in some
+      real(wp) :: film_clearance = huge(1.0_wp)        !! least clearance with a film [m]
       real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
       type(event_functions_t) :: functions             !! which event functions their contacts have
    end type loose_t
