@@ -18,9 +18,9 @@ contains
    !> Error scales: lengths over the size of the bodies, angles over one radian, rates over the
    !> greatest present rate of the mechanism, at least a hundredth of its pace, and of 1/duration of the run: what begins to move
    !> late must not be measured by round-off. Angles are not scaled by
-   !> their value, so that the error does not grow as a crank counts turns. Where films act, no error of a length is more than three
-   !> thousandths of the least clearance, whatever the tolerance: implicit methods would jump over what a film resists with, which is
-   !> all within the clearance. While surfaces touch,
+   !> their value, so that the error does not grow as a crank counts turns. Where films act, no error of a length is more than
+   !> three thousandths of the least clearance, whatever the tolerance: implicit methods would jump over what a film resists with,
+   !> which is all within the clearance. While surfaces touch,
    !> all scales are a tenth: what an impact gives back is the difference of two large energies, and
    !> its dozen steps add up. Then no rate is asked for that round-off does not allow: a contact that swings with w makes speeds
    !> of w times what a length as the mechanism's size is rounded by.
