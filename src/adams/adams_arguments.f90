@@ -52,6 +52,7 @@ contains
       case ("GFORCE"); names = "I JFLOAT RM FX FY FZ TX TY TZ FUNCTION ROUTINE"
       case ("GEAR"); names = "JOINTS CV"
       case ("COUPLER"); names = "JOINTS TYPE SCALES FUNCTION ROUTINE"
+      case ("SPLINE"); names = "X Y LINEAR_EXTRAPOLATE"
       case ("ACCGRAV", "GRAVITY"); names = "IGRAV JGRAV KGRAV"
       case default; names = ""
       end select

@@ -16,8 +16,8 @@ module adams_expression
    implicit none (type, external)
    private
    public :: depends_on, is_measure, node_t, on_other, on_rate, on_stretch, on_time, parse_tree, tree_t
-   public :: node_add, node_call, node_degrees, node_divide, node_multiply, node_name, node_negate, node_number, node_power, &
-      node_subtract
+   public :: node_add, node_call, node_curve, node_degrees, node_divide, node_multiply, node_name, node_negate, node_number, &
+      node_power, node_subtract
 
    integer, parameter :: node_number = 1     !! a number
    integer, parameter :: node_degrees = 2    !! a number of degrees
@@ -29,6 +29,7 @@ module adams_expression
    integer, parameter :: node_divide = 8
    integer, parameter :: node_power = 9
    integer, parameter :: node_negate = 10
+   integer, parameter :: node_curve = 11     !! a curve of the deck, by its name, of one argument
 
    ! what an expression depends on, bits
    integer, parameter :: on_time = 1      !! the time

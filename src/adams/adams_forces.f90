@@ -185,10 +185,10 @@ contains
       unit = model%units%force_text()
       if (turns) unit = unit//"*"//model%units%length_text()
       free = 0.0_wp
-      call cut_force(model, expression, statement, turns, free, parts)
+      call cut_force(model, draft, expression, statement, turns, free, parts)
       if (parts%message == "" .and. parts%of_stretch /= "") then
-         free = rest_of(negative(parts%of_stretch, "1"), start, merge(1.0_wp, model%units%length, turns), turns)
-         call cut_force(model, expression, statement, turns, free, parts)
+         free = rest_of(draft%functions, negative(parts%of_stretch, "1"), start, merge(1.0_wp, model%units%length, turns), turns)
+         call cut_force(model, draft, expression, statement, turns, free, parts)
       end if
       if (parts%message /= "" .or. (is_alone .and. (parts%of_stretch /= "" .or. parts%of_rate /= ""))) then
          parts%of_stretch = ""
@@ -221,7 +221,8 @@ contains
    !> Where a law stores least, so that what it stores is counted from there: looked for from the start on, as far as a length
    !> goes to
    !> zero and to three times itself, and an angle half a turn.
-   function rest_of(law, start, unit, turns) result(rest)
+   function rest_of(functions, law, start, unit, turns) result(rest)
+      type(symbols_t), intent(in) :: functions  !! that it may call
       character(*), intent(in) :: law      !! tension over the length or angle x, a plain number, in braces
       real(wp), intent(in) :: start        !! length or angle at the start, units of the dataset [any]
       real(wp), intent(in) :: unit         !! of the dataset, SI [any]
@@ -231,12 +232,11 @@ contains
       integer, parameter :: n = 2000       ! places looked at, and halvings of the last one
       type(expression_t) :: compiled
       type(fault_t), allocatable :: fault
-      type(symbols_t) :: symbols
       real(wp) :: force, high, least, low, previous, step, stored, x
       integer :: k, side
 
       rest = start
-      call compile_expression(law(2:len(law) - 1), symbols, .true., compiled, fault, "x", [merge(dim_angle, dim_length, turns)])
+      call compile_expression(law(2:len(law) - 1), functions, .true., compiled, fault, "x", [merge(dim_angle, dim_length, turns)])
       if (allocated(fault)) return
       least = 0.0_wp
       do side = -1, 1, 2

@@ -10,6 +10,7 @@ module adams_motions
    use adams_integrals, only: integral_text
    use adams_joints, only: named, two_markers
    use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_splines, only: name_splines
    use adams_starts, only: angle_at_start
    use adams_translation, only: deck_text, grouped, words_t
    use dataset, only: expression_of, find_argument, has_word, statement_t
@@ -105,7 +106,7 @@ contains
       logical :: is_speed
 
       start = angle_at_start(model, marker)
-      call motion_text(model, statement, start, .true., text, is_speed, mistakes)
+      call motion_text(model, draft, statement, start, .true., text, is_speed, mistakes)
       if (text == "") return
       call draft%new_name(named(statement), statement%id, name)
       if (is_speed) then
@@ -131,7 +132,7 @@ contains
 
       a = model%axes(marker(2))
       start = dot_product(a(:, axis), model%place(marker(1)) - model%place(marker(2)))/model%units%length
-      call motion_text(model, statement, start, .false., text, is_speed, mistakes)
+      call motion_text(model, draft, statement, start, .false., text, is_speed, mistakes)
       if (text == "") return
       call draft%new_name(named(statement), statement%id, name)
       call draft%point(model, marker(2), point_i)
@@ -142,8 +143,9 @@ contains
 
    !> What a motion asks for as a function of time, a plain number in the units of the dataset; blank: it is left out.
    !> Length: displacement, velocity and acceleration differ in a line or two each.
-   subroutine motion_text(model, statement, start, turns, text, is_speed, mistakes)
+   subroutine motion_text(model, draft, statement, start, turns, text, is_speed, mistakes)
       type(adams_model_t), intent(inout) :: model           !! the dataset
+      type(deck_draft_t), intent(inout) :: draft            !! the deck
       type(statement_t), intent(in) :: statement            !! the motion
       real(wp), intent(in) :: start                         !! value at the start, in the units of the dataset [any]
       logical, intent(in) :: turns                          !! whether it is an angle, zero at the start in the deck
@@ -167,6 +169,7 @@ contains
       end if
       call parse_tree(expression, tree)
       message = tree%message
+      call name_splines(model, draft, tree, message)
       if (message == "") bits = depends_on(tree, tree%root, [0, 0], .false.)
       if (message == "") then
          if (iand(bits, not(on_time)) /= 0) message = "it is no function of the time alone"

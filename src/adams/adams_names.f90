@@ -10,12 +10,13 @@ module adams_names
    public :: full_names, is_refused, is_setting, is_understood, reason_against
 
    character(*), parameter :: understood = &
-      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE GCON"
+      "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE GCON " &
+      //"SPLINE"
    character(*), parameter :: refused = "BEAM FIELD NFORCE FLEX_BODY FE_PART FEMDATA"   !! elastic bodies
    character(*), parameter :: settings = "DEBUG EQUILIBRIUM GRAPHICS IC INTEGRATOR KINEMATICS LSOLVER OUTPUT PREFERENCES " &
       //"REQUEST MREQUEST RESULTS TITLE LIST MATERIAL"   !! no part of the mechanism
    character(*), parameter :: others = "ADAMS_DOC_FILENAME ARRAY BUSHING CONTACT CURVE CVCV CVSF DIFF DV END " &
-      //"FRICTION FORCE GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF SPLINE " &
+      //"FRICTION FORCE GSE LSE MATRIX MFORCE PINPUT POINT_MASS POUTPUT PTCV PTSF RULE SENSOR SFSF " &
       //"STRING SURFACE TFSISO TIRE UCON USERCON"
 
 contains
@@ -73,7 +74,7 @@ contains
       case ("CONTACT"); reason = "its solids are not in the dataset; see the joints with clearance, clearance.*"
       case ("FRICTION")
          reason = "its law is none of a deck's; joints of a deck name a row of friction.* in their column 'friction'"
-      case ("MFORCE", "SPLINE", "CURVE", "MATRIX", "STRING", "ARRAY")
+      case ("MFORCE", "CURVE", "MATRIX", "STRING", "ARRAY")
          reason = "it is for statements that a deck does not have"
       case ("CVCV", "PTCV", "CVSF", "PTSF", "SFSF", "SURFACE"); reason = "a deck has no curves and surfaces that touch"
       case ("DIFF", "GSE", "LSE", "TFSISO", "DV", "PINPUT", "POUTPUT", "SENSOR", "RULE")

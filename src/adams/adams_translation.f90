@@ -13,12 +13,13 @@
 !> | `FORCOS`, `FORSIN` `(x, x0, w, a0, a1, ...)` | a0 + a1 cos(w (x - x0)) + ..., with sines |
 !> | `IMPACT(x, v, x1, k, e, c, d)` | max(k p^e - c STEP(p, 0, 0, d, 1) v, 0), p = max(x1 - x, 0) |
 !> | `BISTOP(x, v, x1, x2, k, e, c, d)` | the same at x1, less that at x2 with p = max(x - x2, 0) and -v |
+!> | `CUBSPL`, `AKISPL` `(x, 0, id)` | see `adams_splines` |
 !> | `DM VR DX DY DZ VX VY VZ WX WY WZ` | see `adams_measures` |
 !>
 !> Limits: whatever else there is has no words here, and the message says its name.
 module adams_translation
-   use adams_expression, only: depends_on, node_add, node_call, node_degrees, node_divide, node_multiply, node_name, node_negate, &
-      node_number, node_power, node_subtract, on_time, tree_t
+   use adams_expression, only: depends_on, node_add, node_call, node_curve, node_degrees, node_divide, node_multiply, node_name, &
+      node_negate, node_number, node_power, node_subtract, on_time, tree_t
    use kinds, only: wp
    use text, only: lower, text_t, to_text
    implicit none (type, external)
@@ -63,6 +64,9 @@ contains
          case (node_negate)
             call deck_text(tree, it%arguments(1), words, a, message)
             text = "(-"//a//")"
+         case (node_curve)
+            call deck_text(tree, it%arguments(1), words, a, message)
+            text = it%name//"("//a//")"
          case (node_call)
             if (allocated(it%words)) then
                text = it%words

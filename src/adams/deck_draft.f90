@@ -5,6 +5,7 @@
 module deck_draft
    use adams_model, only: adams_model_t
    use deck_table, only: deck_table_t, number_cell
+   use expression_symbols, only: symbols_t
    use kinds, only: wp
    use name_table, only: name_table_t
    use text, only: replace, split_blank, to_text
@@ -31,6 +32,7 @@ module deck_draft
       type(joint_t), allocatable :: joints(:)        !! (joints)
       type(name_table_t) :: points                   !! names of points
       type(name_table_t) :: names                    !! names of what has channels
+      type(symbols_t) :: functions                   !! that expressions may call
       type(text_list_t) :: asked                     !! what rows of requests tell
       type(text_list_t) :: answers                   !! names of these rows
    contains

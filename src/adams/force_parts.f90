@@ -7,6 +7,7 @@ module force_parts
       node_subtract, on_other, on_rate, on_stretch, on_time, parse_tree, tree_t
    use adams_measures, only: name_measures
    use adams_model, only: adams_model_t, find_statement, id_of
+   use adams_splines, only: name_splines
    use adams_translation, only: coefficient_text, deck_text, grouped, is_undamped, words_t
    use dataset, only: expression_of, statement_t, upper_case
    use deck_draft, only: deck_draft_t
@@ -28,8 +29,9 @@ module force_parts
 contains
 
    !> Cut a force into its parts.
-   subroutine cut_force(model, text, statement, turns, free, parts)
-      type(adams_model_t), intent(in) :: model         !! the dataset
+   subroutine cut_force(model, draft, text, statement, turns, free, parts)
+      type(adams_model_t), intent(inout) :: model      !! the dataset
+      type(deck_draft_t), intent(inout) :: draft       !! the deck
       character(*), intent(in) :: text                 !! the expression
       type(statement_t), intent(in) :: statement       !! the force
       logical, intent(in) :: turns                     !! whether it is a torque
@@ -45,6 +47,7 @@ contains
       own = [id_of(statement, "I", ignored), id_of(statement, "J", ignored)]
       call parse_tree(with_variables(model, text), tree)
       parts%message = tree%message
+      call name_splines(model, draft, tree, parts%message)
       if (parts%message /= "") return
       words%time = "(t/"//model%units%time_text()//")"
       words%stretch = "x/"//model%units%length_text()
@@ -68,6 +71,7 @@ contains
 
       call parse_tree(with_variables(model, expression), tree)
       message = tree%message
+      call name_splines(model, draft, tree, message)
       if (message /= "") return
       words%time = "(t/"//model%units%time_text()//")"
       words%stretch = ""

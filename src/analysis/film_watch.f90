@@ -50,7 +50,7 @@ module film_watch
       real(wp) :: limit(n_limit) = 0.0_wp              !! (limits) the limits, 0: none [m]
       real(wp) :: least = huge(1.0_wp)                 !! least thickness [m]
       real(wp) :: time = 0.0_wp                        !! when that was [s]
-      real(wp) :: step = 0.0_wp                        !! step that ended then [s]
+      real(wp) :: step = 0.0_wp                        !! step that ended then, or the one before: the longer of both [s]
       type(film_motion_t) :: motion                    !! motion of the bearing then
       type(lean_t) :: lean                             !! how its pin has lain
    end type thin_film_t
@@ -60,6 +60,7 @@ module film_watch
       type(thin_film_t), allocatable :: joint(:)   !! (contacts) films, at first contacts of joints; unallocated: there is none
       real(wp), allocatable :: delta(:), rate(:)   !! (contacts) penetrations [m] and their rates [m/s]
       real(wp) :: t = 0.0_wp                       !! end of the last step [s]
+      real(wp) :: step = 0.0_wp                    !! length of that step, which an event or the end of the run may have cut [s]
    contains
       procedure :: begin => watch_begin
       procedure :: look => watch_look
@@ -120,7 +121,7 @@ contains
                   if (.not. joint%is_watched .or. thickness >= joint%least) cycle
                   joint%least = thickness
                   joint%time = t
-                  joint%step = t - self%t
+                  joint%step = max(t - self%t, self%step)
                   joint%motion = set%laws%films%motion_of(i, set%items%body(:, i), set%items%s_i(:, i), set%items%s_j(:, i), &
                                                           system%linkage%motion)
                   do limit = 1, n_limit
@@ -132,6 +133,7 @@ contains
             end do
          end associate
       end do
+      self%step = t - self%t
       self%t = t
    end subroutine watch_look
 
@@ -292,6 +294,7 @@ contains
 
       if (.not. allocated(self%joint)) return
       call tape%put(self%t)
+      call tape%put(self%step)
       do k = 1, size(self%joint)
          call tape%put(transfer(self%joint(k), [0.0_wp]))
       end do
@@ -307,6 +310,7 @@ contains
 
       if (.not. allocated(self%joint)) return
       call tape%get(self%t)
+      call tape%get(self%step)
       do k = 1, size(self%joint)
          call tape%get(numbers)
          self%joint(k) = transfer(numbers, self%joint(k))

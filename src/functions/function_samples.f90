@@ -1,23 +1,25 @@
-!> Smooth curve through samples: a cubic spline, twice continuously differentiable.
+!> Smooth curve through samples: a cubic spline, twice continuously differentiable, or Akima's curve, whose second derivative jumps
+!> at the samples.
 !>
 !> The samples stand in the row, as two lists in quotes with a unit each, or in a text file whose first line
 !> names two columns with their units, as `t[ms] lift[mm]`. The argument is what the places are: a time for drivers
 !> and loads, or any other quantity.
 !>
 !> `ends` closes the spline: not_a_knot (exact for cubics), natural (no curvature at the ends), clamped (no slope
-!> there). `beyond` says what is outside the samples: error (the function does not exist, which ends a run that
-!> gets there), hold (the value of the end), linear (the tangent of the end), periodic (the samples repeat; the last
-!> value is the first one, and the spline closes smoothly, so that `ends` has no meaning).
+!> there), fmm (third derivatives of cubics through four samples). `beyond` says what is outside the samples: error (the function
+!> does not exist, which ends a run that gets there), hold (the value of the end), linear (the tangent of the end), periodic (the
+!> samples repeat; the last value is the first one, and the curve closes smoothly, so that `ends` has no meaning).
 !>
-!> Source: de Boor, A practical guide to splines (1978), chapter IV. Limits: at least 4 samples; hold and linear
-!> have a jump of the first or second derivative at the end unless the samples flatten out there.
+!> Source: de Boor, A practical guide to splines (1978), chapter IV; H. Akima, J. ACM 17 (1970) 589-602. Limits: at least 4 samples;
+!> hold and linear have a jump of the first or second derivative at the end unless the samples flatten out there.
 module function_samples
+   use akima, only: new_akima
    use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_periodic
    use function_kind, only: function_kind_t, made_t
    use item, only: item_t, place_of
    use kind_info, only: add_file, add_list, add_word, kind_info_t
    use kinds, only: wp
-   use spline, only: ends_clamped, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
+   use spline, only: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
    use text, only: to_text
    implicit none (type, external)
    private
@@ -41,12 +43,15 @@ contains
 
       info%name = "function.samples"
       info%help = "smooth curve through samples, called by its name in expressions: {lift(t)}"
-      info%source = "de Boor (1978), chapter IV"
+      info%source = "de Boor (1978), chapter IV; Akima (1970)"
       call add_list(info, "at", "places of the samples, increasing", default="")
       call add_list(info, "value", "values of the samples", default="")
       call add_file(info, "file", "two columns, relative to the deck, with names and units in the first line; instead of at " &
                     //"and value", default="")
-      call add_word(info, "ends", "how the curve is closed; left out: not_a_knot", default="", choices="not_a_knot natural clamped")
+      call add_word(info, "curve", "what goes through the samples: a cubic spline, or Akima's curve, less disturbed by a wild " &
+                    //"sample, which bends at each", default="spline", choices="spline akima")
+      call add_word(info, "ends", "how a spline is closed; left out: not_a_knot", default="", &
+                    choices="not_a_knot natural clamped fmm")
       call add_word(info, "beyond", "what is outside the samples", default="error", choices="error hold linear periodic")
    end function samples_info
 
@@ -62,7 +67,11 @@ contains
       associate (at => item%values(place_of(item, "at")), value => item%values(place_of(item, "value")))
          made%argument = at%dimensions(1)
          made%dimension = value%dimensions(1)
-         call new_spline(at%table(:, 1), value%table(:, 1), ends_of(item), beyond_of(item), made%curve)
+         if (item%word("curve") == "akima") then
+            call new_akima(at%table(:, 1), value%table(:, 1), beyond_of(item), made%curve)
+         else
+            call new_spline(at%table(:, 1), value%table(:, 1), ends_of(item), beyond_of(item), made%curve)
+         end if
       end associate
    end subroutine samples_make
 
@@ -130,6 +139,9 @@ contains
          else if (beyond_of(item) == beyond_periodic .and. item%is_given("ends")) then
             call complain("ends", "a periodic curve has no ends")
             made%help = "leave out column ends, or write -"
+         else if (item%word("curve") == "akima" .and. item%is_given("ends")) then
+            call complain("ends", "the ends of Akima's curve follow from its samples")
+            made%help = "leave out column ends, or write -; curve = spline has ends"
          end if
       end associate
 
@@ -155,6 +167,8 @@ contains
          ends = ends_natural
       case ("clamped")
          ends = ends_clamped
+      case ("fmm")
+         ends = ends_fmm
       case default
          ends = ends_not_a_knot
       end select

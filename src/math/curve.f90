@@ -37,6 +37,7 @@ module curve
       real(wp), allocatable :: x(:)           !! (n + 1) places, increasing; a single piece needs no end [any]
       real(wp), allocatable :: c(:, :)        !! (0:degree, n) coefficients about the first place of each piece [any]
       integer :: beyond = beyond_same         !! what it is beyond its places
+      logical :: bends = .false.              !! whether the second derivative jumps at every place
       real(wp) :: amplitude = 0.0_wp          !! A [any]
       real(wp) :: angular_frequency = 0.0_wp  !! w [rad/any]
       real(wp) :: phase = 0.0_wp              !! at x = 0 [rad]

@@ -118,8 +118,16 @@ contains
          integer :: i, m
 
          associate (n => size(curve%x))
-            if (curve%beyond == beyond_hold .or. curve%beyond == beyond_linear) call add_places(curve%x([1, n]), argument)
             period = curve%x(n) - curve%x(1)
+            if (curve%bends .and. curve%beyond == beyond_periodic) then
+               do i = 1, n - 1
+                  call add(waving(argument, curve%x(i), period), .false.)
+               end do
+            else if (curve%bends) then
+               call add_places(curve%x, argument)
+            else if (curve%beyond == beyond_hold .or. curve%beyond == beyond_linear) then
+               call add_places(curve%x([1, n]), argument)
+            end if
          end associate
          if (.not. allocated(curve%rises)) return
          do m = 1, size(curve%rises)

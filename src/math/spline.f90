@@ -5,21 +5,24 @@
 !> b_k = (y_k+1 - y_k)/h_k - h_k (2 m_k + m_k+1)/6,
 !> h_k-1 m_k-1 + 2 (h_k-1 + h_k) m_k + h_k m_k+1 = 6 ((y_k+1 - y_k)/h_k - (y_k - y_k-1)/h_k-1),
 !> closed at the ends by m = 0 (natural), p' = 0 (clamped), one cubic over the two first and the two last
-!> intervals (not-a-knot: exact for cubics), or m, p' the same at both ends (periodic).
+!> intervals (not-a-knot: exact for cubics), p''' of the first and the last interval as that of the cubic through the four samples
+!> there (fmm: exact for cubics too), or m, p' the same at both ends (periodic).
 !>
-!> Source: de Boor, A practical guide to splines (1978), chapter IV. Limits: error of order h^4, h^3, h^2 in
+!> Source: de Boor, A practical guide to splines (1978), chapter IV; fmm: Forsythe, Malcolm and Moler, Computer methods for
+!> mathematical computations (1977), chapter 4. Limits: error of order h^4, h^3, h^2 in
 !> value and derivatives; of natural and clamped ones only if the ends are so indeed.
 module spline
    use curve, only: curve_t
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: ends_clamped, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
+   public :: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, least_samples, new_spline
 
    integer, parameter :: ends_not_a_knot = 1  !! one cubic over the two first and the two last intervals
    integer, parameter :: ends_natural = 2     !! no curvature at the ends
    integer, parameter :: ends_clamped = 3     !! no slope at the ends
    integer, parameter :: ends_periodic = 4    !! the last sample is the first one again
+   integer, parameter :: ends_fmm = 5         !! third derivatives of cubics through four samples
    integer, parameter :: least_samples = 4    !! samples that a spline needs
 
 contains
@@ -84,6 +87,11 @@ contains
          diagonal(n) = 2.0_wp*h(n - 1)
          lower(n) = h(n - 1)
          right(n) = -6.0_wp*slope(n - 1)
+      case (ends_fmm)
+         upper(1) = -1.0_wp
+         right(1) = -6.0_wp*h(1)*third_difference(h(1:3), slope(1:3))
+         lower(n) = -1.0_wp
+         right(n) = 6.0_wp*h(n - 1)*third_difference(h(n - 3:n - 1), slope(n - 3:n - 1))
       case (ends_not_a_knot)
          ! m_1 = (1 + r) m_2 - r m_3 put into the second equation, and so at the other end
          r = h(1)/h(2)
@@ -100,6 +108,14 @@ contains
       m(1) = m(2) + (m(2) - m(3))*h(1)/h(2)
       m(n) = m(n - 1) + (m(n - 1) - m(n - 2))*h(n - 1)/h(n - 2)
    end subroutine curvatures
+
+   !> The third divided difference of four samples.
+   pure real(wp) function third_difference(h, slope) result(d)
+      real(wp), intent(in) :: h(3)       !! (3) lengths of the intervals [any]
+      real(wp), intent(in) :: slope(3)   !! (3) slopes of the chords [any]
+
+      d = ((slope(3) - slope(2))/(h(2) + h(3)) - (slope(2) - slope(1))/(h(1) + h(2)))/sum(h)
+   end function third_difference
 
    !> Second derivatives of a periodic spline: the cyclic system by the formula of Sherman and Morrison.
    pure subroutine periodic_curvatures(n, h, slope, m)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from published_series import AT_END
 from scipy.integrate import solve_ivp
+from scipy.interpolate import Akima1DInterpolator
 from support import ROOT, call, scratch, written
 
 MODELS = ROOT / "tests" / "adams"
@@ -85,6 +86,48 @@ def test_springs_in_inches_and_pounds(gudgeon):
     spin = column(run, "bodies", "angular_velocity", "PART_6")[:, 2]
     assert np.abs(spin - 0.25 * t**2 / 0.4).max() < 1e-7
     assert "nothing of the mechanism was left out" in said
+
+
+def fmm_spline(x, y):
+    """The spline of Forsythe, Malcolm and Moler, by its definition: third derivatives of the first and the last interval are those of
+    the cubics through the four samples there. A cubic spline is a straight sum of truncated cubes with that many conditions."""
+    x, y = np.array(x, float), np.array(y, float)
+    knots = x[1:-1]
+    basis = lambda s: np.stack([s**0, s, s**2, s**3, *[np.maximum(s - k, 0) ** 3 for k in knots]], axis=-1)  # noqa: E731
+    third = np.zeros((2, 4 + len(knots)))
+    third[:, 3] = 6
+    third[1, 4:] = 6
+    want = [6 * np.polyfit(x[part], y[part], 3)[0] for part in (slice(None, 4), slice(-4, None))]
+    weights = np.linalg.solve(np.vstack([basis(x), third]), np.concatenate([y, want]))
+    return lambda s: basis(np.asarray(s, float)) @ weights
+
+
+def test_splines(gudgeon):
+    """CUBSPL and AKISPL of the length of a spring and of the time, in a motion and in forces, against scipy's Akima and a spline
+    made of its definition; what a deck has no words for is left out with its reason."""
+    run, said = imported(gudgeon, "splines")
+    t = run["time"][:]
+    places, tensions = [60, 80, 90, 100, 120, 150, 200], [-70, -15, -4, 0, 6, 22, 90]
+    spring = Akima1DInterpolator(places, tensions)
+    beats = [0, 0.5, 1, 1.5, 2], [0, 2, -1, 3, 0]
+    pull = fmm_spline(*beats)
+
+    def rates(time, y):
+        return [y[1], (-spring(y[0]) - 0.002 * y[1] + 3 * pull(time)) / 2 * 1000]
+
+    want = solve_ivp(rates, (0, 1), [110.0, 50.0], t_eval=t, rtol=1e-11, atol=1e-11, max_step=1e-3).y[0]
+    assert want.min() < 90 and want.max() > 120  # over several pieces
+    z = column(run, "bodies", "position", "PART_2")[:, 2] * 1000
+    assert np.abs(z - want).max() < 1e-6
+    way = fmm_spline([0, 0.1, 0.25, 0.5, 0.7, 1.0], [0, 4, 20, 60, 75, 80])(t)
+    assert np.abs(column(run, "bodies", "position", "PART_3")[:, 2] * 1000 - way).max() < 1e-9
+    spin = Akima1DInterpolator(*beats).antiderivative()(t) * 1000 / 150
+    turning = column(run, "bodies", "angular_velocity", "PART_4")
+    assert np.abs(np.abs(turning).max(axis=1) - np.abs(spin)).max() < 1e-8
+    for words in ("SPLINE/3: it has fewer than 4 samples", "the spline of CUBSPL is not there", "a derivative by AKISPL has no words",
+                  "cubic_2 ends with its samples, where Adams goes on"):
+        assert words in said
+    assert "SPLINE/1" not in said  # goes on along its tangents in both
 
 
 def test_stops_drags_and_gears(gudgeon):

@@ -1,19 +1,20 @@
 !> Curves and splines: exact where they must be, smooth at the samples, of the order that theory gives.
 module test_spline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use akima, only: new_akima
    use check, only: check_close, check_true, suite_t
    use curve, only: beyond_error, beyond_hold, beyond_linear, beyond_periodic, beyond_same, curve_t, curve_values, jet_of_curve
    use errors, only: error_t
    use fixed_random, only: random_t
    use kinds, only: i8, pi, wp
-   use spline, only: ends_clamped, ends_natural, ends_not_a_knot, ends_periodic, new_spline
+   use spline, only: ends_clamped, ends_fmm, ends_natural, ends_not_a_knot, ends_periodic, new_spline
    use text, only: to_text
    implicit none (type, external)
    private
    public :: run_test_spline
 
-   integer, parameter :: all_ends(4) = [ends_not_a_knot, ends_natural, ends_clamped, ends_periodic]
-   character(*), parameter :: names(4) = [character(10) :: "not_a_knot", "natural", "clamped", "periodic"]
+   integer, parameter :: all_ends(5) = [ends_not_a_knot, ends_natural, ends_clamped, ends_periodic, ends_fmm]
+   character(*), parameter :: names(5) = [character(10) :: "not_a_knot", "natural", "clamped", "periodic", "fmm"]
 
 contains
 
@@ -25,6 +26,7 @@ contains
       call suite%test("smooth", test_smooth)
       call suite%test("ends", test_ends)
       call suite%test("order", test_order)
+      call suite%test("akima", test_akima)
       call suite%test("beyond", test_beyond)
       call suite%test("round_off", test_round_off)
       call suite%test("sine_and_polynomial", test_sine_and_polynomial)
@@ -60,7 +62,7 @@ contains
       real(wp) :: f(3), x(25), y(25)
       integer :: e, k, n
 
-      do e = 1, 4
+      do e = 1, size(all_ends)
          do n = 4, 25, 7
             call random_spline(all_ends(e), n, x(:n), y(:n), curve)
             do k = 1, n
@@ -71,18 +73,20 @@ contains
       end do
    end subroutine test_samples
 
-   !> Not-a-knot gives back a cubic with its derivatives, from four samples on.
+   !> Not-a-knot and fmm give back a cubic with its derivatives, from four samples on.
    subroutine test_cubic(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
+      integer, parameter :: ends(2) = [ends_not_a_knot, ends_fmm]
       type(curve_t) :: curve
       real(wp) :: f(3), t, x(9), y(9)
-      integer :: k, n
+      integer :: case, k, n
 
       x = [-2.0_wp, -1.5_wp, 0.1_wp, 0.2_wp, 1.0_wp, 3.0_wp, 3.5_wp, 5.0_wp, 5.1_wp]
       y = 2.0_wp - x + 0.5_wp*x**2 - 0.25_wp*x**3
-      do n = 4, 9
-         call new_spline(x(:n), y(:n), ends_not_a_knot, beyond_same, curve)
+      do case = 0, 11
+         n = 4 + case/2
+         call new_spline(x(:n), y(:n), ends(1 + modulo(case, 2)), beyond_same, curve)
          do k = 0, 20
             t = x(1) - 0.3_wp + (x(n) - x(1) + 0.6_wp)*k/20
             call curve_values(curve, t, f)
@@ -101,7 +105,7 @@ contains
       real(wp) :: after(3), before(3), f(3), x(12), y(12)
       integer :: e, k
 
-      do e = 1, 4
+      do e = 1, size(all_ends)
          call random_spline(all_ends(e), 12, x, y, curve)
          do k = 2, 11
             call curve_values(curve, x(k) - near, before)
@@ -124,7 +128,7 @@ contains
       real(wp) :: first(3), last(3), x(10), y(10)
       integer :: e
 
-      do e = 1, 4
+      do e = 1, size(all_ends)
          call random_spline(all_ends(e), 10, x, y, curve)
          call curve_values(curve, x(1), first)
          call curve_values(curve, x(10), last)
@@ -135,11 +139,63 @@ contains
             call check_close(error, [first(2), last(2)], [0.0_wp, 0.0_wp], 1.0e-12_wp, "clamped: no slope")
          case (ends_periodic)
             call check_close(error, last, first, 1.0e-12_wp, "periodic: the end is the start")
+         case (ends_fmm)
+            call check_close(error, 6.0_wp*curve%c(3, [1, 9]), [third_of(x(:4), y(:4)), third_of(x(7:), y(7:))], 1.0e-12_wp, &
+                             "fmm: third derivatives")
          case default
             call check_close(error, curve%c(3, [1, 9]), curve%c(3, [2, 8]), 1.0e-12_wp, "not a knot: one cubic")
          end select
       end do
    end subroutine test_ends
+
+   !> Akima's curve: against scipy 1.10's (`Akima1DInterpolator`), straight where its chords are, with a period.
+   subroutine test_akima(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      real(wp), parameter :: x(7) = [-1.0_wp, -0.2_wp, 0.3_wp, 1.0_wp, 1.4_wp, 2.6_wp, 3.0_wp]
+      real(wp), parameter :: y(7) = [0.5_wp, 1.2_wp, -0.7_wp, -0.7_wp, 2.0_wp, 2.1_wp, -1.0_wp]
+      real(wp), parameter :: t(6) = [-0.6_wp, 0.0_wp, 0.8_wp, 1.2_wp, 2.0_wp, 2.9_wp]
+      real(wp), parameter :: want(3, 6) = reshape([ &
+         1.341633480825959_wp, 0.9353337020648969_wp, -6.145418510324482_wp, &
+         0.5162875699541063_wp, -4.549115315350205_wp, -5.463789882715929_wp, &
+         -1.041700773188619_wp, 0.9831512264552646_wp, 7.085722022435925_wp, &
+         0.5893175614194723_wp, 8.596269335759786_wp, 3.034121929026398_wp, &
+         3.127372742200329_wp, 0.08847837985769015_wp, -5.985404123335159_wp, &
+         0.07465876436781745_wp, -9.806812739463602_wp, -19.18941570881228_wp], [3, 6])
+      type(curve_t) :: curve
+      real(wp) :: f(3), first(3), last(3)
+      integer :: k
+
+      call new_akima(x, y, beyond_error, curve)
+      do k = 1, size(t)
+         call curve_values(curve, t(k), f)
+         call check_close(error, f, want(:, k), 1.0e-12_wp, "as scipy has it")
+      end do
+      call check_true(error, curve%bends, "its second derivative jumps")
+      call new_akima([0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp, 7.0_wp], &
+                     [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 9.0_wp], beyond_same, curve)
+      call curve_values(curve, 1.5_wp, f)
+      call check_close(error, f, [0.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, "a corner is not felt where chords are level")
+      call curve_values(curve, 4.5_wp, f)
+      call check_close(error, f, [1.5_wp, 1.0_wp, 0.0_wp], 1.0e-15_wp, "nor where they rise")
+      call new_akima([0.0_wp, 1.0_wp, 2.5_wp, 3.0_wp, 4.0_wp], [1.0_wp, 3.0_wp, -1.0_wp, 0.0_wp, 1.0_wp], beyond_periodic, curve)
+      call curve_values(curve, 0.0_wp, first)
+      call curve_values(curve, 4.0_wp - 1.0e-12_wp, last)
+      call check_close(error, last(1:2), first(1:2), 1.0e-10_wp, "the end of a period is its start")
+   end subroutine test_akima
+
+   !> Third derivative of the cubic through four samples, by Lagrange's formula.
+   pure real(wp) function third_of(x, y) result(d)
+      real(wp), intent(in) :: x(4)  !! (4) places [1]
+      real(wp), intent(in) :: y(4)  !! (4) values [1]
+
+      integer :: i, j
+
+      d = 0.0_wp
+      do i = 1, 4
+         d = d + 6.0_wp*y(i)/product([(merge(1.0_wp, x(i) - x(j), i == j), j=1, 4)])
+      end do
+   end function third_of
 
    !> Against functions that fulfil the ends: errors of order 4, 3 and 2 in value and derivatives.
    subroutine test_order(error)
@@ -150,7 +206,7 @@ contains
       real(wp) :: exact(3), f(3), phase, t, worst(3, 2)
       integer :: e, k, n, refined
 
-      do e = 1, 4
+      do e = 1, size(all_ends)
          ! sin has no curvature at 0 and 2 pi, cos no slope; the others take any
          phase = 0.6_wp
          if (all_ends(e) == ends_natural) phase = 0.0_wp

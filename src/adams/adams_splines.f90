@@ -1,0 +1,188 @@
+!> Splines of an Adams dataset as rows of `[function.samples]`, and their calls in expressions.
+!>
+!> | Adams | deck |
+!> |---|---|
+!> | `CUBSPL(x, 0, id)` | the cubic spline through the samples of SPLINE/id, `ends = fmm`, which is the one that Adams names |
+!> | `AKISPL(x, 0, id)` | Akima's curve through them, `curve = akima` |
+!>
+!> Beyond the samples the deck's curve goes on straight with LINEAR_EXTRAPOLATE, and does not exist without, where Adams goes on
+!> along the last pieces: the list says so. Source: the public descriptions of the functions of Adams/Solver; `spline` and `akima`.
+!> Limits: curves of one argument, whose samples stand in the dataset; no derivatives.
+module adams_splines
+   use adams_expression, only: node_call, node_curve, node_number, tree_t
+   use adams_model, only: adams_model_t, argument_numbers, find_statement
+   use akima, only: new_akima
+   use curve, only: beyond_error, beyond_linear
+   use dataset, only: has_word, statement_t
+   use deck_draft, only: deck_draft_t, tab
+   use diagnostics, only: diagnostics_t
+   use expression_symbols, only: symbol_function, symbol_t
+   use kinds, only: wp
+   use spline, only: ends_fmm, least_samples, new_spline
+   use text, only: exact_text, to_text
+   implicit none (type, external)
+   private
+   public :: is_taken, name_splines
+
+   integer, parameter :: most_splines = 1000          !! rows that a deck gets
+   character(*), parameter :: cubic = "cubic_"        !! name of the row of CUBSPL, before the number of the spline
+   character(*), parameter :: akimas = "akima_"       !! name of the row of AKISPL
+
+contains
+
+   !> Put the curves of a deck into the place of all splines of an expression; rows of functions go to the deck.
+   subroutine name_splines(model, draft, tree, message)
+      type(adams_model_t), intent(inout) :: model            !! the dataset
+      type(deck_draft_t), intent(inout) :: draft             !! the deck
+      type(tree_t), intent(inout) :: tree                    !! the expression
+      character(:), allocatable, intent(inout) :: message    !! set: what has no words
+
+      integer :: k
+
+      if (message /= "") return
+      do k = 1, tree%n
+         if (tree%nodes(k)%kind /= node_call) cycle
+         if (tree%nodes(k)%name /= "CUBSPL" .and. tree%nodes(k)%name /= "AKISPL") cycle
+         call name_one(model, draft, tree, k, message)
+         if (message /= "") return
+      end do
+   end subroutine name_splines
+
+   !> The curve of one call.
+   subroutine name_one(model, draft, tree, node, message)
+      type(adams_model_t), intent(inout) :: model               !! the dataset
+      type(deck_draft_t), intent(inout) :: draft                !! the deck
+      type(tree_t), intent(inout) :: tree                       !! the expression
+      integer, intent(in) :: node                               !! the call
+      character(:), allocatable, intent(inout) :: message       !! set: why it has no words
+
+      character(:), allocatable :: name
+      real(wp), allocatable :: x(:), y(:)
+      integer :: id, k
+      logical :: is_new
+
+      associate (it => tree%nodes(node))
+         if (size(it%arguments) < 3) then
+            message = it%name//" has too few arguments"
+            return
+         end if
+         if (size(it%arguments) > 3) then
+            associate (order => tree%nodes(it%arguments(4)))
+               if (order%kind /= node_number .or. abs(order%value) > 0.0_wp) message = "a derivative by "//it%name// &
+                                                                                       " has no words in a deck"
+            end associate
+            if (message /= "") return
+         end if
+         id = 0
+         if (tree%nodes(it%arguments(3))%kind == node_number) id = nint(min(tree%nodes(it%arguments(3))%value, 1.0e9_wp))
+         k = find_statement(model, "SPLINE", id)
+         if (k == 0) then
+            message = "the spline of "//it%name//" is not there"
+            return
+         end if
+         call take_samples(model%statements(k), x, y, message)
+         if (message /= "") return
+         call draft%row_of(trim(merge(cubic, akimas, it%name == "CUBSPL"))//to_text(id), name, is_new)
+         if (is_new) call add_row(model, draft, k, name, it%name == "AKISPL", x, y, message)
+         if (message /= "") return
+         it%kind = node_curve
+         it%name = name
+         it%arguments = it%arguments(1:1)
+      end associate
+   end subroutine name_one
+
+   !> Whether the deck has the curve of a spline.
+   logical function is_taken(draft, id)
+      type(deck_draft_t), intent(in) :: draft     !! the deck
+      integer, intent(in) :: id                   !! number of the spline
+
+      character(:), allocatable :: key
+      integer :: k
+
+      is_taken = .false.
+      do k = 1, draft%asked%n
+         key = draft%asked%at(k)
+         is_taken = is_taken .or. key == cubic//to_text(id) .or. key == akimas//to_text(id)
+      end do
+   end function is_taken
+
+   !> The samples of a spline.
+   subroutine take_samples(statement, x, y, message)
+      type(statement_t), intent(in) :: statement                !! the spline
+      real(wp), allocatable, intent(out) :: x(:), y(:)          !! (n) places and values [any]
+      character(:), allocatable, intent(inout) :: message       !! set: why a deck has none like it
+
+      type(diagnostics_t) :: mistakes
+
+      call argument_numbers(statement, "X", x, mistakes)
+      call argument_numbers(statement, "Y", y, mistakes)
+      if (has_word(statement, "Z", 1)) then
+         message = "it is a surface, of two arguments"
+      else if (has_word(statement, "FILE", 1)) then
+         message = "its samples stand in a file"
+      else if (mistakes%count() > 0) then
+         message = "one of its samples is no number"
+      else if (size(x) /= size(y)) then
+         message = "it has "//to_text(size(y))//" values at "//to_text(size(x))//" places"
+      else if (size(x) < least_samples) then
+         message = "it has fewer than "//to_text(least_samples)//" samples"
+      else if (any(x(2:) <= x(:size(x) - 1))) then
+         message = "its places do not increase"
+      end if
+      if (message /= "") message = "SPLINE/"//to_text(statement%id)//": "//message
+   end subroutine take_samples
+
+   !> The row of a spline.
+   subroutine add_row(model, draft, statement, name, is_akima, x, y, message)
+      type(adams_model_t), intent(inout) :: model               !! the dataset
+      type(deck_draft_t), intent(inout) :: draft                !! the deck
+      integer, intent(in) :: statement                          !! number of its statement
+      character(*), intent(in) :: name                          !! of the row
+      logical, intent(in) :: is_akima                           !! it is Akima's
+      real(wp), intent(in) :: x(:), y(:)                        !! (n) its samples [any]
+      character(:), allocatable, intent(inout) :: message       !! set: why there is none
+
+      type(symbol_t) :: symbol
+      integer :: beyond
+      logical :: goes_on
+
+      associate (it => model%statements(statement))
+         goes_on = has_word(it, "LINEAR_EXTRAPOLATE", 1)
+         if (.not. goes_on) call model%changed%add("line "//to_text(it%line)//": SPLINE/"//to_text(it%id)//": "//name// &
+                                                   " ends with its samples, where Adams goes on")
+      end associate
+      if (draft%functions%n == 0) call draft%functions%start(most_splines)
+      if (draft%functions%n == most_splines) then
+         message = "a deck gets "//to_text(most_splines)//" splines at most"
+         return
+      end if
+      beyond = merge(beyond_linear, beyond_error, goes_on)
+      symbol%name = name
+      symbol%kind = symbol_function
+      if (is_akima) then
+         call new_akima(x, y, beyond, symbol%curve)
+      else
+         call new_spline(x, y, ends_fmm, beyond, symbol%curve)
+      end if
+      call draft%functions%add(symbol)
+      call draft%put("function.samples", "name at value curve ends beyond", name//tab//list_cell(x)//tab//list_cell(y)//tab// &
+                     trim(merge("akima ", "spline", is_akima))//tab//trim(merge("   ", "fmm", is_akima))//tab// &
+                     trim(merge("linear", "error ", goes_on)))
+   end subroutine add_row
+
+   !> Numbers as a list of a deck.
+   pure function list_cell(x) result(cell)
+      real(wp), intent(in) :: x(:)             !! (n) the numbers [any]
+      character(:), allocatable :: cell        !! in quotes
+
+      integer :: k
+
+      cell = """"
+      do k = 1, size(x)
+         if (k > 1) cell = cell//" "
+         cell = cell//exact_text(x(k))
+      end do
+      cell = cell//""""
+   end function list_cell
+
+end module adams_splines
