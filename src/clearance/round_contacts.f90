@@ -321,9 +321,9 @@ contains
       integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      type(point_contact_t), intent(in), contiguous :: contacts(:)  !! (1) kinematics of its contact
-      real(wp), intent(in), contiguous :: f_n(:)          !! (1) normal force [N]
-      real(wp), intent(in), contiguous :: f_t(:)          !! (1) friction force on j along t [N]
+      type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) kinematics of its contact
+      real(wp), intent(in) :: f_n(self%n_contact_item)    !! (n_contact_item) normal force [N]
+      real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction force on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
 
       real(wp) :: distance, s_i(2), s_j(2)

@@ -221,17 +221,18 @@ contains
       has = self%groups(group)%has(item)
    end function catalogue_item_has
 
-   !> What is read of a set: those of its channels that someone wants of any item, or item by item, and where they go.
+   !> What is read of a set: those of its channels that someone wants of any item, or item by item, and where they go. Bodies are
+   !> read item by item where not all are wanted.
    subroutine catalogue_bind(self, room, info, readings, columns)
       class(catalogue_t), intent(in) :: self      !! the catalogue
       integer, intent(in) :: room                 !! room of the set's items; of loose joints: their contacts have one of their own
       type(kind_info_t), intent(in) :: info       !! its channels
       type(readings_t), intent(inout) :: readings !! what is read
-      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: not item by item
+      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: as above
 
       integer :: group, i, k, n
 
-      n = 1
+      n = max(self%rooms(room)%n, 1)
       if (present(columns)) n = size(columns)
       call readings%start(n*count_channels(info))
       do k = 1, count_channels(info)
@@ -243,8 +244,12 @@ contains
                do i = 1, n
                   if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call readings%add(channel%code, group, i)
                end do
-            else
+            else if (room /= room_bodies .or. all(this%is_wanted)) then
                if (any(this%is_wanted)) call readings%add(channel%code, group, 0)
+            else
+               do i = 1, n
+                  if (this%is_wanted(i)) call readings%add(channel%code, group, i)
+               end do
             end if
          end associate
       end do

@@ -16,7 +16,6 @@ module readings
    contains
       procedure :: start => readings_start
       procedure :: add => readings_add
-      procedure :: has => readings_has
    end type readings_t
 
    !> Of the rows that are not solved for: those that reports want, and what these hang on.
@@ -64,19 +63,5 @@ contains
       self%group(self%n) = group
       self%item(self%n) = item
    end subroutine readings_add
-
-   !> Whether a channel from a first to a last one is read.
-   pure logical function readings_has(self, first, last) result(has)
-      class(readings_t), intent(in) :: self   !! the list
-      integer, intent(in) :: first            !! the first channel
-      integer, intent(in) :: last             !! the last channel
-
-      integer :: m
-
-      has = .false.
-      do m = 1, self%n
-         has = has .or. (self%code(m) >= first .and. self%code(m) <= last)
-      end do
-   end function readings_has
 
 end module readings

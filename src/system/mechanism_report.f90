@@ -322,11 +322,11 @@ contains
       integer :: k, m
 
       associate (linkage => system%linkage, plan => catalogue%readings, groups => catalogue%groups)
-         do m = 1, plan%bodies%n
-            call linkage%coordinates%report(plan%bodies%code(m), linkage%motion, groups(plan%bodies%group(m))%data)
-         end do
+         if (plan%bodies%n > 0) call linkage%coordinates%report(plan%bodies, linkage%motion, groups)
          do k = 1, size(plan%joints)
-            call report_joints(linkage, linkage%joints(k)%set, plan%joints(k), groups)
+            if (plan%joints(k)%n == 0) cycle
+            call linkage%joints(k)%set%report(plan%joints(k), linkage%motion, linkage%coordinates, linkage%rows, &
+                                              linkage%solution%lambda, linkage%solution%phi_dot, groups)
          end do
          do k = 1, size(plan%loose)
             if (plan%loose(k)%n > 0) call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, groups)
@@ -341,22 +341,6 @@ contains
       end associate
       call catalogue%work_out(t)
    end subroutine fill_catalogue
-
-   !> Values of a set of joints or drivers.
-   subroutine report_joints(linkage, set, readings, groups)
-      type(linkage_t), intent(in) :: linkage     !! the linkage at the state
-      class(joint_set_t), intent(in) :: set      !! the set
-      type(readings_t), intent(in) :: readings   !! what is read of it
-      type(group_t), intent(inout) :: groups(:)  !! (groups) values
-
-      integer :: m
-
-      do m = 1, readings%n
-         call set%report(readings%code(m), readings%item(m), linkage%motion, linkage%coordinates, linkage%rows, &
-                         linkage%solution%lambda, linkage%solution%phi_dot, &
-                         groups(readings%group(m))%data(:, set%column(readings%item(m))))
-      end do
-   end subroutine report_joints
 
    !> Values of the joints with clearance that are taken as ideal; they stand behind the loose ones.
    subroutine report_ideal(system, readings, groups)
