@@ -91,22 +91,19 @@ contains
 
       real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
       integer :: c, code, column, first, g, item, m
-      logical :: has_contacts, has_sliding
+      logical :: is_found
 
-      has_contacts = .false.
-      has_sliding = .false.
-      do m = 1, readings%n
-         code = readings%code(m)
-         has_contacts = has_contacts .or. code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle
-         has_sliding = has_sliding .or. code >= of_sliding_speed
-      end do
       do item = 1, self%n
          first = (item - 1)*n
          column = self%before%contacts + first
-         if (has_contacts) call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, has_sliding)
+         is_found = .false.
          do m = 1, readings%n
             code = readings%code(m)
             g = readings%group(m)
+            if (.not. is_found .and. (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle)) then
+               call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, readings%most >= of_sliding_speed)
+               is_found = .true.
+            end if
             select case (code)
             case (of_penetration:of_state)
                do c = 1, n

@@ -5,11 +5,12 @@
 module readings
    implicit none (type, external)
    private
-   public :: reading_plan_t, readings_t, wanted_rows_t
+   public :: reading_offer_t, reading_plan_t, readings_t, wanted_rows_t
 
    !> Channels that are read of one set.
    type :: readings_t
       integer :: n = 0                    !! number of channels
+      integer :: most = 0                 !! greatest number of a channel
       integer, allocatable :: code(:)     !! (n or more) the channels, as `info()` of the set numbers them
       integer, allocatable :: group(:)    !! (n or more) groups of the catalogue that their values go to
       integer, allocatable :: item(:)     !! (n or more) the item of the set, 0: all
@@ -25,8 +26,8 @@ module readings
       logical :: has_known = .false.       !! whether those of the known bodies are
    end type wanted_rows_t
 
-   !> Channels that are read of all sets of a system.
-   type :: reading_plan_t
+   !> Channels of all sets of a system: those that these tell, each for all items.
+   type :: reading_offer_t
       type(readings_t) :: bodies                   !! of the bodies
       type(readings_t) :: energy                   !! of the ledger
       type(readings_t), allocatable :: joints(:)   !! (sets) of joints and drivers
@@ -36,17 +37,22 @@ module readings
       type(readings_t) :: points                   !! of points, point by point
       type(readings_t) :: motions                  !! of points as seen from elsewhere, one by one
       type(readings_t) :: reactions                !! of reactions at points, one by one
+   end type reading_offer_t
+
+   !> Those that are read.
+   type, extends(reading_offer_t) :: reading_plan_t
       type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
    end type reading_plan_t
 
 contains
 
    !> Room for some channels, none yet.
-   subroutine readings_start(self, most)
+   pure subroutine readings_start(self, most)
       class(readings_t), intent(inout) :: self   !! the list
       integer, intent(in) :: most                !! channels at most
 
       self%n = 0
+      self%most = 0
       if (allocated(self%code)) deallocate (self%code, self%group, self%item)
       allocate (self%code(most), self%group(most), self%item(most), source=0)
    end subroutine readings_start
@@ -59,6 +65,7 @@ contains
       integer, intent(in) :: item                !! item of the set, 0: all
 
       self%n = self%n + 1
+      self%most = max(self%most, code)
       self%code(self%n) = code
       self%group(self%n) = group
       self%item(self%n) = item
