@@ -200,7 +200,7 @@ contains
       do k = 1, size(system%linkage%joints)
          associate (set => system%linkage%joints(k)%set)
             info = set%info()
-            channels(2, k)%s = names_of_channels(info)
+            if (set%friction%n > 0) channels(2, k)%s = names_of_channels(info)
             if (set%friction%n == 0) call take_out(friction_channels, info)
             call catalogue%add_kind(merge(room_drivers, room_joints, set%is_driver), info)
             call catalogue%list(merge(room_drivers, room_joints, set%is_driver), info, catalogue%offer%joints(k))

@@ -60,8 +60,8 @@ contains
          do k = 1, size(plan%loose)
             if (plan%loose(k)%n > 0) call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, groups)
          end do
-         call report_ideal(system, plan%ideal, groups)
-         call report_forces(system, t, plan%forces, groups)
+         if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, groups)
+         if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, groups)
          call report_requests(system, t, plan, groups)
          if (plan%energy%n > 0) energy = energy_of(system, y)
          do m = 1, plan%energy%n
