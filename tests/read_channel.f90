@@ -2,13 +2,16 @@
 module read_channel
    use catalogue, only: group_t
    use clearance_set, only: clearance_set_t
+   use coordinates, only: coordinates_t
+   use joint_set, only: joint_set_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
    use readings, only: readings_t
+   use rows, only: rows_t
    implicit none (type, external)
    private
-   public :: channel_code, read_loose
+   public :: channel_code, read_joints, read_loose
 
 contains
 
@@ -25,6 +28,30 @@ contains
          if (info%channels(k)%name == name) code = info%channels(k)%code
       end do
    end function channel_code
+
+   !> Values of a channel of all items of a set of joints, each in its column.
+   subroutine read_joints(set, code, motion, coordinates, rows, lambda, phi_dot, values)
+      class(joint_set_t), intent(in) :: set            !! the set
+      integer, intent(in) :: code                      !! the channel
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+      type(rows_t), intent(in) :: rows                 !! rows at the motion
+      real(wp), intent(in) :: lambda(:)                !! (rows) multipliers [N or N.m]
+      real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
+      real(wp), intent(inout) :: values(:, :)          !! (components, columns) values [any]
+
+      type(group_t) :: groups(1)
+      type(readings_t) :: readings
+      integer :: k
+
+      call readings%start(set%n)
+      do k = 1, set%n
+         call readings%add(code, 1, k)
+      end do
+      groups(1)%data = values
+      call set%report(readings, motion, coordinates, rows, lambda, phi_dot, groups)
+      values = groups(1)%data
+   end subroutine read_joints
 
    !> Values of a channel of all items, or of all contacts.
    subroutine read_loose(set, channel, motion, values)

@@ -12,7 +12,8 @@ module reduction_comparison
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use mechanism_energy, only: energy_of, energy_t
-   use mechanism_report, only: build_catalogue, report_state
+   use mechanism_catalogue, only: build_catalogue
+   use mechanism_report, only: report_state
    use recorder, only: summary_t
    use scene_fixture, only: nl, start_text, system_of_text
    use text, only: replace, to_text

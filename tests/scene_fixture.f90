@@ -9,7 +9,8 @@ module scene_fixture
    use errors, only: error_t
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
-   use mechanism_report, only: build_catalogue, report_state
+   use mechanism_catalogue, only: build_catalogue
+   use mechanism_report, only: report_state
    use read_scene, only: scene_from_deck
    use scene, only: scene_t
    use scratch_deck, only: remove_scratch, write_scratch

@@ -17,7 +17,8 @@ module kinematic
    use linkage, only: linkage_t
    use mobility, only: find_mobility, mobility_t, stiffest_driver
    use mechanism_energy, only: energy_of, energy_t
-   use mechanism_report, only: build_catalogue, fill_catalogue
+   use mechanism_catalogue, only: build_catalogue
+   use mechanism_report, only: fill_catalogue
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, status_stopped, summary_t

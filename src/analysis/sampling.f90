@@ -9,7 +9,8 @@ module sampling
    use film_moments, only: film_moments_t
    use integrator, only: advance_failed_evaluation
    use kinds, only: i8, wp
-   use mechanism_report, only: bind_channels, build_catalogue, report_state
+   use mechanism_catalogue, only: bind_channels, build_catalogue
+   use mechanism_report, only: report_state
    use mechanism, only: mechanism_t
    use recorder, only: n_row_kind, recorder_t, row_end, row_jump, row_onset, row_peak, row_stop
    use run_failure, only: describe_failure

@@ -20,7 +20,8 @@ module static
    use mobility, only: moving_bodies
    use linearised, only: linearised_t
    use mechanism_energy, only: energy_of, energy_t
-   use mechanism_report, only: build_catalogue, fill_catalogue
+   use mechanism_catalogue, only: build_catalogue
+   use mechanism_report, only: fill_catalogue
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_positions
    use recorder, only: recorder_t, status_complete, status_failed, summary_t

@@ -267,9 +267,9 @@ contains
       integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      type(point_contact_t), intent(in), contiguous :: contacts(:)  !! (contacts of an item) their kinematics
-      real(wp), intent(in), contiguous :: f_n(:)          !! (contacts of an item) normal forces [N]
-      real(wp), intent(in), contiguous :: f_t(:)          !! (contacts of an item) friction forces on j along t [N]
+      type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) their kinematics
+      real(wp), intent(in) :: f_n(self%n_contact_item)    !! (n_contact_item) normal forces [N]
+      real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction forces on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (components) the value [any]
 
       real(wp) :: centre(3), d(3), u(3)

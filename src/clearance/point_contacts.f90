@@ -243,9 +243,9 @@ contains
       integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      type(point_contact_t), intent(in), contiguous :: contacts(:)  !! (n_contact_item) kinematics of its contacts
-      real(wp), intent(in), contiguous :: f_n(:)          !! (n_contact_item) normal forces [N]
-      real(wp), intent(in), contiguous :: f_t(:)          !! (n_contact_item) friction forces on j along t [N]
+      type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) kinematics of its contacts
+      real(wp), intent(in) :: f_n(self%n_contact_item)    !! (n_contact_item) normal forces [N]
+      real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction forces on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (components) the value [any]
    end subroutine point_report_item
 

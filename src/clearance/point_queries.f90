@@ -59,24 +59,14 @@ contains
 
    !> Values that are read: those of the contacts and the force on j here, others as the geometry has them.
    module procedure point_report
-      if (self%n_contact_item == 1) then
-         call report_single(self, readings, motion, groups)
+      type(point_contact_t) :: contacts(1)
+
+      if (self%n_contact_item == 1) then  ! nothing is made ready for sixteen
+         call report_items(self, readings, motion, 1, contacts, groups)
       else
          call report_several(self, readings, motion, groups)
       end if
    end procedure point_report
-
-   !> Items of one contact: nothing is made ready for sixteen.
-   subroutine report_single(self, readings, motion, groups)
-      class(point_contacts_t), intent(in) :: self  !! the set
-      type(readings_t), intent(in) :: readings     !! channels that are read
-      type(motion_t), intent(in) :: motion         !! positions and velocities
-      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
-
-      type(point_contact_t) :: contacts(1)
-
-      call report_items(self, readings, motion, 1, contacts, groups)
-   end subroutine report_single
 
    !> Items of several contacts.
    subroutine report_several(self, readings, motion, groups)
@@ -100,45 +90,37 @@ contains
       type(group_t), intent(inout) :: groups(:)             !! (groups) values of all items and contacts
 
       real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
-      integer :: c, first, item, m
-      logical :: has_contacts, has_sliding
+      integer :: c, code, column, first, g, item, m
+      logical :: is_found
 
-      has_contacts = .false.
-      has_sliding = .false.
-      do m = 1, readings%n
-         select case (readings%code(m))
-         case (of_sliding_speed:of_p_v)
-            has_contacts = .true.
-            has_sliding = .true.
-         case (of_force:of_contact_point, of_moment, of_contact_angle)
-            has_contacts = .true.
-         end select
-      end do
       do item = 1, self%n
          first = (item - 1)*n
-         if (has_contacts) call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, has_sliding)
+         column = self%before%contacts + first
+         is_found = .false.
          do m = 1, readings%n
-            associate (values => groups(readings%group(m))%data)
-               if (readings%code(m) == of_contact_point) then
-                  call report_points(motion%r(:, self%items%body(2, item)), n, contacts, &
-                                     values(:, self%before%contacts + first + 1:self%before%contacts + first + n))
-               else if (readings%code(m) > of_force .and. readings%code(m) <= of_state) then
-                  do c = 1, n
-                     values(1, self%before%contacts + first + c) = &
-                        value_of_contact(readings%code(m), self%contact(first + c)%is_touching, contacts(c)%delta, &
-                                         contacts(c)%rate, f_n(c), f_t(c))
-                  end do
-               else if (readings%code(m) >= of_contact_angle .and. readings%code(m) <= of_p_v) then
-                  call report_rubbing(readings%code(m), n, self%contact(first + 1:first + n), contacts, f_n, f_t, f_elastic, &
-                                      self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), &
-                                      values(1, self%before%contacts + first + 1:self%before%contacts + first + n))
-               else if (readings%code(m) == of_force) then
-                  call report_force(self, n, contacts, f_n, f_t, values(:, self%before%items + item))
-               else
-                  call self%report_item(readings%code(m), item, motion, contacts, f_n(:n), f_t(:n), &
-                                        values(:, self%before%items + item))
-               end if
-            end associate
+            code = readings%code(m)
+            g = readings%group(m)
+            if (.not. is_found .and. (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle)) then
+               call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, readings%most >= of_sliding_speed)
+               is_found = .true.
+            end if
+            select case (code)
+            case (of_penetration:of_state)
+               do c = 1, n
+                  groups(g)%data(1, column + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
+                                                                   contacts(c)%rate, f_n(c), f_t(c))
+               end do
+            case (of_contact_point)
+               call report_points(motion%r(:, self%items%body(2, item)), n, contacts, groups(g)%data(:, column + 1:column + n))
+            case (of_contact_angle:of_p_v)
+               call report_rubbing(code, n, self%contact(first + 1:first + n), contacts, f_n, f_t, f_elastic, &
+                                   self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), &
+                                   groups(g)%data(1, column + 1:column + n))
+            case (of_force)
+               call report_force(self, n, contacts, f_n, f_t, self%before%items + item, groups(g))
+            case default
+               call self%report_item(code, item, motion, contacts, f_n, f_t, groups(g)%data(:, self%before%items + item))
+            end select
          end do
       end do
    end subroutine report_items
@@ -263,21 +245,24 @@ contains
    end subroutine report_points
 
    !> Force of all contacts of an item on j.
-   pure subroutine report_force(self, n, contacts, f_n, f_t, force)
+   pure subroutine report_force(self, n, contacts, f_n, f_t, column, group)
       class(point_contacts_t), intent(in) :: self           !! the set
       integer, intent(in) :: n                              !! contacts
       type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
       real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
       real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
-      real(wp), intent(inout), contiguous :: force(:)       !! (2 or 3) the force, world frame [N]
+      integer, intent(in) :: column                         !! place of the item
+      type(group_t), intent(inout) :: group                 !! values, world frame [N]
 
-      real(wp) :: f(3)
+      real(wp) :: force(3)
       integer :: c
 
       force = 0.0_wp
       do c = 1, n
-         f = self%force_on_j(contacts(c), f_n(c), f_t(c))
-         force = force + f(:size(force))
+         force = force + self%force_on_j(contacts(c), f_n(c), f_t(c))
+      end do
+      do c = 1, size(group%data, 1)
+         group%data(c, column) = force(c)
       end do
    end subroutine report_force
 
@@ -293,7 +278,7 @@ contains
       real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
       logical, intent(in) :: with_sliding                   !! sliding velocities are wanted
 
-      real(wp), dimension(most_of_item) :: f_rub, speed
+      real(wp), dimension(most_of_item) :: delta, f_rub, impact_speed, rate, slope_delta, slope_rate, speed
       integer :: c, first
 
       first = (item - 1)*n
@@ -304,8 +289,9 @@ contains
          call self%measure(first + c, with_sliding .or. allocated(self%laws%friction), motion, contacts(c))
       end do
       if (self%n_touching == 0 .and. .not. self%laws%normal%acts_apart) return
-      call self%press(item, contacts, f_n, f_elastic)
-      f_rub(:n) = f_n
+      call press(n, self%laws%normal, self%contact(first + 1:first + n), self%laws%parameters(:, first + 1:first + n), contacts, &
+                 delta, rate, impact_speed, f_n, slope_delta, slope_rate, f_elastic)
+      if (self%traits%has_faces .or. allocated(self%laws%friction)) f_rub(:n) = f_n
       if (self%traits%has_faces) call self%share_item(item, contacts, f_n, f_elastic, f_rub(:n))
       if (.not. allocated(self%laws%friction)) return
       if (self%grip%memory == memory_none) then

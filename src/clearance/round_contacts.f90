@@ -321,18 +321,25 @@ contains
       integer, intent(in) :: code                         !! the channel
       integer, intent(in) :: item                         !! the item
       type(motion_t), intent(in) :: motion                !! positions and velocities
-      type(point_contact_t), intent(in), contiguous :: contacts(:)  !! (1) kinematics of its contact
-      real(wp), intent(in), contiguous :: f_n(:)          !! (1) normal force [N]
-      real(wp), intent(in), contiguous :: f_t(:)          !! (1) friction force on j along t [N]
+      type(point_contact_t), intent(in) :: contacts(self%n_contact_item)  !! (n_contact_item) kinematics of its contact
+      real(wp), intent(in) :: f_n(self%n_contact_item)    !! (n_contact_item) normal force [N]
+      real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction force on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
 
-      real(wp) :: distance, s_i(2), s_j(2)
+      real(wp) :: s_i(2), s_j(2)
+      integer :: i, j
 
       if (code /= of_eccentricity) return
-      call find_centres(self, item, motion, s_i, s_j, distance)
-      associate (i => self%items%body(1, item), j => self%items%body(2, item))
-         value = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
-      end associate
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      s_i(1) = self%items%s_i(1, item)
+      s_i(2) = self%items%s_i(2, item)
+      s_j(1) = self%items%s_j(1, item)
+      s_j(2) = self%items%s_j(2, item)
+      value(1) = motion%r(1, j) + (motion%rot(1, 1, j)*s_j(1) + motion%rot(1, 2, j)*s_j(2)) &
+                 - motion%r(1, i) - (motion%rot(1, 1, i)*s_i(1) + motion%rot(1, 2, i)*s_i(2))
+      value(2) = motion%r(2, j) + (motion%rot(2, 1, j)*s_j(1) + motion%rot(2, 2, j)*s_j(2)) &
+                 - motion%r(2, i) - (motion%rot(2, 1, i)*s_i(1) + motion%rot(2, 2, i)*s_i(2))
    end subroutine round_report_item
 
 end module round_contacts

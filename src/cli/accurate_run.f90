@@ -10,7 +10,7 @@ module accurate_run
    use kept_run, only: numbers_of, sort_of
    use kinds, only: wp
    use load, only: loaded_t
-   use mechanism_report, only: build_catalogue
+   use mechanism_catalogue, only: build_catalogue
    use options, only: options_t
    use output_plan, only: output_plan_t
    use precision_info, only: setting_t

@@ -5,7 +5,7 @@ module explain_guards
    use guards, only: guard_clearance, guard_penetration, guard_strength, guards_t
    use kinds, only: wp
    use load, only: loaded_t
-   use mechanism_report, only: build_catalogue
+   use mechanism_catalogue, only: build_catalogue
    use mechanism, only: mechanism_t
    use run_audit, only: limits_t
    use run_limits, only: limits_of

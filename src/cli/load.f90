@@ -21,7 +21,7 @@ module load
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
-   use mechanism_report, only: build_catalogue
+   use mechanism_catalogue, only: build_catalogue
    use memory_purpose, only: memory_is_for
    use name_table, only: name_table_t
    use options, only: options_t

@@ -9,7 +9,7 @@ module sweep_report
    use json_text, only: json_object_t
    use kinds, only: i8, wp
    use load, only: loaded_t
-   use mechanism_report, only: build_catalogue
+   use mechanism_catalogue, only: build_catalogue
    use members, only: cpu_of_all
    use options, only: options_t
    use output_marker, only: enter_file

@@ -16,7 +16,7 @@ module verb_help
    use libraries, only: library_versions
    use man_page, only: write_man_page
    use options, only: options_t, usage_error
-   use mechanism_report, only: energy_info
+   use mechanism_catalogue, only: energy_info
    use spelling, only: nearest_word
    use text, only: append_text, join, starts_with, text_t, to_text
    use version, only: program_version

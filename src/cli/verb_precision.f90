@@ -9,7 +9,7 @@ module verb_precision
    use json_text, only: json_object_t
    use kinds, only: wp
    use load, only: load_deck, loaded_t
-   use mechanism_report, only: build_catalogue
+   use mechanism_catalogue, only: build_catalogue
    use options, only: options_t
    use output_directory, only: output_directory_t
    use output_marker, only: enter_file

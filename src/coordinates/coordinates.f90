@@ -4,9 +4,11 @@
 !> diagonal. Everything between the joints and the analysis works with this contract and knows neither number.
 module coordinates
    use bodies, only: bodies_t
+   use catalogue, only: group_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
+   use readings, only: readings_t
    implicit none (type, external)
    private
    public :: coordinates_t, most_rates
@@ -237,13 +239,13 @@ module coordinates
          real(wp), intent(out) :: moment(3)         !! (3) moment about the centre of mass, world frame [N.m]
       end subroutine split_interface
 
-      !> Values of a channel of all bodies.
-      pure subroutine report_interface(code, motion, values)
-         import :: motion_t, wp
+      !> Values that are read, of all bodies or of one. No allocation.
+      pure subroutine report_interface(readings, motion, groups)
+         import :: group_t, motion_t, readings_t
          implicit none (type, external)
-         integer, intent(in) :: code                !! the channel, one of `bodies`
+         type(readings_t), intent(in) :: readings   !! channels that are read, of `bodies`
          type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-         real(wp), intent(inout), contiguous :: values(:, :)  !! (components, bodies) values [any]
+         type(group_t), intent(inout) :: groups(:)  !! (groups) values
       end subroutine report_interface
 
       !> The row of a direction at a point of a body: its product with the rates is the velocity of the point that way.

@@ -7,9 +7,11 @@ module planar_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: bodies_info, bodies_t, of_acceleration, of_angle, of_angular_acceleration, of_angular_velocity, &
       of_position, of_velocity
+   use catalogue, only: group_t
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
+   use readings, only: readings_t
    implicit none (type, external)
    private
    public :: new_planar_coordinates, planar_coordinates_t, set_planar_motion
@@ -36,7 +38,7 @@ module planar_coordinates
       procedure, nopass :: kinetic_energy => planar_kinetic_energy
       procedure, nopass :: rate_of => planar_rate_of
       procedure, nopass :: split_load => planar_split_load
-      procedure, nopass :: report => mechanism_report
+      procedure, nopass :: report => planar_report
       procedure, nopass :: along => planar_along
       procedure, nopass :: bodies_info
    end type planar_coordinates_t
@@ -376,29 +378,50 @@ contains
       moment = [0.0_wp, 0.0_wp, load(3)]
    end subroutine planar_split_load
 
-   !> Values of a channel of all bodies.
-   pure subroutine mechanism_report(code, motion, values)
-      integer, intent(in) :: code                !! the channel
+   !> Values that are read, of all bodies or of one.
+   pure subroutine planar_report(readings, motion, groups)
+      type(readings_t), intent(in) :: readings   !! channels that are read
       type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-      real(wp), intent(inout), contiguous :: values(:, :)  !! (components, bodies) values [any]
+      type(group_t), intent(inout) :: groups(:)  !! (groups) values
 
-      associate (n => size(values, 2))
-         select case (code)
-         case (of_position)
-            values = motion%r(1:2, 1:n)
-         case (of_velocity)
-            values = motion%v(1:2, 1:n)
-         case (of_acceleration)
-            values = motion%a(1:2, 1:n)
-         case (of_angle)
-            values(1, :) = motion%angle(1:n)
-         case (of_angular_velocity)
-            values(1, :) = motion%omega(3, 1:n)
-         case (of_angular_acceleration)
-            values(1, :) = motion%alpha(3, 1:n)
-         end select
-      end associate
-   end subroutine mechanism_report
+      integer :: k, m
+
+      do m = 1, readings%n
+         if (readings%item(m) > 0) then
+            call report_body(readings%code(m), readings%item(m), motion, groups(readings%group(m)))
+         else
+            do k = 1, size(groups(readings%group(m))%data, 2)
+               call report_body(readings%code(m), k, motion, groups(readings%group(m)))
+            end do
+         end if
+      end do
+   end subroutine planar_report
+
+   !> The value of a channel of one body.
+   pure subroutine report_body(code, k, motion, group)
+      integer, intent(in) :: code              !! the channel
+      integer, intent(in) :: k                 !! the body
+      type(motion_t), intent(in) :: motion     !! the motion, accelerations too
+      type(group_t), intent(inout) :: group    !! values
+
+      select case (code)
+      case (of_position)
+         group%data(1, k) = motion%r(1, k)
+         group%data(2, k) = motion%r(2, k)
+      case (of_velocity)
+         group%data(1, k) = motion%v(1, k)
+         group%data(2, k) = motion%v(2, k)
+      case (of_acceleration)
+         group%data(1, k) = motion%a(1, k)
+         group%data(2, k) = motion%a(2, k)
+      case (of_angle)
+         group%data(1, k) = motion%angle(k)
+      case (of_angular_velocity)
+         group%data(1, k) = motion%omega(3, k)
+      case (of_angular_acceleration)
+         group%data(1, k) = motion%alpha(3, k)
+      end select
+   end subroutine report_body
 
    !> The direction, and its moment.
    pure subroutine planar_along(direction, arm, motion, body, row)

@@ -10,9 +10,11 @@
 module spatial_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: bodies_t, of_acceleration, of_angular_acceleration, of_angular_velocity, of_position, of_velocity
+   use catalogue, only: group_t
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
+   use readings, only: readings_t
    use rotations, only: euler_parameters_of, product_of, rate_of_parameters, rotation_of_parameters, rotation_vector_of, spin_of, &
       turned_by
    use spatial_bodies, only: of_orientation, of_spin, spatial_bodies_info
@@ -396,39 +398,44 @@ contains
       moment = matmul(motion%rot(:, :, body), load(4:6))
    end subroutine spatial_split_load
 
-   !> Values of a channel of all bodies. What is along a body's axes is along those of the deck.
-   pure subroutine spatial_report(code, motion, values)
-      integer, intent(in) :: code                !! the channel
+   !> Values that are read, of all bodies or of one. What is along a body's axes is along those of the deck.
+   pure subroutine spatial_report(readings, motion, groups)
+      type(readings_t), intent(in) :: readings   !! channels that are read
       type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-      real(wp), intent(inout), contiguous :: values(:, :)  !! (components, bodies) values [any]
+      type(group_t), intent(inout) :: groups(:)  !! (groups) values
 
       real(wp) :: p(4)
-      integer :: k
+      integer :: first, k, last, m
 
-      associate (n => size(values, 2))
-         select case (code)
-         case (of_position)
-            values = motion%r(:, 1:n)
-         case (of_velocity)
-            values = motion%v(:, 1:n)
-         case (of_acceleration)
-            values = motion%a(:, 1:n)
-         case (of_orientation)
-            do k = 1, n
-               ! of the own axes, on the side of the parameters that are integrated, so that the curves have no jumps
-               p = euler_parameters_of(motion%spatial%own(:, :, k))
-               values(:, k) = product_of(motion%spatial%p(:, k), [p(1), -p(2:4)])/norm2(motion%spatial%p(:, k))
-            end do
-         case (of_angular_velocity)
-            values = motion%omega(:, 1:n)
-         case (of_angular_acceleration)
-            values = motion%alpha(:, 1:n)
-         case (of_spin)
-            do k = 1, n
-               values(:, k) = matmul(motion%spatial%own(:, :, k), motion%spatial%spin(:, k))
-            end do
-         end select
-      end associate
+      do m = 1, readings%n
+         associate (values => groups(readings%group(m))%data)
+            first = max(readings%item(m), 1)
+            last = first
+            if (readings%item(m) == 0) last = size(values, 2)
+            select case (readings%code(m))
+            case (of_position)
+               values(:, first:last) = motion%r(:, first:last)
+            case (of_velocity)
+               values(:, first:last) = motion%v(:, first:last)
+            case (of_acceleration)
+               values(:, first:last) = motion%a(:, first:last)
+            case (of_orientation)
+               do k = first, last
+                  ! of the own axes, on the side of the parameters that are integrated, so that the curves have no jumps
+                  p = euler_parameters_of(motion%spatial%own(:, :, k))
+                  values(:, k) = product_of(motion%spatial%p(:, k), [p(1), -p(2:4)])/norm2(motion%spatial%p(:, k))
+               end do
+            case (of_angular_velocity)
+               values(:, first:last) = motion%omega(:, first:last)
+            case (of_angular_acceleration)
+               values(:, first:last) = motion%alpha(:, first:last)
+            case (of_spin)
+               do k = first, last
+                  values(:, k) = matmul(motion%spatial%own(:, :, k), motion%spatial%spin(:, k))
+               end do
+            end select
+         end associate
+      end do
    end subroutine spatial_report
 
    !> The direction, and its moment along the body's axes.

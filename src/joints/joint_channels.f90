@@ -20,43 +20,53 @@ contains
                        of_violation_rate)
    end procedure add_joint_channels
 
-   !> Value of a channel of an item.
-   module procedure report_shared
+   !> Values that are read. They are written to their places one by one: a name for a place is a descriptor, made at each reading.
+   module procedure joint_report
       real(wp) :: force(3), load(most_rates), moment(3), rate
-      integer :: first, i, last
+      integer :: column, first, group, i, k, last, m
 
-      first = self%first_row + (k - 1)*self%n_row_item + 1
-      last = first + self%n_row_item - 1
-      select case (code)
-      case (of_force, of_moment)
-         if (self%is_driver) then
-            value(1) = -lambda(first)
-            return
-         end if
-         if (code == of_force) then
-            call find_load(self, k, 0, coordinates%n_v, rows%jac, lambda, load)
-            call coordinates%split_load(load(:coordinates%n_v), motion, self%body(1, k), force, moment)
-            value = force(:size(value))
-         else
-            call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-            value = moment(merge(3, 1, size(value) == 1):)
-         end if
-      case (of_violation)
-         value(1) = norm2(rows%phi(first:last))
-      case (of_violation_rate)
-         value(1) = norm2(phi_dot(first:last))
-      case (of_coordinate)
-         call self%coordinate(k, motion, value(1), rate)
-      case (of_power)
-         value(1) = sum(lambda(first:last)*rows%phi_t(first:last))
-      case (of_friction_moment, of_friction_force)
-         do i = 1, self%friction%n
-            if (self%friction%item(i) /= k) cycle
-            value(1) = self%friction%force(i)
-            if (code == of_friction_moment) value(1) = self%friction%length(1, i)*self%friction%force(i)
-         end do
-      end select
-   end procedure report_shared
+      do m = 1, readings%n
+         k = readings%item(m)
+         group = readings%group(m)
+         column = self%column(k)
+         first = self%first_row + (k - 1)*self%n_row_item + 1
+         last = first + self%n_row_item - 1
+         select case (readings%code(m))
+         case (of_force, of_moment)
+            if (self%is_driver) then
+               groups(group)%data(1, column) = -lambda(first)
+            else if (readings%code(m) == of_force) then
+               call find_load(self, k, 0, coordinates%n_v, rows%jac, lambda, load)
+               call coordinates%split_load(load(:coordinates%n_v), motion, self%body(1, k), force, moment)
+               do i = 1, size(groups(group)%data, 1)
+                  groups(group)%data(i, column) = force(i)
+               end do
+            else
+               call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+               i = merge(3, 1, size(groups(group)%data, 1) == 1)
+               groups(group)%data(:, column) = moment(i:)
+            end if
+         case (of_violation)
+            groups(group)%data(1, column) = norm2(rows%phi(first:last))
+         case (of_violation_rate)
+            groups(group)%data(1, column) = norm2(phi_dot(first:last))
+         case (of_coordinate)
+            call self%coordinate(k, motion, groups(group)%data(1, column), rate)
+         case (of_power)
+            groups(group)%data(1, column) = sum(lambda(first:last)*rows%phi_t(first:last))
+         case (of_friction_moment, of_friction_force)
+            do i = 1, self%friction%n
+               if (self%friction%item(i) /= k) cycle
+               groups(group)%data(1, column) = self%friction%force(i)
+               if (readings%code(m) == of_friction_moment) then
+                  groups(group)%data(1, column) = self%friction%length(1, i)*self%friction%force(i)
+               end if
+            end do
+         case default
+            call self%report_own(readings%code(m), k, motion, coordinates, rows, lambda, groups(group)%data(:, column))
+         end select
+      end do
+   end procedure joint_report
 
    !> Reaction of an item on body i, or j.
    module procedure joint_reaction

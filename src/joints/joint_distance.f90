@@ -14,7 +14,7 @@
 module joint_distance
    use coordinates, only: coordinates_t
    use item, only: item_t
-   use joint_set, only: add_joint_channels, joint_set_t, of_own, report_shared
+   use joint_set, only: add_joint_channels, joint_set_t, of_own
    use rows, only: rows_t
    use kind_info, only: add_channel, add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
@@ -34,7 +34,7 @@ module joint_distance
       procedure :: set_start => distance_set_start
       procedure :: evaluate => distance_evaluate
       procedure :: coordinate => distance_coordinate
-      procedure :: report => distance_report
+      procedure :: report_own => distance_report_own
    end type joint_distance_t
 
 contains
@@ -114,7 +114,7 @@ contains
    end subroutine distance_coordinate
 
    !> The tension, which is the multiplier of the row.
-   subroutine distance_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
+   subroutine distance_report_own(self, code, k, motion, coordinates, rows, lambda, value)
       class(joint_distance_t), intent(in) :: self      !! the set
       integer, intent(in) :: code                      !! the channel
       integer, intent(in) :: k                         !! item
@@ -122,15 +122,10 @@ contains
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
       real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N]
-      real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s]
       real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
-      if (code == of_own) then
-         value(1) = lambda(self%first_row + k)
-      else
-         call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
-      end if
-   end subroutine distance_report
+      if (code == of_own) value(1) = lambda(self%first_row + k)
+   end subroutine distance_report_own
 
    !> One row: the distance is l(t).
    pure subroutine write_distance_row(row, motion, body, s_i, s_j, l, l_dot, l_dot_dot, rows)

@@ -8,17 +8,19 @@
 !> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j; one in space twelve: the velocity of i and its angular
 !> velocity in the frame of its body, then those of j (`spatial_rows`).
 module joint_set
+   use catalogue, only: group_t
    use coordinates, only: coordinates_t
    use item, only: item_t
    use joint_friction, only: joint_friction_t
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t, point_position
+   use readings, only: readings_t
    use rows, only: rows_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: add_joint_channels, joint_set_t, joint_slot_t, report_shared
+   public :: add_joint_channels, joint_set_t, joint_slot_t
    public :: of_coordinate, of_force, of_moment, of_own, of_power, of_violation, of_violation_rate
 
    ! channels; those of friction: see `joint_friction`
@@ -60,7 +62,8 @@ module joint_set
       procedure, nopass :: friction_lengths => joint_friction_lengths
       procedure :: slide => joint_slide
       procedure :: press => joint_press
-      procedure :: report => report_shared
+      procedure, non_overridable :: report => joint_report
+      procedure :: report_own => joint_report_own
       procedure :: reaction => joint_reaction
       procedure :: coordinate => joint_coordinate
       procedure :: prescription => joint_prescription
@@ -111,21 +114,19 @@ module joint_set
          type(kind_info_t), intent(inout) :: info  !! the kind
       end subroutine add_joint_channels
 
-      !> Value of a channel of an item: of those that joints or drivers share. A kind with channels of its own fills these and
-      !> hands all others on to this one. A channel of `info()` that nobody fills is a mistake of the kind; the tests of the
-      !> registry find it.
-      module subroutine report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
+      !> Values that are read, item by item: channels that joints or drivers share here, those of a kind's own by `report_own`. A
+      !> channel of `info()` that nobody fills is a mistake of the kind; the tests of the registry find it. No allocation.
+      module subroutine joint_report(self, readings, motion, coordinates, rows, lambda, phi_dot, groups)
          implicit none (type, external)
          class(joint_set_t), intent(in) :: self           !! the set
-         integer, intent(in) :: code                      !! the channel, one that the kind announces
-         integer, intent(in) :: k                         !! item of the set
+         type(readings_t), intent(in) :: readings         !! channels that are read, of those that the kind announces
          type(motion_t), intent(in) :: motion             !! positions and velocities
          class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
          type(rows_t), intent(in) :: rows                 !! rows at the motion
          real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
          real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
-         real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
-      end subroutine report_shared
+         type(group_t), intent(inout) :: groups(:)        !! (groups) values
+      end subroutine joint_report
 
       !> Reaction of an item on body i, or j: force, and moment about its reaction point.
       module subroutine joint_reaction(self, item, motion, coordinates, rows, lambda, force, moment, side)
@@ -214,6 +215,18 @@ contains
          end do
       end do
    end subroutine joint_declare_rows
+
+   !> A channel of a kind's own, from `of_own` on; there is none here, and the value is left alone.
+   subroutine joint_report_own(self, code, k, motion, coordinates, rows, lambda, value)
+      class(joint_set_t), intent(in) :: self           !! the set
+      integer, intent(in) :: code                      !! the channel, one that the kind announces
+      integer, intent(in) :: k                         !! item of the set
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+      type(rows_t), intent(in) :: rows                 !! rows at the motion
+      real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
+      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
+   end subroutine joint_report_own
 
    !> Where the reaction force on body i is reported: at the point of body i, unless the kind says otherwise.
    function joint_reaction_point(self, k, motion) result(p)

@@ -15,7 +15,7 @@ module spatial_joint
    use coordinates, only: coordinates_t
    use item, only: find_place, item_t
    use joint_frames, only: add_zero_columns, find_frames, from_start
-   use joint_set, only: joint_set_t, of_force, of_moment, of_own, of_violation, of_violation_rate, report_shared
+   use joint_set, only: joint_set_t, of_force, of_moment, of_own, of_violation, of_violation_rate
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
@@ -26,7 +26,7 @@ module spatial_joint
    private
    public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
    public :: element_t, set_joint_frames
-   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report
+   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report_own
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
    integer, parameter :: is_across = 2   !! two axes at right angles
@@ -71,7 +71,7 @@ module spatial_joint
       procedure :: evaluate => spatial_evaluate
       procedure :: fill_rows => spatial_fill_rows
       procedure :: closing_fault => spatial_closing_fault
-      procedure :: report => spatial_report
+      procedure :: report_own => spatial_report_own
    end type spatial_joint_t
 
 contains
@@ -305,8 +305,8 @@ contains
       call add_channel(info, "sliding_rate", "m/s", "joint", 1, "rate of the displacement", of_sliding_rate)
    end subroutine add_slide_channels
 
-   !> Value of a channel of an item: those of the axes here, the others are shared.
-   subroutine spatial_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
+   !> A channel of the axes.
+   subroutine spatial_report_own(self, code, k, motion, coordinates, rows, lambda, value)
       class(spatial_joint_t), intent(in) :: self       !! the set
       integer, intent(in) :: code                      !! the channel
       integer, intent(in) :: k                         !! item of the set
@@ -314,10 +314,10 @@ contains
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
       real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
-      real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
       real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
       type(scalar_t) :: x
+      real(wp) :: force(3), moment(3)
 
       select case (code)
       case (of_angle, of_angular_rate)
@@ -327,12 +327,10 @@ contains
          x = dot_with_span(motion, self%body(:, k), self%axes%frame_i(:, 3, k), self%s_i(:, k), self%s_j(:, k))
          value = merge(x%value, x%rate, code == of_displacement)
       case (of_own_force, of_own_moment)
-         call report_shared(self, merge(of_force, of_moment, code == of_own_force), k, motion, coordinates, rows, lambda, &
-                            phi_dot, value)
+         call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+         value = merge(force, moment, code == of_own_force)
          value = matmul(matmul(value, motion%rot(:, :, self%body(1, k))), self%axes%frame_i(:, :, k))
-      case default
-         call report_shared(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
       end select
-   end subroutine spatial_report
+   end subroutine spatial_report_own
 
 end module spatial_joint

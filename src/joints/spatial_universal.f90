@@ -16,7 +16,7 @@ module spatial_universal
    use motion, only: motion_t
    use rows, only: rows_t
    use spatial_joint, only: across, add_joint_columns, add_spatial_channels, at_point, set_joint_frames, spatial_joint_t, &
-      spatial_report
+      spatial_report_own
    use spatial_rows, only: angle_of, dot_of_axes, scalar_t, wrapped
    implicit none (type, external)
    private
@@ -33,7 +33,7 @@ module spatial_universal
       procedure, nopass :: info => universal_info
       procedure :: prepare => universal_prepare
       procedure :: set_start => universal_set_start
-      procedure :: report => universal_report
+      procedure :: report_own => universal_report_own
    end type spatial_universal_t
 
 contains
@@ -110,8 +110,8 @@ contains
       angle%value = wrapped(angle%value - self%zero(side, k))
    end function angle_of_cross
 
-   !> Value of a channel of an item: the angles here, the others as of any joint with axes.
-   subroutine universal_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
+   !> A channel of its own: the angles here, the others as of any joint with axes.
+   subroutine universal_report_own(self, code, k, motion, coordinates, rows, lambda, value)
       class(spatial_universal_t), intent(in) :: self   !! the set
       integer, intent(in) :: code                      !! the channel
       integer, intent(in) :: k                         !! item of the set
@@ -119,7 +119,6 @@ contains
       class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
       type(rows_t), intent(in) :: rows                 !! rows at the motion
       real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
-      real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
       real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
 
       type(scalar_t) :: angle
@@ -132,8 +131,8 @@ contains
          angle = angle_of_cross(self, k, code - of_angular_rate + 1, motion)
          value = angle%rate
       case default
-         call spatial_report(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
+         call spatial_report_own(self, code, k, motion, coordinates, rows, lambda, value)
       end select
-   end subroutine universal_report
+   end subroutine universal_report_own
 
 end module spatial_universal

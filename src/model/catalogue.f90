@@ -8,11 +8,11 @@ module catalogue
    use expression, only: expression_t, most_seen
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
-   use readings, only: reading_plan_t, readings_t
+   use readings, only: reading_offer_t, reading_plan_t, readings_t
    use text, only: text_t
    implicit none (type, external)
    private
-   public :: bound_formula_t, catalogue_t, group_t, room_t
+   public :: bound_formula_t, catalogue_t, group_t, names_of_channels, room_t
    public :: n_rooms, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, room_joints
    public :: room_motions, room_points, room_reactions, room_requests
    public :: state_contact, state_film, state_free, state_mixed
@@ -66,7 +66,9 @@ module catalogue
    type :: catalogue_t
       integer :: n_coordinates = 2                !! of a point: 2 in the plane, 3 in space
       type(room_t) :: rooms(n_rooms)              !! (n_rooms) items
-      type(group_t), allocatable :: groups(:)     !! (groups) quantities
+      integer :: n_group = 0                      !! quantities so far
+      type(group_t), allocatable :: groups(:)     !! (groups) quantities; while some are added with places for more
+      type(reading_offer_t) :: offer              !! what the sets of the system tell
       type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
       type(bound_formula_t), allocatable :: formulas(:)  !! (any) expressions over channels, each after those that it uses
    contains
@@ -76,6 +78,7 @@ module catalogue
       procedure :: allocate_data => catalogue_allocate_data
       procedure :: find_group => catalogue_find_group
       procedure :: item_has => catalogue_item_has
+      procedure :: list => catalogue_list
       procedure :: bind => catalogue_bind
       procedure :: spread_wants => catalogue_spread_wants
       procedure :: work_out => catalogue_work_out
@@ -92,10 +95,11 @@ contains
       integer :: k
 
       found = 0
-      if (.not. allocated(self%groups)) return
-      do k = 1, size(self%groups)
+      do k = 1, self%n_group
          if (self%groups(k)%room /= room) cycle
-         if (self%groups(k)%channel%name == name) found = k
+         if (self%groups(k)%channel%name /= name) cycle
+         found = k
+         return
       end do
    end function catalogue_find_group
 
@@ -105,21 +109,31 @@ contains
       integer, intent(in) :: room                !! its room
       type(channel_t), intent(in) :: channel     !! the quantity
 
-      type(group_t), allocatable :: grown(:)
-      integer :: k, n
-
       if (self%find_group(room, channel%name) > 0) return
-      n = 0
-      if (allocated(self%groups)) n = size(self%groups)
-      allocate (grown(n + 1))
-      do k = 1, n
-         call take_over(self%groups(k), grown(k))
-      end do
-      grown(n + 1)%room = room
-      grown(n + 1)%channel = channel
-      if (channel%components == 2) grown(n + 1)%channel%components = self%n_coordinates
-      call move_alloc(grown, self%groups)
+      if (.not. allocated(self%groups)) allocate (self%groups(32))
+      if (self%n_group == size(self%groups)) call resize_groups(self, 2*self%n_group)
+      self%n_group = self%n_group + 1
+      associate (group => self%groups(self%n_group))
+         group%room = room
+         group%channel = channel
+         if (channel%components == 2) group%channel%components = self%n_coordinates
+      end associate
    end subroutine catalogue_add_group
+
+   !> Give the quantities another number of places, and keep them.
+   subroutine resize_groups(self, places)
+      class(catalogue_t), intent(inout) :: self  !! the catalogue
+      integer, intent(in) :: places              !! as many as there are quantities, or more
+
+      type(group_t), allocatable :: moved(:)
+      integer :: k
+
+      allocate (moved(places))
+      do k = 1, self%n_group
+         call take_over(self%groups(k), moved(k))
+      end do
+      call move_alloc(moved, self%groups)
+   end subroutine resize_groups
 
    !> A quantity to another place.
    subroutine take_over(from, to)
@@ -153,13 +167,13 @@ contains
    end subroutine catalogue_add_kind
 
    !> Add an item to a room.
-   subroutine catalogue_add_item(self, room, name, label, radius, info)
+   subroutine catalogue_add_item(self, room, name, label, radius, channels)
       class(catalogue_t), intent(inout) :: self        !! the catalogue
       integer, intent(in) :: room                      !! its room
       character(*), intent(in) :: name                 !! its name
       character(*), intent(in), optional :: label      !! of a contact: label within the joint
       real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
-      type(kind_info_t), intent(in), optional :: info  !! its kind; present: the item has only the kind's channels
+      character(*), intent(in), optional :: channels   !! present: it has only these, see `names_of_channels`
 
       associate (items => self%rooms(room))
          if (.not. allocated(items%names)) call resize(items, 8)
@@ -171,7 +185,7 @@ contains
          items%radius(items%n) = 0.0_wp
          if (present(radius)) items%radius(items%n) = radius
          items%channels(items%n)%s = ""
-         if (present(info)) items%channels(items%n)%s = names_of_channels(info)
+         if (present(channels)) items%channels(items%n)%s = channels
       end associate
    end subroutine catalogue_add_item
 
@@ -221,30 +235,48 @@ contains
       has = self%groups(group)%has(item)
    end function catalogue_item_has
 
-   !> What is read of a set: those of its channels that someone wants of any item, or item by item, and where they go.
-   subroutine catalogue_bind(self, room, info, readings, columns)
-      class(catalogue_t), intent(in) :: self      !! the catalogue
-      integer, intent(in) :: room                 !! room of the set's items; of loose joints: their contacts have one of their own
-      type(kind_info_t), intent(in) :: info       !! its channels
-      type(readings_t), intent(inout) :: readings !! what is read
-      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: not item by item
+   !> What a set tells: its channels, and where their values go.
+   subroutine catalogue_list(self, room, info, offer)
+      class(catalogue_t), intent(in) :: self     !! the catalogue
+      integer, intent(in) :: room                !! room of the set's items; of loose joints: their contacts have one of their own
+      type(kind_info_t), intent(in) :: info      !! its channels
+      type(readings_t), intent(inout) :: offer   !! what it tells
 
-      integer :: group, i, k, n
+      integer :: group, k
 
-      n = 1
-      if (present(columns)) n = size(columns)
-      call readings%start(n*count_channels(info))
+      call offer%start(count_channels(info))
       do k = 1, count_channels(info)
          group = self%find_group(room, info%channels(k)%name)
          if (group == 0 .and. room == room_clearances) group = self%find_group(room_contacts, info%channels(k)%name)
-         if (group == 0) cycle
-         associate (channel => info%channels(k), this => self%groups(group))
+         if (group > 0) call offer%add(info%channels(k)%code, group, 0)
+      end do
+   end subroutine catalogue_list
+
+   !> What is read of a set: those of its channels that someone wants of any item, or item by item. Bodies are read one by one where
+   !> not all are wanted.
+   pure subroutine catalogue_bind(self, offer, readings, columns)
+      class(catalogue_t), intent(in) :: self      !! the catalogue
+      type(readings_t), intent(in) :: offer       !! what the set tells
+      type(readings_t), intent(inout) :: readings !! what is read
+      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: as above
+
+      integer :: i, k, n
+
+      n = max(self%rooms(room_bodies)%n, 1)
+      if (present(columns)) n = size(columns)
+      call readings%start(n*offer%n)
+      do k = 1, offer%n
+         associate (code => offer%code(k), group => offer%group(k), this => self%groups(offer%group(k)))
             if (present(columns)) then
                do i = 1, n
-                  if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call readings%add(channel%code, group, i)
+                  if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call readings%add(code, group, i)
                end do
+            else if (this%room /= room_bodies .or. all(this%is_wanted)) then
+               if (any(this%is_wanted)) call readings%add(code, group, 0)
             else
-               if (any(this%is_wanted)) call readings%add(channel%code, group, 0)
+               do i = 1, n
+                  if (this%is_wanted(i)) call readings%add(code, group, i)
+               end do
             end if
          end associate
       end do
@@ -305,17 +337,18 @@ contains
    !> Whether an item of a room has a channel: it names its own, or has all of the room's.
    pure logical function has_channel(room, channel, item) result(has)
       type(room_t), intent(in) :: room        !! the room
-      character(*), intent(in) :: channel     !! name of the channel
+      character(*), intent(in) :: channel     !! name of the channel between blanks
       integer, intent(in) :: item             !! number of the item
 
       has = len(room%channels(item)%s) == 0
-      if (.not. has) has = index(room%channels(item)%s, " "//channel//" ") > 0
+      if (.not. has) has = index(room%channels(item)%s, channel) > 0
    end function has_channel
 
    !> Make room for the values, all NaN; no more items come.
    subroutine catalogue_allocate_data(self)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
 
+      character(:), allocatable :: word
       integer :: item, k
 
       self%rooms(room_bodies)%name = "bodies"
@@ -332,14 +365,15 @@ contains
       do k = 1, n_rooms
          call resize(self%rooms(k), self%rooms(k)%n)
       end do
-      if (.not. allocated(self%groups)) allocate (self%groups(0))
+      call resize_groups(self, self%n_group)
       if (.not. allocated(self%formulas)) allocate (self%formulas(0))
       do k = 1, size(self%groups)
          associate (group => self%groups(k))
             if (allocated(group%data)) deallocate (group%data, group%has, group%is_wanted)
             allocate (group%is_wanted(size(self%rooms(group%room)%names)), source=.true.)
             allocate (group%data(group%channel%components, size(self%rooms(group%room)%names)), source=not_a_number())
-            group%has = [(has_channel(self%rooms(group%room), group%channel%name, item), item=1, size(group%data, 2))]
+            word = " "//group%channel%name//" "
+            group%has = [(has_channel(self%rooms(group%room), word, item), item=1, size(group%data, 2))]
          end associate
       end do
    end subroutine catalogue_allocate_data

@@ -5,18 +5,18 @@
 module readings
    implicit none (type, external)
    private
-   public :: reading_plan_t, readings_t, wanted_rows_t
+   public :: reading_offer_t, reading_plan_t, readings_t, wanted_rows_t
 
    !> Channels that are read of one set.
    type :: readings_t
       integer :: n = 0                    !! number of channels
+      integer :: most = 0                 !! greatest number of a channel
       integer, allocatable :: code(:)     !! (n or more) the channels, as `info()` of the set numbers them
       integer, allocatable :: group(:)    !! (n or more) groups of the catalogue that their values go to
       integer, allocatable :: item(:)     !! (n or more) the item of the set, 0: all
    contains
       procedure :: start => readings_start
       procedure :: add => readings_add
-      procedure :: has => readings_has
    end type readings_t
 
    !> Of the rows that are not solved for: those that reports want, and what these hang on.
@@ -26,8 +26,8 @@ module readings
       logical :: has_known = .false.       !! whether those of the known bodies are
    end type wanted_rows_t
 
-   !> Channels that are read of all sets of a system.
-   type :: reading_plan_t
+   !> Channels of all sets of a system: those that these tell, each for all items.
+   type :: reading_offer_t
       type(readings_t) :: bodies                   !! of the bodies
       type(readings_t) :: energy                   !! of the ledger
       type(readings_t), allocatable :: joints(:)   !! (sets) of joints and drivers
@@ -37,17 +37,22 @@ module readings
       type(readings_t) :: points                   !! of points, point by point
       type(readings_t) :: motions                  !! of points as seen from elsewhere, one by one
       type(readings_t) :: reactions                !! of reactions at points, one by one
+   end type reading_offer_t
+
+   !> Those that are read.
+   type, extends(reading_offer_t) :: reading_plan_t
       type(wanted_rows_t) :: rows                  !! what they need of rows that are not solved for
    end type reading_plan_t
 
 contains
 
    !> Room for some channels, none yet.
-   subroutine readings_start(self, most)
+   pure subroutine readings_start(self, most)
       class(readings_t), intent(inout) :: self   !! the list
       integer, intent(in) :: most                !! channels at most
 
       self%n = 0
+      self%most = 0
       if (allocated(self%code)) deallocate (self%code, self%group, self%item)
       allocate (self%code(most), self%group(most), self%item(most), source=0)
    end subroutine readings_start
@@ -60,23 +65,10 @@ contains
       integer, intent(in) :: item                !! item of the set, 0: all
 
       self%n = self%n + 1
+      self%most = max(self%most, code)
       self%code(self%n) = code
       self%group(self%n) = group
       self%item(self%n) = item
    end subroutine readings_add
-
-   !> Whether a channel from a first to a last one is read.
-   pure logical function readings_has(self, first, last) result(has)
-      class(readings_t), intent(in) :: self   !! the list
-      integer, intent(in) :: first            !! the first channel
-      integer, intent(in) :: last             !! the last channel
-
-      integer :: m
-
-      has = .false.
-      do m = 1, self%n
-         has = has .or. (self%code(m) >= first .and. self%code(m) <= last)
-      end do
-   end function readings_has
 
 end module readings

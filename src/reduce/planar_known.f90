@@ -5,12 +5,11 @@
 !> Source: Flores et al. (2008), eqs. (2.1), (2.14). Limits: drivers of angles.
 module planar_known
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use coordinates, only: most_rates
    use joint_set, only: joint_slot_t
    use kinds, only: wp
    use motion, only: motion_t
    use reduced_bodies, only: held_t, known_bodies_t
-   use rows, only: rows_t
+   use rows, only: n_v => n_v_planar, rows_t, side_place
    implicit none (type, external)
    private
    public :: planar_known_t, planar_link_t
@@ -29,7 +28,7 @@ module planar_known
    contains
       procedure :: move => planar_move
       procedure, nopass :: power => planar_power
-      procedure, nopass :: solve_fixing => solve_three
+      procedure :: find_multipliers => planar_find_multipliers
    end type planar_known_t
 
 contains
@@ -173,22 +172,38 @@ contains
       end do
    end function power_of
 
+   !> Multipliers of the rows that fix the known bodies.
+   subroutine planar_find_multipliers(self, rows, carried, mass, g, a, rest, lambda)
+      class(planar_known_t), intent(in) :: self              !! the bodies
+      type(rows_t), intent(in) :: rows                      !! all rows
+      integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
+      real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
+      real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
+      real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+      real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
+      real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+
+      call find_fixing(self%n, self%held, size(carried, 2), carried, ubound(g, 2), rows%n, rows%jac, mass, g, a, rest, lambda)
+   end subroutine planar_find_multipliers
+
+   include "known_multipliers.inc"
+
    !> Solution of three equations by Cramer's rule: columns are two unit forces with their moments and a unit moment,
    !> so that the determinant is one or minus one.
-   subroutine solve_three(matrix, x)
-      real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (3, 3) first: matrix [1 or m]
-      real(wp), intent(inout) :: x(most_rates)                   !! (3) first: right-hand side, then the solution [N, N, N.m]
+   subroutine solve_fixing(matrix, x)
+      real(wp), intent(inout) :: matrix(3, 3)  !! (3, 3) gradients of the rows as columns [1 or m]
+      real(wp), intent(inout) :: x(3)          !! (3) what they have to carry, then the multipliers [N, N, N.m]
 
       real(wp) :: b(3), c(3), first(3)
 
-      b = x(1:3)
-      first = turned(matrix(1:3, 2), matrix(1:3, 3))
+      b = x
+      first = turned(matrix(:, 2), matrix(:, 3))
       x(1) = along(first, b)
-      c = turned(matrix(1:3, 3), matrix(1:3, 1))
+      c = turned(matrix(:, 3), matrix(:, 1))
       x(2) = along(c, b)
-      c = turned(matrix(1:3, 1), matrix(1:3, 2))
+      c = turned(matrix(:, 1), matrix(:, 2))
       x(3) = along(c, b)
-      x(1:3) = x(1:3)/along(first, matrix(1:3, 1))
+      x = x/along(first, matrix(:, 1))
 
    contains
 
@@ -211,6 +226,6 @@ contains
          along = u(1)*v(1) + u(2)*v(2) + u(3)*v(3)
       end function along
 
-   end subroutine solve_three
+   end subroutine solve_fixing
 
 end module planar_known

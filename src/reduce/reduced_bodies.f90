@@ -19,7 +19,7 @@ module reduced_bodies
    use joint_set, only: joint_slot_t
    use kinds, only: wp
    use motion, only: motion_t
-   use rows, only: coordinate_place, place_in_row, rows_t
+   use rows, only: rows_t
    implicit none (type, external)
    private
    public :: guided_bodies_t, held_t, known_bodies_t
@@ -43,8 +43,7 @@ module reduced_bodies
    contains
       procedure(known_move_interface), deferred :: move
       procedure(known_power_interface), deferred, nopass :: power
-      procedure(fixing_interface), deferred, nopass :: solve_fixing
-      procedure :: find_multipliers => known_find_multipliers
+      procedure(known_multipliers_interface), deferred :: find_multipliers
    end type known_bodies_t
 
    !> Bodies with one coordinate: those that turn, then those that slide.
@@ -86,13 +85,20 @@ module reduced_bodies
          type(motion_t), intent(in) :: motion                !! motion, with accelerations
       end function known_power_interface
 
-      !> Solution of the equations of the multipliers that fix a body.
-      subroutine fixing_interface(matrix, x)
-         import :: most_rates, wp
+      !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
+      !> evaluated.
+      subroutine known_multipliers_interface(self, rows, carried, mass, g, a, rest, lambda)
+         import :: known_bodies_t, rows_t, wp
          implicit none (type, external)
-         real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (n_v, n_v) first: gradients as columns, destroyed [1 or m]
-         real(wp), intent(inout) :: x(most_rates)  !! (n_v) first: what they have to carry, then the multipliers [N or N.m]
-      end subroutine fixing_interface
+         class(known_bodies_t), intent(in) :: self             !! the bodies
+         type(rows_t), intent(in) :: rows                      !! all rows
+         integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
+         real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
+         real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
+         real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+         real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
+         real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+      end subroutine known_multipliers_interface
 
       !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too. No allocation.
       pure subroutine guided_move_interface(self, x, x_dot, motion)
@@ -162,115 +168,5 @@ module reduced_bodies
          real(wp), intent(inout), contiguous :: lambda(:)    !! (rows) multipliers; those of the joints are set [N or N.m]
       end subroutine guided_multipliers_interface
    end interface
-
-contains
-
-   !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
-   !> evaluated.
-   subroutine known_find_multipliers(self, rows, carried, mass, g, a, rest, lambda)
-      class(known_bodies_t), intent(in) :: self             !! the bodies
-      type(rows_t), intent(in) :: rows                      !! all rows
-      integer, intent(in) :: carried(:, :)                  !! (3, sides) known bodies in other rows: row, place, body
-      real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
-      real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
-      real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
-      real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
-      real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
-
-      real(wp) :: matrix(most_rates, most_rates), x(most_rates)
-      integer :: k
-
-      associate (n_v => rows%n_v, n_body => ubound(g, 2), n_row => rows%n)
-         call find_rest(self%n, self%held, size(carried, 2), carried, n_v, n_body, n_row, rows%jac, mass, g, a, lambda, rest)
-         do k = self%n, 1, -1
-            call take_equations(self%held(k), n_v, n_body, n_row, rows%jac, rest, matrix, x)
-            call self%solve_fixing(matrix, x)
-            call hand_down(self%held(k), n_v, n_body, n_row, rows%jac, x, rest, lambda)
-         end do
-      end associate
-   end subroutine known_find_multipliers
-
-   !> What the fixing rows of the known bodies carry, but for those of other known bodies.
-   pure subroutine find_rest(n, held, n_carried, carried, n_v, n_body, n_row, jac, mass, g, a, lambda, rest)
-      integer, intent(in) :: n                         !! number of known bodies
-      type(held_t), intent(in) :: held(n)              !! (n) how they are held
-      integer, intent(in) :: n_carried                 !! sides that are known bodies in other rows
-      integer, intent(in) :: carried(3, n_carried)     !! (3, sides) these: row, place, body
-      integer, intent(in) :: n_v                       !! rates of a body
-      integer, intent(in) :: n_body                    !! number of bodies
-      integer, intent(in) :: n_row                     !! number of rows
-      real(wp), intent(in) :: jac(2*n_v, n_row)        !! (2 n_v, rows) Phi_q [1 or m]
-      real(wp), intent(in) :: mass(n_v, n_body)        !! (n_v, bodies) masses [kg or kg.m^2]
-      real(wp), intent(in) :: g(n_v, 0:n_body)         !! (n_v, 0:bodies) applied loads [N or N.m]
-      real(wp), intent(in) :: a(n_v, 0:n_body)         !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
-      real(wp), intent(in) :: lambda(n_row)            !! (rows) multipliers of the other rows [N or N.m]
-      real(wp), intent(inout) :: rest(n_v, 0:n_body)   !! (n_v, 0:bodies) what is to be carried, of known bodies [N or N.m]
-
-      integer :: b, i, k, place, row
-
-      do k = 1, n
-         b = held(k)%body
-         !GCC$ novector
-         do i = 1, n_v
-            rest(i, b) = g(i, b) - mass(i, b)*a(i, b)
-         end do
-      end do
-      do k = 1, n_carried
-         row = carried(1, k)
-         place = place_in_row(n_v, row, carried(2, k))
-         b = carried(3, k)
-         !GCC$ novector
-         do i = 1, n_v
-            rest(i, b) = rest(i, b) - jac(place + i, row)*lambda(row)
-         end do
-      end do
-   end subroutine find_rest
-
-   !> The equations of the multipliers that fix a body.
-   pure subroutine take_equations(held, n_v, n_body, n_row, jac, rest, matrix, x)
-      type(held_t), intent(in) :: held                 !! how it is held
-      integer, intent(in) :: n_v                       !! rates of a body
-      integer, intent(in) :: n_body                    !! number of bodies
-      integer, intent(in) :: n_row                     !! number of rows
-      real(wp), intent(in) :: jac(2*n_v, n_row)        !! (2 n_v, rows) Phi_q [1 or m]
-      real(wp), intent(in) :: rest(n_v, 0:n_body)      !! (n_v, 0:bodies) what is to be carried [N or N.m]
-      real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (n_v, n_v) first: gradients as columns [1 or m]
-      real(wp), intent(inout) :: x(most_rates)         !! (n_v) first: what they have to carry [N or N.m]
-
-      integer :: i, j, place
-
-      place = coordinate_place(n_v, held%side)
-      do i = 1, n_v
-         !GCC$ novector
-         do j = 1, n_v
-            matrix(j, i) = jac(place + j, held%row(i))
-         end do
-         x(i) = rest(i, held%body)
-      end do
-   end subroutine take_equations
-
-   !> The multipliers that fix a body, and what they put upon its base.
-   pure subroutine hand_down(held, n_v, n_body, n_row, jac, x, rest, lambda)
-      type(held_t), intent(in) :: held                 !! how it is held
-      integer, intent(in) :: n_v                       !! rates of a body
-      integer, intent(in) :: n_body                    !! number of bodies
-      integer, intent(in) :: n_row                     !! number of rows
-      real(wp), intent(in) :: jac(2*n_v, n_row)        !! (2 n_v, rows) Phi_q [1 or m]
-      real(wp), intent(in) :: x(most_rates)            !! (n_v) first: the multipliers [N or N.m]
-      real(wp), intent(inout) :: rest(n_v, 0:n_body)   !! (n_v, 0:bodies) what is to be carried, of known bodies [N or N.m]
-      real(wp), intent(inout) :: lambda(n_row)         !! (rows) multipliers; these are set [N or N.m]
-
-      integer :: i, j, place
-
-      place = coordinate_place(n_v, 3 - held%side)
-      do i = 1, n_v
-         lambda(held%row(i)) = x(i)
-         if (held%base == 0) cycle
-         !GCC$ novector
-         do j = 1, n_v
-            rest(j, held%base) = rest(j, held%base) - jac(place + j, held%row(i))*x(i)
-         end do
-      end do
-   end subroutine hand_down
 
 end module reduced_bodies

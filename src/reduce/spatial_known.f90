@@ -7,13 +7,12 @@
 !> Source: Flores et al. (2008), eqs. (6.1) to (6.5). Limits: drivers of angles.
 module spatial_known
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use coordinates, only: most_rates
    use joint_set, only: joint_slot_t
    use kinds, only: wp
    use lapack, only: dgetrf, dgetrs
    use motion, only: motion_t
    use reduced_bodies, only: held_t, known_bodies_t
-   use rows, only: rows_t
+   use rows, only: n_v => n_v_spatial, rows_t, side_place
    implicit none (type, external)
    private
    public :: spatial_known_t, spatial_link_t
@@ -33,7 +32,7 @@ module spatial_known
    contains
       procedure :: move => spatial_move
       procedure, nopass :: power => spatial_power
-      procedure, nopass :: solve_fixing => solve_pivoted
+      procedure :: find_multipliers => spatial_find_multipliers
    end type spatial_known_t
 
 contains
@@ -134,16 +133,32 @@ contains
       end do
    end function spatial_power
 
+   !> Multipliers of the rows that fix the known bodies.
+   subroutine spatial_find_multipliers(self, rows, carried, mass, g, a, rest, lambda)
+      class(spatial_known_t), intent(in) :: self             !! the bodies
+      type(rows_t), intent(in) :: rows                      !! all rows
+      integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
+      real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
+      real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
+      real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+      real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
+      real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+
+      call find_fixing(self%n, self%held, size(carried, 2), carried, ubound(g, 2), rows%n, rows%jac, mass, g, a, rest, lambda)
+   end subroutine spatial_find_multipliers
+
+   include "known_multipliers.inc"
+
    !> Solution of the equations of the multipliers that fix a body, by factors with pivots. The rows of a joint and its driver are
    !> independent wherever the joint is whole, so that there is one.
-   subroutine solve_pivoted(matrix, x)
-      real(wp), intent(inout) :: matrix(most_rates, most_rates)  !! (6, 6) gradients of the rows as columns, destroyed [1 or m]
-      real(wp), intent(inout) :: x(most_rates)  !! (6) what they have to carry, then the multipliers [N or N.m]
+   subroutine solve_fixing(matrix, x)
+      real(wp), intent(inout) :: matrix(6, 6)  !! (6, 6) gradients of the rows as columns, destroyed [1 or m]
+      real(wp), intent(inout) :: x(6)          !! (6) what they have to carry, then the multipliers [N or N.m]
 
       integer :: info, pivots(6)
 
       call dgetrf(6, 6, matrix, 6, pivots, info)
       call dgetrs("N", 6, 1, matrix, 6, pivots, x, 6, info)
-   end subroutine solve_pivoted
+   end subroutine solve_fixing
 
 end module spatial_known

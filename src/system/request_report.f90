@@ -2,7 +2,7 @@
 module request_report
    use catalogue, only: bound_formula_t, catalogue_t, group_t, n_rooms, room_contacts, room_motions, room_points, room_reactions, &
       room_requests
-   use kind_info, only: channel_t
+   use kind_info, only: channel_t, kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
    use reaction_at, only: find_reaction
@@ -24,15 +24,15 @@ contains
       integer :: k
 
       if (.not. allocated(requests%points)) return  ! a system that was not made from a deck
-      if (size(requests%points) > 0) call catalogue%add_kind(room_points, point_channels())
+      if (size(requests%points) > 0) call add(room_points, point_channels(), catalogue%offer%points)
       do k = 1, size(requests%points)
          call catalogue%add_item(room_points, requests%points(k)%s)
       end do
-      if (size(requests%motions) > 0) call catalogue%add_kind(room_motions, motion_request_info())
+      if (size(requests%motions) > 0) call add(room_motions, motion_request_info(), catalogue%offer%motions)
       do k = 1, size(requests%motions)
          call catalogue%add_item(room_motions, requests%motions(k)%name)
       end do
-      if (size(requests%reactions) > 0) call catalogue%add_kind(room_reactions, reaction_info(requests%is_spatial))
+      if (size(requests%reactions) > 0) call add(room_reactions, reaction_info(requests%is_spatial), catalogue%offer%reactions)
       do k = 1, size(requests%reactions)
          call catalogue%add_item(room_reactions, requests%reactions(k)%name)
       end do
@@ -41,6 +41,19 @@ contains
       do k = 1, size(requests%formulas)
          call add_formula(requests%formulas(k), catalogue, catalogue%formulas(k))
       end do
+
+   contains
+
+      !> The channels of a sort of requests.
+      subroutine add(room, info, offer)
+         integer, intent(in) :: room                !! their room
+         type(kind_info_t), intent(in) :: info      !! their channels
+         type(readings_t), intent(inout) :: offer   !! what they tell
+
+         call catalogue%add_kind(room, info)
+         call catalogue%list(room, info, offer)
+      end subroutine add
+
    end subroutine add_requests
 
    !> A group for an expression, if all of its channels are there.
@@ -63,7 +76,7 @@ contains
       channel%help = formula%text
       call catalogue%add_group(room_requests, channel)
       bound%expression = formula%expression
-      bound%group = size(catalogue%groups)
+      bound%group = catalogue%n_group
    end subroutine add_formula
 
    !> Group, component and item of a channel; zeros if the catalogue does not have it.
@@ -91,11 +104,10 @@ contains
 
       integer :: k
 
-      associate (plan => catalogue%readings, rooms => catalogue%rooms)
-         call catalogue%bind(room_points, point_channels(), plan%points, [(k, k=1, rooms(room_points)%n)])
-         call catalogue%bind(room_motions, motion_request_info(), plan%motions, [(k, k=1, rooms(room_motions)%n)])
-         call catalogue%bind(room_reactions, reaction_info(catalogue%n_coordinates == 3), plan%reactions, &
-                             [(k, k=1, rooms(room_reactions)%n)])
+      associate (plan => catalogue%readings, offer => catalogue%offer, rooms => catalogue%rooms)
+         call catalogue%bind(offer%points, plan%points, [(k, k=1, rooms(room_points)%n)])
+         call catalogue%bind(offer%motions, plan%motions, [(k, k=1, rooms(room_motions)%n)])
+         call catalogue%bind(offer%reactions, plan%reactions, [(k, k=1, rooms(room_reactions)%n)])
       end associate
    end subroutine bind_requests
 

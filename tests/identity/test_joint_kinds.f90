@@ -23,6 +23,7 @@ module test_joint_kinds
    use motion, only: motion_t, new_motion
    use planar_kinds, only: is_planar_joint
    use planar_coordinates, only: new_planar_coordinates, planar_coordinates_t, set_planar_motion
+   use read_channel, only: read_joints
    use span, only: span_of
    use text, only: text_t, to_text
    implicit none (type, external)
@@ -415,10 +416,7 @@ contains
             values = reshape([(not_a_number(), k=1, info%channels(c)%components*(2*n_item + 1))], &
                              [info%channels(c)%components, 2*n_item + 1])
             if (bench%set%friction%n > 0) bench%set%friction%force = [(0.5_wp*k, k=1, n_item)]
-            do k = 1, n_item
-               call bench%set%report(info%channels(c)%code, k, bench%motion, coordinates, bench%rows, lambda, phi_dot, &
-                                     values(:, bench%set%column(k)))
-            end do
+            call read_joints(bench%set, info%channels(c)%code, bench%motion, coordinates, bench%rows, lambda, phi_dot, values)
             call check_true(error, all(ieee_is_finite(values(:, 2::2))), bench%name//": fills "//info%channels(c)%name)
             call check_true(error, .not. any(ieee_is_finite(values(:, 1::2))), bench%name//": leaves others alone")
             if (info%channels(c)%name == "force" .and. .not. bench%set%is_driver) then

@@ -9,6 +9,7 @@ module test_spatial_joints
    use fixed_random, only: random_t, seed_of
    use kinds, only: not_a_number, wp
    use motion, only: cross
+   use read_channel, only: read_joints
    use rotations, only: euler_parameters_of, product_of
    use spatial_bench, only: apply_rows, before, bench_t, evaluate_after, make_bench, n_body, n_item, now, random_frame, &
       spatial_kinds, times_jacobian
@@ -289,9 +290,7 @@ contains
          do c = 1, size(bench%info%channels)
             associate (channel => bench%info%channels(c))
                allocate (values(merge(3, 1, channel%components == 2), n_item), source=not_a_number())
-               do k = 1, n_item
-                  call bench%set%report(channel%code, k, bench%motion, bench%coordinates, bench%rows, lambda, lambda, values(:, k))
-               end do
+               call read_joints(bench%set, channel%code, bench%motion, bench%coordinates, bench%rows, lambda, lambda, values)
                call check_true(error, all(ieee_is_finite(values)), bench%name//": channel "//channel%name)
                deallocate (values)
             end associate

@@ -4,7 +4,7 @@ module test_channel_codes
    use errors, only: error_t
    use kind_info, only: kind_info_t
    use kind_list, only: all_kinds
-   use mechanism_report, only: energy_info
+   use mechanism_catalogue, only: energy_info
    use read_channel, only: channel_code
    implicit none (type, external)
    private
