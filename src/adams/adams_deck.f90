@@ -16,7 +16,7 @@ module adams_deck
    use adams_model, only: adams_model_t, argument_numbers, leave_out, mistake, new_model, part_t
    use adams_motions, only: add_motions
    use adams_names, only: full_names, is_refused, is_setting, is_understood, reason_against
-   use adams_splines, only: is_taken
+   use adams_splines, only: name_idle_splines
    use adams_starts, only: sliding_velocity
    use dataset, only: has_word, read_statements, statement_t
    use deck_draft, only: deck_draft_t, tab
@@ -80,9 +80,7 @@ contains
                call settings%add("line "//to_text(it%line)//": "//it%keyword)
             else if (is_understood(it%keyword)) then
                call name_unknown_arguments(model, it)
-               if (it%keyword == "SPLINE") then
-                  if (.not. is_taken(draft, it%id)) call leave_out(model, it, "nothing that a deck has takes it")
-               end if
+               call name_idle_splines(model, draft, it)
             else
                call leave_out(model, it, reason_against(it%keyword))
             end if

@@ -10,7 +10,7 @@
 !> Limits: curves of one argument, whose samples stand in the dataset; no derivatives.
 module adams_splines
    use adams_expression, only: node_call, node_curve, node_number, tree_t
-   use adams_model, only: adams_model_t, argument_numbers, find_statement
+   use adams_model, only: adams_model_t, argument_numbers, find_statement, leave_out
    use akima, only: new_akima
    use curve, only: beyond_error, beyond_linear
    use dataset, only: has_word, statement_t
@@ -22,7 +22,7 @@ module adams_splines
    use text, only: exact_text, to_text
    implicit none (type, external)
    private
-   public :: is_taken, name_splines
+   public :: name_idle_splines, name_splines
 
    integer, parameter :: most_splines = 1000          !! rows that a deck gets
    character(*), parameter :: cubic = "cubic_"        !! name of the row of CUBSPL, before the number of the spline
@@ -91,20 +91,22 @@ contains
       end associate
    end subroutine name_one
 
-   !> Whether the deck has the curve of a spline.
-   logical function is_taken(draft, id)
-      type(deck_draft_t), intent(in) :: draft     !! the deck
-      integer, intent(in) :: id                   !! number of the spline
+   !> Put a spline that nothing of the deck takes on the list of what is left out.
+   subroutine name_idle_splines(model, draft, statement)
+      type(adams_model_t), intent(inout) :: model      !! the dataset
+      type(deck_draft_t), intent(in) :: draft          !! the deck
+      type(statement_t), intent(in) :: statement       !! one of its statements, with its name in full
 
       character(:), allocatable :: key
       integer :: k
 
-      is_taken = .false.
+      if (statement%keyword /= "SPLINE") return
       do k = 1, draft%asked%n
          key = draft%asked%at(k)
-         is_taken = is_taken .or. key == cubic//to_text(id) .or. key == akimas//to_text(id)
+         if (key == cubic//to_text(statement%id) .or. key == akimas//to_text(statement%id)) return
       end do
-   end function is_taken
+      call leave_out(model, statement, "nothing that a deck has takes it")
+   end subroutine name_idle_splines
 
    !> The samples of a spline.
    subroutine take_samples(statement, x, y, message)
