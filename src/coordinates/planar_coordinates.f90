@@ -43,6 +43,40 @@ module planar_coordinates
       procedure, nopass :: bodies_info
    end type planar_coordinates_t
 
+   interface
+      !> Along the bodies' axes; turns are the same.
+      pure module subroutine planar_to_local(self, n, q, q_change, v_change, x, w)
+         implicit none (type, external)
+         class(planar_coordinates_t), intent(in) :: self   !! the coordinates
+         integer, intent(in) :: n                          !! how many bodies
+         real(wp), intent(in) :: q(self%n_q, n)            !! (3, n) x, y, angle [m, m, rad]
+         real(wp), intent(in) :: q_change(self%n_q, n)     !! (3, n) their changes [m, m, rad]
+         real(wp), intent(in) :: v_change(self%n_v, n)     !! (3, n) changes of the rates [m/s, m/s, rad/s]
+         real(wp), intent(out) :: x(self%n_v, n)           !! (3, n) displacements and turns, body frames [m, m, rad]
+         real(wp), intent(out) :: w(self%n_v, n)           !! (3, n) changes of velocities, body frames [m/s, m/s, rad/s]
+      end subroutine planar_to_local
+
+      !> Along the world's axes.
+      pure module subroutine planar_from_local(self, n, q, x, w, q_change, v_change)
+         implicit none (type, external)
+         class(planar_coordinates_t), intent(in) :: self   !! the coordinates
+         integer, intent(in) :: n                          !! how many bodies
+         real(wp), intent(in) :: q(self%n_q, n)            !! (3, n) x, y, angle [m, m, rad]
+         real(wp), intent(in) :: x(self%n_v, n)            !! (3, n) displacements and turns, body frames [m, m, rad]
+         real(wp), intent(in) :: w(self%n_v, n)            !! (3, n) changes of velocities, body frames [m/s, m/s, rad/s]
+         real(wp), intent(out) :: q_change(self%n_q, n)    !! (3, n) changes of the coordinates [m, m, rad]
+         real(wp), intent(out) :: v_change(self%n_v, n)    !! (3, n) changes of the rates [m/s, m/s, rad/s]
+      end subroutine planar_from_local
+
+      !> Values that are read, of all bodies or of one.
+      pure module subroutine planar_report(readings, motion, groups)
+         implicit none (type, external)
+         type(readings_t), intent(in) :: readings   !! channels that are read
+         type(motion_t), intent(in) :: motion       !! the motion, accelerations too
+         type(group_t), intent(inout) :: groups(:)  !! (groups) values
+      end subroutine planar_report
+   end interface
+
 contains
 
    include "../math/sine_cosine.inc"
@@ -282,53 +316,6 @@ contains
       scale(3::3) = 1.0_wp
    end subroutine planar_weigh_positions
 
-   !> Along the bodies' axes; turns are the same.
-   pure subroutine planar_to_local(self, n, q, q_change, v_change, x, w)
-      class(planar_coordinates_t), intent(in) :: self   !! the coordinates
-      integer, intent(in) :: n                          !! how many bodies
-      real(wp), intent(in) :: q(self%n_q, n)            !! (3, n) x, y, angle [m, m, rad]
-      real(wp), intent(in) :: q_change(self%n_q, n)     !! (3, n) their changes [m, m, rad]
-      real(wp), intent(in) :: v_change(self%n_v, n)     !! (3, n) changes of the rates [m/s, m/s, rad/s]
-      real(wp), intent(out) :: x(self%n_v, n)           !! (3, n) displacements and turns, body frames [m, m, rad]
-      real(wp), intent(out) :: w(self%n_v, n)           !! (3, n) changes of velocities, body frames [m/s, m/s, rad/s]
-
-      call turn(n, q, -1.0_wp, q_change, v_change, x, w)
-   end subroutine planar_to_local
-
-   !> Along the world's axes.
-   pure subroutine planar_from_local(self, n, q, x, w, q_change, v_change)
-      class(planar_coordinates_t), intent(in) :: self   !! the coordinates
-      integer, intent(in) :: n                          !! how many bodies
-      real(wp), intent(in) :: q(self%n_q, n)            !! (3, n) x, y, angle [m, m, rad]
-      real(wp), intent(in) :: x(self%n_v, n)            !! (3, n) displacements and turns, body frames [m, m, rad]
-      real(wp), intent(in) :: w(self%n_v, n)            !! (3, n) changes of velocities, body frames [m/s, m/s, rad/s]
-      real(wp), intent(out) :: q_change(self%n_q, n)    !! (3, n) changes of the coordinates [m, m, rad]
-      real(wp), intent(out) :: v_change(self%n_v, n)    !! (3, n) changes of the rates [m/s, m/s, rad/s]
-
-      call turn(n, q, 1.0_wp, x, w, q_change, v_change)
-   end subroutine planar_from_local
-
-   !> Two vectors for each body, turned by its angle or back.
-   pure subroutine turn(n, q, sense, x, w, x_turned, w_turned)
-      integer, intent(in) :: n                   !! how many bodies
-      real(wp), intent(in) :: q(3, n)            !! (3, n) x, y, angle [m, m, rad]
-      real(wp), intent(in) :: sense              !! 1: from the body's axes to the world's, -1: back [1]
-      real(wp), intent(in) :: x(3, n)            !! (3, n) x, y and angle of the first [any]
-      real(wp), intent(in) :: w(3, n)            !! (3, n) of the second [any]
-      real(wp), intent(out) :: x_turned(3, n)    !! (3, n) the first turned [any]
-      real(wp), intent(out) :: w_turned(3, n)    !! (3, n) the second turned [any]
-
-      real(wp) :: c, s
-      integer :: k
-
-      do k = 1, n
-         call sine_cosine(q(3, k), s, c)
-         s = sense*s
-         x_turned(:, k) = [c*x(1, k) - s*x(2, k), s*x(1, k) + c*x(2, k), x(3, k)]
-         w_turned(:, k) = [c*w(1, k) - s*w(2, k), s*w(1, k) + c*w(2, k), w(3, k)]
-      end do
-   end subroutine turn
-
    !> Greatest of velocities over a length and angular velocity.
    pure function planar_rate_of(motion, body, length) result(rate)
       type(motion_t), intent(in) :: motion   !! the motion
@@ -377,51 +364,6 @@ contains
       force = [load(1), load(2), 0.0_wp]
       moment = [0.0_wp, 0.0_wp, load(3)]
    end subroutine planar_split_load
-
-   !> Values that are read, of all bodies or of one.
-   pure subroutine planar_report(readings, motion, groups)
-      type(readings_t), intent(in) :: readings   !! channels that are read
-      type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-      type(group_t), intent(inout) :: groups(:)  !! (groups) values
-
-      integer :: k, m
-
-      do m = 1, readings%n
-         if (readings%item(m) > 0) then
-            call report_body(readings%code(m), readings%item(m), motion, groups(readings%group(m)))
-         else
-            do k = 1, size(groups(readings%group(m))%data, 2)
-               call report_body(readings%code(m), k, motion, groups(readings%group(m)))
-            end do
-         end if
-      end do
-   end subroutine planar_report
-
-   !> The value of a channel of one body.
-   pure subroutine report_body(code, k, motion, group)
-      integer, intent(in) :: code              !! the channel
-      integer, intent(in) :: k                 !! the body
-      type(motion_t), intent(in) :: motion     !! the motion, accelerations too
-      type(group_t), intent(inout) :: group    !! values
-
-      select case (code)
-      case (of_position)
-         group%data(1, k) = motion%r(1, k)
-         group%data(2, k) = motion%r(2, k)
-      case (of_velocity)
-         group%data(1, k) = motion%v(1, k)
-         group%data(2, k) = motion%v(2, k)
-      case (of_acceleration)
-         group%data(1, k) = motion%a(1, k)
-         group%data(2, k) = motion%a(2, k)
-      case (of_angle)
-         group%data(1, k) = motion%angle(k)
-      case (of_angular_velocity)
-         group%data(1, k) = motion%omega(3, k)
-      case (of_angular_acceleration)
-         group%data(1, k) = motion%alpha(3, k)
-      end select
-   end subroutine report_body
 
    !> The direction, and its moment.
    pure subroutine planar_along(direction, arm, motion, body, row)

@@ -50,6 +50,59 @@ module spatial_coordinates
       procedure, nopass :: bodies_info => spatial_bodies_info
    end type spatial_coordinates_t
 
+   interface
+      !> Along the bodies' axes, where turns and angular velocities are already.
+      pure module subroutine spatial_to_local(self, n, q, q_change, v_change, x, w)
+         implicit none (type, external)
+         class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
+         integer, intent(in) :: n                          !! how many bodies
+         real(wp), intent(in) :: q(self%n_q, n)            !! (7, n) positions and Euler parameters [m and 1]
+         real(wp), intent(in) :: q_change(self%n_q, n)     !! (7, n) their changes [m and 1]
+         real(wp), intent(in) :: v_change(self%n_v, n)     !! (6, n) changes of the rates [m/s and rad/s]
+         real(wp), intent(out) :: x(self%n_v, n)           !! (6, n) displacements and turns, body frames [m and rad]
+         real(wp), intent(out) :: w(self%n_v, n)           !! (6, n) changes of velocities, body frames [m/s and rad/s]
+      end subroutine spatial_to_local
+
+      !> Along the world's axes, and the change of Euler parameters that a turn makes.
+      pure module subroutine spatial_from_local(self, n, q, x, w, q_change, v_change)
+         implicit none (type, external)
+         class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
+         integer, intent(in) :: n                          !! how many bodies
+         real(wp), intent(in) :: q(self%n_q, n)            !! (7, n) positions and Euler parameters [m and 1]
+         real(wp), intent(in) :: x(self%n_v, n)            !! (6, n) displacements and turns, body frames [m and rad]
+         real(wp), intent(in) :: w(self%n_v, n)            !! (6, n) changes of velocities, body frames [m/s and rad/s]
+         real(wp), intent(out) :: q_change(self%n_q, n)    !! (7, n) changes of the coordinates [m and 1]
+         real(wp), intent(out) :: v_change(self%n_v, n)    !! (6, n) changes of the rates [m/s and rad/s]
+      end subroutine spatial_from_local
+
+      !> Values that are read, of all bodies or of one. What is along a body's axes is along those of the deck.
+      pure module subroutine spatial_report(readings, motion, groups)
+         implicit none (type, external)
+         type(readings_t), intent(in) :: readings   !! channels that are read
+         type(motion_t), intent(in) :: motion       !! the motion, accelerations too
+         type(group_t), intent(inout) :: groups(:)  !! (groups) values
+      end subroutine spatial_report
+
+      !> Displacements, and turns about axes of the body; Euler parameters come out at length one.
+      pure module subroutine spatial_add_change(self, n, x, q)
+         implicit none (type, external)
+         class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
+         integer, intent(in) :: n                          !! how many bodies
+         real(wp), intent(in) :: x(self%n_v, n)            !! (6, n) changes [m and rad]
+         real(wp), intent(inout) :: q(self%n_q, n)         !! (7, n) coordinates [m and 1]
+      end subroutine spatial_add_change
+
+      !> Displacements and turns from one position to another.
+      pure module subroutine spatial_difference(self, n, from, to, x)
+         implicit none (type, external)
+         class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
+         integer, intent(in) :: n                          !! how many bodies
+         real(wp), intent(in) :: from(self%n_q, n)         !! (7, n) coordinates [m and 1]
+         real(wp), intent(in) :: to(self%n_q, n)           !! (7, n) coordinates [m and 1]
+         real(wp), intent(out) :: x(self%n_v, n)           !! (6, n) changes [m and rad]
+      end subroutine spatial_difference
+   end interface
+
 contains
 
    !> The coordinates of space.
@@ -260,37 +313,6 @@ contains
       end do
    end subroutine spatial_loads
 
-   !> Displacements, and turns about axes of the body; Euler parameters come out at length one.
-   pure subroutine spatial_add_change(self, n, x, q)
-      class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
-      integer, intent(in) :: n                          !! how many bodies
-      real(wp), intent(in) :: x(self%n_v, n)            !! (6, n) changes [m and rad]
-      real(wp), intent(inout) :: q(self%n_q, n)         !! (7, n) coordinates [m and 1]
-
-      integer :: k
-
-      do k = 1, n
-         q(1:3, k) = q(1:3, k) + x(1:3, k)
-         q(4:7, k) = turned_by(q(4:7, k), x(4:6, k))
-      end do
-   end subroutine spatial_add_change
-
-   !> Displacements and turns from one position to another.
-   pure subroutine spatial_difference(self, n, from, to, x)
-      class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
-      integer, intent(in) :: n                          !! how many bodies
-      real(wp), intent(in) :: from(self%n_q, n)         !! (7, n) coordinates [m and 1]
-      real(wp), intent(in) :: to(self%n_q, n)           !! (7, n) coordinates [m and 1]
-      real(wp), intent(out) :: x(self%n_v, n)           !! (6, n) changes [m and rad]
-
-      integer :: k
-
-      do k = 1, n
-         x(1:3, k) = to(1:3, k) - from(1:3, k)
-         x(4:6, k) = rotation_vector_of(from(4:7, k), to(4:7, k))
-      end do
-   end subroutine spatial_difference
-
    !> Scales of the coordinates: lengths, and Euler parameters, which a turn of a radian changes by a half.
    pure subroutine spatial_weigh_positions(self, length, n, scale)
       class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
@@ -305,50 +327,6 @@ contains
          scale(n_q*k - 3:n_q*k) = 0.5_wp
       end do
    end subroutine spatial_weigh_positions
-
-   !> Along the bodies' axes, where turns and angular velocities are already.
-   pure subroutine spatial_to_local(self, n, q, q_change, v_change, x, w)
-      class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
-      integer, intent(in) :: n                          !! how many bodies
-      real(wp), intent(in) :: q(self%n_q, n)            !! (7, n) positions and Euler parameters [m and 1]
-      real(wp), intent(in) :: q_change(self%n_q, n)     !! (7, n) their changes [m and 1]
-      real(wp), intent(in) :: v_change(self%n_v, n)     !! (6, n) changes of the rates [m/s and rad/s]
-      real(wp), intent(out) :: x(self%n_v, n)           !! (6, n) displacements and turns, body frames [m and rad]
-      real(wp), intent(out) :: w(self%n_v, n)           !! (6, n) changes of velocities, body frames [m/s and rad/s]
-
-      real(wp) :: rot(3, 3)
-      integer :: k
-
-      do k = 1, n
-         rot = rotation_of_parameters(q(4:7, k))
-         x(1:3, k) = matmul(q_change(1:3, k), rot)
-         x(4:6, k) = spin_of(q(4:7, k), q_change(4:7, k))
-         w(1:3, k) = matmul(v_change(1:3, k), rot)
-         w(4:6, k) = v_change(4:6, k)
-      end do
-   end subroutine spatial_to_local
-
-   !> Along the world's axes, and the change of Euler parameters that a turn makes.
-   pure subroutine spatial_from_local(self, n, q, x, w, q_change, v_change)
-      class(spatial_coordinates_t), intent(in) :: self  !! the coordinates
-      integer, intent(in) :: n                          !! how many bodies
-      real(wp), intent(in) :: q(self%n_q, n)            !! (7, n) positions and Euler parameters [m and 1]
-      real(wp), intent(in) :: x(self%n_v, n)            !! (6, n) displacements and turns, body frames [m and rad]
-      real(wp), intent(in) :: w(self%n_v, n)            !! (6, n) changes of velocities, body frames [m/s and rad/s]
-      real(wp), intent(out) :: q_change(self%n_q, n)    !! (7, n) changes of the coordinates [m and 1]
-      real(wp), intent(out) :: v_change(self%n_v, n)    !! (6, n) changes of the rates [m/s and rad/s]
-
-      real(wp) :: rot(3, 3)
-      integer :: k
-
-      do k = 1, n
-         rot = rotation_of_parameters(q(4:7, k))
-         q_change(1:3, k) = matmul(rot, x(1:3, k))
-         q_change(4:7, k) = rate_of_parameters(q(4:7, k), x(4:6, k))
-         v_change(1:3, k) = matmul(rot, w(1:3, k))
-         v_change(4:6, k) = w(4:6, k)
-      end do
-   end subroutine spatial_from_local
 
    !> Greatest of velocities over a length and angular velocities.
    pure function spatial_rate_of(motion, body, length) result(rate)
@@ -397,46 +375,6 @@ contains
       force = load(1:3)
       moment = matmul(motion%rot(:, :, body), load(4:6))
    end subroutine spatial_split_load
-
-   !> Values that are read, of all bodies or of one. What is along a body's axes is along those of the deck.
-   pure subroutine spatial_report(readings, motion, groups)
-      type(readings_t), intent(in) :: readings   !! channels that are read
-      type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-      type(group_t), intent(inout) :: groups(:)  !! (groups) values
-
-      real(wp) :: p(4)
-      integer :: first, k, last, m
-
-      do m = 1, readings%n
-         associate (values => groups(readings%group(m))%data)
-            first = max(readings%item(m), 1)
-            last = first
-            if (readings%item(m) == 0) last = size(values, 2)
-            select case (readings%code(m))
-            case (of_position)
-               values(:, first:last) = motion%r(:, first:last)
-            case (of_velocity)
-               values(:, first:last) = motion%v(:, first:last)
-            case (of_acceleration)
-               values(:, first:last) = motion%a(:, first:last)
-            case (of_orientation)
-               do k = first, last
-                  ! of the own axes, on the side of the parameters that are integrated, so that the curves have no jumps
-                  p = euler_parameters_of(motion%spatial%own(:, :, k))
-                  values(:, k) = product_of(motion%spatial%p(:, k), [p(1), -p(2:4)])/norm2(motion%spatial%p(:, k))
-               end do
-            case (of_angular_velocity)
-               values(:, first:last) = motion%omega(:, first:last)
-            case (of_angular_acceleration)
-               values(:, first:last) = motion%alpha(:, first:last)
-            case (of_spin)
-               do k = first, last
-                  values(:, k) = matmul(motion%spatial%own(:, :, k), motion%spatial%spin(:, k))
-               end do
-            end select
-         end associate
-      end do
-   end subroutine spatial_report
 
    !> The direction, and its moment along the body's axes.
    pure subroutine spatial_along(direction, arm, motion, body, row)

@@ -33,7 +33,6 @@ module radau
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use krylov_solver, only: krylov_solver_t
-   use memory, only: get, put
    use ode_system, only: ode_system_t
    use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
    use radau_matrix, only: radau_matrix_t
@@ -125,6 +124,30 @@ module radau
          real(wp), intent(in) :: h                     !! length of the step [s]
          integer, intent(out) :: status                !! of the evaluations
       end subroutine evaluate_stages
+   end interface
+
+   interface
+      !> Numbers that a checkpoint needs.
+      integer module function radau_memory_size(self) result(n)
+         implicit none (type, external)
+         class(radau_t), intent(in) :: self  !! the integrator
+      end function radau_memory_size
+
+      !> Write what the integrator remembers.
+      module subroutine radau_save(self, row, place)
+         implicit none (type, external)
+         class(radau_t), intent(in) :: self  !! the integrator
+         real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
+         integer, intent(inout) :: place     !! last place used
+      end subroutine radau_save
+
+      !> Read what the integrator remembers.
+      module subroutine radau_load(self, row, place)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self  !! the integrator
+         real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
+         integer, intent(inout) :: place        !! last place used
+      end subroutine radau_load
    end interface
 
 contains
@@ -362,51 +385,5 @@ contains
                                          + s*(-sum(others)/3.0_wp + s*0.25_wp)))/product(places(k) - others)
       end do
    end function integrals
-
-   !> Numbers that a checkpoint needs.
-   integer function radau_memory_size(self) result(n)
-      class(radau_t), intent(in) :: self  !! the integrator
-
-      n = one_step_memory_size(self) + 6 + 3*self%n + self%matrix%memory_size()
-   end function radau_memory_size
-
-   !> Write what the integrator remembers.
-   subroutine radau_save(self, row, place)
-      class(radau_t), intent(in) :: self  !! the integrator
-      real(wp), intent(inout) :: row(:)   !! (any) checkpoint [any]
-      integer, intent(inout) :: place     !! last place used
-
-      integer :: k
-
-      call one_step_save(self, row, place)
-      call put(row, place, [self%now%t, self%now%h, self%contraction, self%h_matrix, self%h_gmres])
-      call put(row, place, self%is_stale)
-      do k = 1, 3
-         call put(row, place, self%now%z(:, k))
-      end do
-      call self%matrix%save(row, place)
-   end subroutine radau_save
-
-   !> Read what the integrator remembers.
-   subroutine radau_load(self, row, place)
-      class(radau_t), intent(inout) :: self  !! the integrator
-      real(wp), intent(in) :: row(:)         !! (any) checkpoint [any]
-      integer, intent(inout) :: place        !! last place used
-
-      integer :: k
-
-      call one_step_load(self, row, place)
-      call get(row, place, self%now%t)
-      call get(row, place, self%now%h)
-      call get(row, place, self%contraction)
-      call get(row, place, self%h_matrix)
-      call get(row, place, self%h_gmres)
-      call get(row, place, self%is_stale)
-      do k = 1, 3
-         call get(row, place, self%now%z(:, k))
-      end do
-      call self%matrix%load(row, place)
-      self%stage%h = 0.0_wp
-   end subroutine radau_load
 
 end module radau

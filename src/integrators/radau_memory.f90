@@ -1,0 +1,44 @@
+!> What Radau IIA remembers in a checkpoint.
+submodule(radau) radau_memory
+   use memory, only: get, put
+   implicit none (type, external)
+
+contains
+
+   !> Numbers that a checkpoint needs.
+   module procedure radau_memory_size
+      n = one_step_memory_size(self) + 6 + 3*self%n + self%matrix%memory_size()
+   end procedure radau_memory_size
+
+   !> Write what the integrator remembers.
+   module procedure radau_save
+      integer :: k
+
+      call one_step_save(self, row, place)
+      call put(row, place, [self%now%t, self%now%h, self%contraction, self%h_matrix, self%h_gmres])
+      call put(row, place, self%is_stale)
+      do k = 1, 3
+         call put(row, place, self%now%z(:, k))
+      end do
+      call self%matrix%save(row, place)
+   end procedure radau_save
+
+   !> Read what the integrator remembers.
+   module procedure radau_load
+      integer :: k
+
+      call one_step_load(self, row, place)
+      call get(row, place, self%now%t)
+      call get(row, place, self%now%h)
+      call get(row, place, self%contraction)
+      call get(row, place, self%h_matrix)
+      call get(row, place, self%h_gmres)
+      call get(row, place, self%is_stale)
+      do k = 1, 3
+         call get(row, place, self%now%z(:, k))
+      end do
+      call self%matrix%load(row, place)
+      self%stage%h = 0.0_wp
+   end procedure radau_load
+
+end submodule radau_memory
