@@ -27,7 +27,7 @@ contains
       type(search_t), intent(in) :: search         !! the runs
       type(accuracy_t), intent(inout) :: found     !! the claim is set
 
-      real(wp) :: by_instant(max(1, search%taken%run%n)), none(size(search%taken%run%asked, 2))
+      real(wp) :: by_instant(max(1, search%taken%run%n)), none(size(search%asked, 2))
       integer :: n, worst(max(1, search%taken%run%n))
 
       found%tolerance = search%taken%what%asked
