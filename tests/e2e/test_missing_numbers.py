@@ -7,6 +7,55 @@ from support import ROOT, Run, call, changed, plain_deck, scratch, written
 
 STATISTICS = "\n[statistics]\nafter = 1 ms\nperiod = 1 ms\nchannels = motor.moment\n"
 
+RUBBING = """deck = 1
+[bodies]
+name    mass[kg]  inertia[kg.m^2]  x[m]   y[m]  angle[rad]
+crank   0.3       2.55e-5          0.015  0     0
+rod     0.2       1.6867e-4        0.08   0     0
+slider  0.2       8.6667e-6        0.13   0     0
+[points]
+name   body    xi[m]   eta[m]
+main   ground  0       0
+heel   crank   -0.015  0
+throw  crank   0.015   0
+big    rod     -0.05   0
+small  rod     0.05    0
+eye    slider  0       0
+[material]
+name   young[GPa]  poisson
+steel  70          0.3
+[friction.lugre]
+name     coefficient  static_coefficient  stribeck_speed[mm/s]
+bristle  0.099219     0.36935             9.265
+[friction.brown_mcphee]
+name  coefficient  static_coefficient  v_t[mm/s]
+way   0.055535     0.34601             27.261
+[friction.dahl]
+name   coefficient  stiffness[m^-1]  exponent
+yield  0.055789     1e4              0.5
+[contact.esdu]
+name  restitution
+law   1
+[joint.revolute]
+name     i      j     friction  radius[mm]
+bearing  main   heel  bristle   5
+pin      throw  big   none      5
+[joint.translational]
+name   i     j    axis  friction
+guide  main  eye  x     way
+[clearance.revolute]
+name     bearing  journal  bearing_radius[mm]  clearance[mm]  length[mm]  material  law  friction
+gudgeon  eye      small    20                  0.2847         10          steel     law  yield
+[driver.speed]
+name   joint    speed[rad/s]
+motor  bearing  360.7
+[analysis.dynamic]
+method = rk4
+solver = sparse
+step = 10 us
+end = 10 ms
+"""
+
 
 def short(*changes):
     """A few milliseconds of the dry slider-crank."""
@@ -62,3 +111,18 @@ def test_no_accuracy_has_no_worst_channel(gudgeon_debug):
     call(gudgeon_debug, "run", written(directory, text), "--out", directory / "out", *options, expect=6)
     accuracy = Run(directory / "out").summary["accuracy"]
     assert accuracy["claim"] == "none" and accuracy["limited_by"] == "" and accuracy["extremes"] == []
+
+
+def test_an_accuracy_without_time_for_a_run(gudgeon_debug):
+    """Where no run came to its end there is none to take: an error says why."""
+    directory = scratch()
+    options = ("--accuracy", "1e-9", "--budget", "1ms", "--quiet")
+    done = call(gudgeon_debug, "run", written(directory, short()), "--out", directory / "out", *options, expect=5)
+    assert "no run came to its end: the budget is used up" in done.stderr
+
+
+def test_friction_that_diverges(gudgeon_debug):
+    """Fixed steps that are far too long for bristles make forces beyond all bounds; the iteration that finds friction from them gives up."""
+    directory = scratch()
+    done = call(gudgeon_debug, "run", written(directory, RUBBING), "--out", directory / "out", "--quiet", expect=5)
+    assert "the equations of motion cannot be solved" in done.stderr
