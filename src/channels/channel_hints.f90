@@ -1,6 +1,6 @@
 !> What a channel that does not exist may have meant.
 module channel_hints
-   use catalogue, only: catalogue_t, n_rooms, room_contacts
+   use catalogue, only: catalogue_t, n_rooms, room_contacts, room_energy
    use channel_names, only: item_name
    use spelling, only: nearest_word
    use text, only: append_text, join, text_t
@@ -32,6 +32,10 @@ contains
 
       items = names_of_items(catalogue)
       item = parts(1)%s
+      if (item == "energy" .and. size(catalogue%rooms(room_energy)%names) == 0) then
+         hint = "there are energies with 'ledger = on' in [analysis.dynamic]"
+         return
+      end if
       if (item /= "*" .and. .not. is_listed(item, items)) then
          item = nearest_word(item, items)
          if (len(item) == 0) then

@@ -360,13 +360,25 @@ contains
 
       associate (d => difference)
          d%allowed = max(absolute, relative*d%peak(1))
-         d%is_different = .not. d%greatest <= d%allowed
+         d%is_different = .true.
+         if (d%n == 0) return
+         d%is_different = d%greatest > d%allowed
          if (.not. by_statistics) return
-         d%is_different = (abs(d%mean%a%value - d%mean%b%value) > d%allowed .and. &
-                           .not. d%mean%significance*real(n_channel, wp) >= level) .or. &
+         d%is_different = (abs(d%mean%a%value - d%mean%b%value) > d%allowed .and. .not. is_chance(d%mean%significance)) .or. &
                           (abs(d%square%a%value - d%square%b%value) > d%allowed*maxval(d%peak) .and. &
-                           .not. d%square%significance*real(n_channel, wp) >= level)
+                           .not. is_chance(d%square%significance))
       end associate
+
+   contains
+
+      !> Whether a difference may be chance; one of which that is not known is none.
+      pure logical function is_chance(significance)
+         real(wp), intent(in) :: significance   !! probability of such a difference by chance; NaN: not known [1]
+
+         is_chance = .false.
+         if (ieee_is_finite(significance)) is_chance = significance*real(n_channel, wp) >= level
+      end function is_chance
+
    end subroutine judge
 
    !> The first impacts of each joint, in pairs.

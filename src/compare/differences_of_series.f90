@@ -90,7 +90,7 @@ contains
       end associate
       if (sum(x**2) > 0.0_wp .and. sum(y**2) > 0.0_wp) then
          difference%magnitude = sqrt(sum(y**2)/sum(x**2)) - 1.0_wp
-         difference%phase = acos(max(-1.0_wp, min(1.0_wp, sum(x*y)/sqrt(sum(x**2)*sum(y**2)))))/pi
+         difference%phase = acos(max(-1.0_wp, min(1.0_wp, sum(x*y)/(sqrt(sum(x**2))*sqrt(sum(y**2))))))/pi
       end if
       difference%mean = moments_of(x, y)
       difference%square = moments_of(x**2, y**2)

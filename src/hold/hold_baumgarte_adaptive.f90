@@ -76,7 +76,7 @@ contains
    subroutine adaptive_begin_step(self, linkage, h)
       class(hold_baumgarte_adaptive_t), intent(inout) :: self  !! the way
       type(linkage_t), intent(inout) :: linkage                !! the bodies and their rows, last evaluated at the start of the step
-      real(wp), intent(in) :: h                                !! length of the step [s]
+      real(wp), intent(in) :: h                                !! length of the step, 0: not known yet [s]
 
       real(wp) :: rate, worst
       integer :: body
@@ -92,7 +92,9 @@ contains
       do body = 1, linkage%bodies%n
          rate = max(rate, norm2(linkage%motion%v(:, body))/linkage%scales%length, maxval(abs(linkage%motion%omega(:, body))))
       end do
-      self%alpha = max(least_hold*linkage%scales%pace, min(self%alpha, most/h, rate))
+      self%alpha = min(self%alpha, rate)
+      if (h > 0.0_wp) self%alpha = min(self%alpha, most/h)   ! 0: of a library that has yet to choose its first step
+      self%alpha = max(self%alpha, least_hold*linkage%scales%pace)
       call linkage%solution%set_gains(self%alpha, self%alpha)
    end subroutine adaptive_begin_step
 

@@ -244,10 +244,14 @@ contains
       real(wp), intent(inout) :: row(:)               !! (any) checkpoint [any]
       integer, intent(inout) :: place                 !! last place used
 
+      integer :: n
+
+      n = 0
+      if (allocated(self%order)) n = size(self%order)   ! nothing is sorted where there are no rows
       call put(row, place, real(self%rank, wp))
       call put(row, place, self%quality)
-      call put(row, place, real(merge(size(self%order), 0, allocated(self%order)), wp))
-      if (allocated(self%order)) call put(row, place, real(self%order, wp))
+      call put(row, place, real(n, wp))
+      if (n > 0) call put(row, place, real(self%order, wp))
    end subroutine partitioning_save
 
    !> Read what the way remembers.

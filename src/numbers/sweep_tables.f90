@@ -64,7 +64,9 @@ contains
             first = cell(spread(1))
             call lines%add(","//first)
             do m = 2, n_spread
-               if (spread(m) < spread(1) .or. spread(m) > spread(1) .or. ieee_is_nan(spread(m))) then
+               if (ieee_is_nan(spread(m)) .or. ieee_is_nan(spread(1))) then
+                  call lines%add(","//cell(spread(m)))
+               else if (abs(spread(m) - spread(1)) > 0.0_wp) then
                   call lines%add(","//cell(spread(m)))
                else
                   call lines%add(","//first)   ! as of a single run

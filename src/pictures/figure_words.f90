@@ -8,6 +8,7 @@
 !> first parameter; `statistics(NUMBER,...)`, up to four numbers with their spread over it. `film(JOINT)`: the unwrapped film at the
 !> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
 module figure_words
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use catalogue, only: catalogue_t, room_clearances
    use channel_names, only: scalar_t
    use curve_words, only: bind_curves, curves_t
@@ -239,6 +240,7 @@ contains
 
       character(:), allocatable :: nearest
       integer :: group, k
+      logical :: is_round
 
       figure%kind = figure_orbit
       allocate (figure%scalars(0))
@@ -248,7 +250,11 @@ contains
             if (names(k)%s == joint) figure%joint = k
          end do
          if (figure%joint > 0) then
-            if (.not. catalogue%rooms(room_clearances)%radius(figure%joint) > 0.0_wp) then
+            associate (clearance => catalogue%rooms(room_clearances)%radius(figure%joint))
+               is_round = ieee_is_finite(clearance)
+               if (is_round) is_round = clearance > 0.0_wp
+            end associate
+            if (.not. is_round) then
                message = "no orbit of '"//joint//"': the joint is ideal, or has no round clearance"
                hint = "with level = clearance a journal in a bearing has an orbit"
                return

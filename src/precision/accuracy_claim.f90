@@ -27,7 +27,7 @@ contains
       type(search_t), intent(in) :: search         !! the runs
       type(accuracy_t), intent(inout) :: found     !! the claim is set
 
-      real(wp) :: by_instant(max(1, search%taken%run%n)), none(size(search%taken%run%asked, 2))
+      real(wp) :: by_instant(max(1, search%taken%run%n)), none(size(search%asked, 2))
       integer :: n, worst(max(1, search%taken%run%n))
 
       found%tolerance = search%taken%what%asked
@@ -65,7 +65,10 @@ contains
             if (found%claim == claim_window) found%until = found%asked_until
             if (found%until <= run%t(1)) found%claim = claim_none
          end if
-         if (found%claim == claim_none) return
+         if (found%claim == claim_none) then
+            found%worst = 0   ! nothing is told of channels
+            return
+         end if
          found%error = found%evidence%factor*maxval(by_instant, mask=run%t(:n) <= found%until)
          found%evidence%other_from = first_other_contact(run, search%coarser%run, found%end)
          found%evidence%other_from = earlier(found%evidence%other_from, first_other_contact(run, search%other%run, found%end))

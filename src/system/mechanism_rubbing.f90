@@ -15,6 +15,7 @@
 !> long as friction gives less normal force than it comes from, |f' N_lambda R| < 1; a joint beyond that locks (wedges), and has no
 !> solution or several: the evaluation then fails, or takes the one that is found from x_0 = 0.
 submodule(mechanism) mechanism_rubbing
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use joint_friction, only: law_force, most_rows
    use lapack, only: dgetrf, dgetrs
    implicit none (type, external)
@@ -23,6 +24,7 @@ submodule(mechanism) mechanism_rubbing
    integer, parameter :: most_iterations = 30      !! of Newton's, at most
    integer, parameter :: most_turns = 30           !! of friction in joints and of contacts that stick, at most
    real(wp), parameter :: normal_step = 1.0_wp     !! of the difference that gives the slope of a law, beyond N itself [N]
+   real(wp), parameter :: most_force = 1.0e100_wp  !! friction is no greater: beyond, the iteration goes nowhere [N]
 
 contains
 
@@ -102,6 +104,9 @@ contains
       associate (rubbing => self%friction%rubbing, n => self%friction%rubbing%n)
          rubbing%change = 0.0_wp
          status = 1
+         rubbing%wedged = 0
+         if (.not. all(ieee_is_finite(rubbing%lambda(:, :n)))) return   ! of a state far out, as of a stage that is given up
+         if (maxval(abs(rubbing%lambda(:, :n))) > most_force) return
          do k = 1, most_iterations
             call find_left(self, greatest_force)
             if (maxval(abs(rubbing%left)) <= tolerance*greatest_force) then
@@ -112,8 +117,8 @@ contains
             if (info /= 0) exit
             call dgetrs("N", n, 1, rubbing%matrix, n, rubbing%pivot, rubbing%left, n, info)
             rubbing%change = rubbing%change - rubbing%left
+            if (maxval(abs(rubbing%change)) > most_force) exit   ! it diverges
          end do
-         rubbing%wedged = 0
          if (status /= 0) rubbing%wedged = maxloc(abs(rubbing%left), dim=1)
          if (status /= 0) return
          do k = 1, n

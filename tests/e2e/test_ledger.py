@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 import pytest
 from reference_values import INERTIA, MASS
-from support import ROOT, Run, assert_close, call, changed, finished, scratch, written
+from support import DECK, ROOT, Run, assert_close, call, changed, finished, scratch, written
 
 ALL = (("output", "channels", None),)
 LOOSE = sorted(deck for deck in (ROOT / "inputs").glob("*.deck") if "[clearance." in deck.read_text())
@@ -95,6 +95,14 @@ def test_without_ledger(gudgeon, tight):
     assert run.summary["ledger"] is False
     for field in ("time", "impact_speed", "peak_force"):
         assert_close(run.contacts[field][:5], tight.contacts[field][:5], relative=1e-9, what=field)
+
+
+def test_energies_that_are_not_kept_are_told_why(gudgeon):
+    """A deck that asks for energies and keeps no ledger is told which key takes them away."""
+    for key, value in (("channels", "energy.*"), ("figures", "energy.kinetic")):
+        text = changed(DECK.read_text(), "output", figures=None, channels=None)
+        text = changed(changed(text, "output", **{key: value}), "analysis.dynamic", ledger="off")
+        assert "'ledger = on'" in call(gudgeon, "check", written(scratch(), text), expect=3).stderr, key
 
 
 def test_solvers_agree(gudgeon):

@@ -38,6 +38,15 @@ def test_large_scenes_and_groups(gudgeon, tmp_path):
         assert "equal bit for bit after 3 restarts" in done.stdout, name
 
 
+def test_ways_without_rows(gudgeon_debug, tmp_path):
+    """What holds constraints is saved where there are none: a free body has no dependent coordinates to remember."""
+    text = changed((ROOT / "inputs" / "hard" / "tumbling_body.deck").read_text(), "output", figures=None)
+    for way in ("partitioning", "baumgarte_adaptive", "projection"):
+        deck = written(tmp_path, changed(text, "analysis.dynamic", stabilise=way, end="0.5 s", checkpoint="0.1 s"))
+        done = call(gudgeon_debug, "run", deck, "--out", tmp_path / way, "--verify-restart")
+        assert "equal bit for bit after 3 restarts" in done.stdout, way
+
+
 LONG = (("analysis.dynamic", "end", "100 s"), ("analysis.dynamic", "checkpoint", "1 ms"))
 
 
