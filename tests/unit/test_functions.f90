@@ -58,6 +58,8 @@ contains
                case ("dwell", "start"); item%values(i)%number = 0.5_wp
                case ("period"); item%values(i)%number = 9.0_wp
                end select
+               ! ends follow from the samples where the curve is Akima's
+               if (info%columns(i)%name == "ends") item%values(i)%given = item%values(i)%given .and. item%word("curve") /= "akima"
                if (info%columns(i)%name == "end") item%values(i)%number = 3.0_wp  ! behind every origin, and where it is looked at
             end do
             call kind%make(item, made)
