@@ -24,7 +24,6 @@ module adams_splines
    private
    public :: name_idle_splines, name_splines
 
-   integer, parameter :: most_splines = 1000          !! rows that a deck gets
    character(*), parameter :: cubic = "cubic_"        !! name of the row of CUBSPL, before the number of the spline
    character(*), parameter :: akimas = "akima_"       !! name of the row of AKISPL
 
@@ -56,7 +55,7 @@ contains
       integer, intent(in) :: node                               !! the call
       character(:), allocatable, intent(inout) :: message       !! set: why it has no words
 
-      character(:), allocatable :: name
+      character(:), allocatable :: key, name
       real(wp), allocatable :: x(:), y(:)
       integer :: id, k
       logical :: is_new
@@ -80,11 +79,11 @@ contains
             message = "the spline of "//it%name//" is not there"
             return
          end if
-         call take_samples(model%statements(k), x, y, message)
+         key = merge(cubic, akimas, it%name == "CUBSPL")//to_text(id)
+         if (draft%place_of(key) == 0) call take_samples(model%statements(k), x, y, message)
          if (message /= "") return
-         call draft%row_of(trim(merge(cubic, akimas, it%name == "CUBSPL"))//to_text(id), name, is_new)
-         if (is_new) call add_row(model, draft, k, name, it%name == "AKISPL", x, y, message)
-         if (message /= "") return
+         call draft%row_of(key, name, is_new)
+         if (is_new) call add_row(model, draft, k, name, it%name == "AKISPL", x, y)
          it%kind = node_curve
          it%name = name
          it%arguments = it%arguments(1:1)
@@ -97,14 +96,8 @@ contains
       type(deck_draft_t), intent(in) :: draft          !! the deck
       type(statement_t), intent(in) :: statement       !! one of its statements, with its name in full
 
-      character(:), allocatable :: key
-      integer :: k
-
       if (statement%keyword /= "SPLINE") return
-      do k = 1, draft%asked%n
-         key = draft%asked%at(k)
-         if (key == cubic//to_text(statement%id) .or. key == akimas//to_text(statement%id)) return
-      end do
+      if (draft%place_of(cubic//to_text(statement%id)) > 0 .or. draft%place_of(akimas//to_text(statement%id)) > 0) return
       call leave_out(model, statement, "nothing that a deck has takes it")
    end subroutine name_idle_splines
 
@@ -135,17 +128,16 @@ contains
    end subroutine take_samples
 
    !> The row of a spline.
-   subroutine add_row(model, draft, statement, name, is_akima, x, y, message)
+   subroutine add_row(model, draft, statement, name, is_akima, x, y)
       type(adams_model_t), intent(inout) :: model               !! the dataset
       type(deck_draft_t), intent(inout) :: draft                !! the deck
       integer, intent(in) :: statement                          !! number of its statement
       character(*), intent(in) :: name                          !! of the row
       logical, intent(in) :: is_akima                           !! it is Akima's
       real(wp), intent(in) :: x(:), y(:)                        !! (n) its samples [any]
-      character(:), allocatable, intent(inout) :: message       !! set: why there is none
 
       type(symbol_t) :: symbol
-      integer :: beyond
+      integer :: beyond, k
       logical :: goes_on
 
       associate (it => model%statements(statement))
@@ -153,10 +145,8 @@ contains
          if (.not. goes_on) call model%changed%add("line "//to_text(it%line)//": SPLINE/"//to_text(it%id)//": "//name// &
                                                    " ends with its samples, where Adams goes on")
       end associate
-      if (draft%functions%n == 0) call draft%functions%start(most_splines)
-      if (draft%functions%n == most_splines) then
-         message = "a deck gets "//to_text(most_splines)//" splines at most"
-         return
+      if (draft%functions%n == 0) then   ! at most one of each kind for a spline
+         call draft%functions%start(2*count([(model%statements(k)%keyword == "SPLINE", k=1, size(model%statements))]))
       end if
       beyond = merge(beyond_linear, beyond_error, goes_on)
       symbol%name = name

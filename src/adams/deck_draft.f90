@@ -40,6 +40,7 @@ module deck_draft
       procedure :: new_name
       procedure :: point => point_of_marker
       procedure :: row_of
+      procedure :: place_of => place_of_row
       procedure :: write => write_tables
    end type deck_draft_t
 
@@ -92,18 +93,30 @@ contains
 
       integer :: k
 
-      is_new = .false.
-      do k = 1, self%asked%n
-         name = self%asked%at(k)
-         if (name /= key) cycle
+      k = self%place_of(key)
+      is_new = k == 0
+      if (.not. is_new) then
          name = self%answers%at(k)
          return
-      end do
-      is_new = .true.
+      end if
       call self%new_name(replace(key, "-", "_"), self%asked%n + 1, name)
       call self%asked%add(key)
       call self%answers%add(name)
    end subroutine row_of
+
+   !> Place among the rows so far of the one that tells something; 0: there is none.
+   integer function place_of_row(self, key) result(k)
+      class(deck_draft_t), intent(in) :: self   !! the deck
+      character(*), intent(in) :: key           !! what it tells
+
+      character(:), allocatable :: asked
+
+      do k = 1, self%asked%n
+         asked = self%asked%at(k)
+         if (asked == key) return
+      end do
+      k = 0
+   end function place_of_row
 
    !> A name with nothing but what a deck's names have.
    pure function clean(wanted) result(name)

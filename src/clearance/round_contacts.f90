@@ -326,20 +326,13 @@ contains
       real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction force on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
 
-      real(wp) :: s_i(2), s_j(2)
-      integer :: i, j
+      real(wp) :: distance, s_i(2), s_j(2)
 
       if (code /= of_eccentricity) return
-      i = self%items%body(1, item)
-      j = self%items%body(2, item)
-      s_i(1) = self%items%s_i(1, item)
-      s_i(2) = self%items%s_i(2, item)
-      s_j(1) = self%items%s_j(1, item)
-      s_j(2) = self%items%s_j(2, item)
-      value(1) = motion%r(1, j) + (motion%rot(1, 1, j)*s_j(1) + motion%rot(1, 2, j)*s_j(2)) &
-                 - motion%r(1, i) - (motion%rot(1, 1, i)*s_i(1) + motion%rot(1, 2, i)*s_i(2))
-      value(2) = motion%r(2, j) + (motion%rot(2, 1, j)*s_j(1) + motion%rot(2, 2, j)*s_j(2)) &
-                 - motion%r(2, i) - (motion%rot(2, 1, i)*s_i(1) + motion%rot(2, 2, i)*s_i(2))
+      call find_centres(self, item, motion, s_i, s_j, distance)
+      associate (i => self%items%body(1, item), j => self%items%body(2, item))
+         value = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
+      end associate
    end subroutine round_report_item
 
 end module round_contacts

@@ -4,7 +4,7 @@ module sweep_report
    use console, only: say
    use errors, only: error_t, exit_sweep, set_error
    use figure_words, only: figure_t, is_of_run, new_figure
-   use figures, only: draw_figures
+   use gnuplot_runs, only: draw_figures
    use item, only: place_of
    use json_text, only: json_object_t
    use kinds, only: i8, wp

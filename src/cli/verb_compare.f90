@@ -2,11 +2,12 @@
 module verb_compare
    use channel_spec, only: parse_spec, spec_t
    use column_file, only: column_table_t, read_columns
-   use comparison, only: compare_histories, comparison_t, history_of_columns
+   use column_history, only: history_of_columns
+   use comparison, only: compare_histories, comparison_t
    use comparison_report, only: comparison_json, comparison_rows, comparison_text, verdict_text, write_overlays
    use console, only: say
    use errors, only: error_t, exit_different, exit_file, exit_usage, set_error
-   use figures, only: draw_figures
+   use gnuplot_runs, only: draw_figures
    use kinds, only: wp
    use options, only: options_t
    use output_directory, only: output_directory_t

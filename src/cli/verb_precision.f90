@@ -4,7 +4,7 @@ module verb_precision
    use catalogue, only: catalogue_t
    use console, only: say
    use errors, only: error_t, exit_integration, exit_usage, set_error
-   use figures, only: draw_figures
+   use gnuplot_runs, only: draw_figures
    use item, only: place_of
    use json_text, only: json_object_t
    use kinds, only: wp

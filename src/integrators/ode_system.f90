@@ -172,7 +172,7 @@ contains
       real(wp), intent(in) :: change(:)        !! (n less quadratures) its change [any]
       real(wp), intent(out) :: x(:)            !! (n less quadratures and turning bodies) local change [any]
 
-      x = change + 0.0_wp*y(:size(change))
+      x = change
    end subroutine ode_to_local
 
    !> The small change of a state that a local change is: the inverse of `to_local`.
@@ -182,7 +182,7 @@ contains
       real(wp), intent(in) :: x(:)             !! (n less quadratures and turning bodies) local change [any]
       real(wp), intent(out) :: change(:)       !! (n less quadratures) change of the state [any]
 
-      change = x + 0.0_wp*y(:size(change))
+      change = x
    end subroutine ode_from_local
 
    !> Directions D of local displacements, and of local rates, that nothing hinders at a state, and how much R^T x of each a
@@ -199,7 +199,7 @@ contains
       integer :: k
 
       n = size(direction, 1)
-      if (n > size(direction, 2) .or. t > huge(t) .or. size(y) < n) return
+      if (n > size(direction, 2)) return
       direction = 0.0_wp
       do k = 1, n
          direction(k, k) = 1.0_wp

@@ -340,7 +340,8 @@ contains
          do k = 1, known%n
             call copy(known%held(k)%body)
          end do
-         call known%find_multipliers(self%rows, self%reduced%carried, self%mass, g, solution%a, self%rest, solution%lambda)
+         call known%find_multipliers(known%held, self%reduced%carried, self%rows%jac, self%mass, g, solution%a, self%rest, &
+                                     solution%lambda)
       end associate
 
    contains

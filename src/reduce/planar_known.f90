@@ -9,7 +9,7 @@ module planar_known
    use kinds, only: wp
    use motion, only: motion_t
    use reduced_bodies, only: held_t, known_bodies_t
-   use rows, only: n_v => n_v_planar, rows_t, side_place
+   use rows, only: coordinate_place, n_v => n_v_planar, place_in_row, rows_t
    implicit none (type, external)
    private
    public :: planar_known_t, planar_link_t
@@ -28,7 +28,7 @@ module planar_known
    contains
       procedure :: move => planar_move
       procedure, nopass :: power => planar_power
-      procedure :: find_multipliers => planar_find_multipliers
+      procedure, nopass :: find_multipliers => find_fixing
    end type planar_known_t
 
 contains
@@ -171,20 +171,6 @@ contains
          power = power + lambda(known(1, k))*(jac(place + 1)*v(1, b) + jac(place + 2)*v(2, b) + jac(place + 3)*omega(3, b))
       end do
    end function power_of
-
-   !> Multipliers of the rows that fix the known bodies.
-   subroutine planar_find_multipliers(self, rows, carried, mass, g, a, rest, lambda)
-      class(planar_known_t), intent(in) :: self              !! the bodies
-      type(rows_t), intent(in) :: rows                      !! all rows
-      integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
-      real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
-      real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
-      real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
-      real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
-      real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
-
-      call find_fixing(self%n, self%held, size(carried, 2), carried, ubound(g, 2), rows%n, rows%jac, mass, g, a, rest, lambda)
-   end subroutine planar_find_multipliers
 
    include "known_multipliers.inc"
 

@@ -43,7 +43,7 @@ module reduced_bodies
    contains
       procedure(known_move_interface), deferred :: move
       procedure(known_power_interface), deferred, nopass :: power
-      procedure(known_multipliers_interface), deferred :: find_multipliers
+      procedure(known_multipliers_interface), deferred, nopass :: find_multipliers
    end type known_bodies_t
 
    !> Bodies with one coordinate: those that turn, then those that slide.
@@ -87,12 +87,12 @@ module reduced_bodies
 
       !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
       !> evaluated.
-      subroutine known_multipliers_interface(self, rows, carried, mass, g, a, rest, lambda)
-         import :: known_bodies_t, rows_t, wp
+      subroutine known_multipliers_interface(held, carried, jac, mass, g, a, rest, lambda)
+         import :: held_t, wp
          implicit none (type, external)
-         class(known_bodies_t), intent(in) :: self             !! the bodies
-         type(rows_t), intent(in) :: rows                      !! all rows
+         type(held_t), intent(in), contiguous :: held(:)       !! (n) how the bodies are held
          integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
+         real(wp), intent(in), contiguous :: jac(:, :)         !! (2 n_v, rows) Phi_q of all rows [1 or m]
          real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
          real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
          real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]

@@ -1,4 +1,4 @@
-!> A planar scene as a system of ordinary differential equations with events.
+!> A scene as a system of ordinary differential equations with events.
 !>
 !> y = ( q, v, z ): coordinates (x, y, angle) of each body whose motion is unknown, then one of each guided body; their rates;
 !> and the quadratures of the energy ledger. Accelerations come from the augmented equations with Baumgarte's stabilisation,
@@ -14,44 +14,18 @@
 !> Source: Flores et al. (2008), eqs. (2.15), (2.23), (2.24).
 module mechanism
    use checkpoint, only: piece_t
-   use clearance_set, only: clearance_slot_t
-   use contact_places, only: event_functions_t
    use dae_system, only: dae_system_t
-   use grip_forces, only: grip_forces_t
    use hold, only: hold_t
    use kinds, only: i8, wp
    use linkage, only: linkage_t
    use loading, only: loading_t
+   use mechanism_parts, only: friction_t, ledger_t, loose_t
    use requests, only: requests_t
-   use rubbing, only: rubbing_t
    implicit none (type, external)
    private
    public :: mechanism_t
 
-   !> Loose joints.
-   type :: loose_t
-      type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
-      integer :: n = 0                                 !! loose joints in all
-      integer :: n_contact = 0                         !! contacts of all of them
-      logical :: has_films = .false.                   !! lubricant films act in some
-      real(wp) :: film_clearance = huge(1.0_wp)        !! least clearance with a film [m]
-      real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
-      type(event_functions_t) :: functions             !! which event functions their contacts have
-   end type loose_t
-
-   !> Friction that is solved for.
-   type :: friction_t
-      type(grip_forces_t) :: grips    !! contacts whose friction remembers
-      type(rubbing_t) :: rubbing      !! ideal joints that rub
-   end type friction_t
-
-   !> What is told of energies.
-   type :: ledger_t
-      logical :: is_kept = .true.         !! whether the ledger is kept
-      logical :: has_energies = .true.    !! whether energies are reported, with or without a ledger
-   end type ledger_t
-
-   !> A planar scene.
+   !> A scene.
    !> Components: seven are those of every system of equations.
    type, extends(dae_system_t) :: mechanism_t
       type(linkage_t) :: linkage                  !! bodies, ideal joints and drivers, and the solution of the equations

@@ -1,0 +1,35 @@
+!> Parts of a mechanism beside its linkage: loose joints, friction that is solved for, what is told of energies.
+module mechanism_parts
+   use clearance_set, only: clearance_slot_t
+   use contact_places, only: event_functions_t
+   use grip_forces, only: grip_forces_t
+   use kinds, only: wp
+   use rubbing, only: rubbing_t
+   implicit none (type, external)
+   private
+   public :: friction_t, ledger_t, loose_t
+
+   !> Loose joints.
+   type :: loose_t
+      type(clearance_slot_t), allocatable :: sets(:)   !! loose joints, one set per combination of laws
+      integer :: n = 0                                 !! loose joints in all
+      integer :: n_contact = 0                         !! contacts of all of them
+      logical :: has_films = .false.                   !! lubricant films act in some
+      real(wp) :: film_clearance = huge(1.0_wp)        !! least clearance with a film [m]
+      real(wp), allocatable :: losses(:, :)            !! (2, contacts) power lost by contact and friction [W]
+      type(event_functions_t) :: functions             !! which event functions their contacts have
+   end type loose_t
+
+   !> Friction that is solved for.
+   type :: friction_t
+      type(grip_forces_t) :: grips    !! contacts whose friction remembers
+      type(rubbing_t) :: rubbing      !! ideal joints that rub
+   end type friction_t
+
+   !> What is told of energies.
+   type :: ledger_t
+      logical :: is_kept = .true.         !! whether the ledger is kept
+      logical :: has_energies = .true.    !! whether energies are reported, with or without a ledger
+   end type ledger_t
+
+end module mechanism_parts
