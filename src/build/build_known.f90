@@ -19,6 +19,7 @@ module build_known
    use reduced_bodies, only: guided_bodies_t, held_t, known_bodies_t
    use rows, only: side_place
    use scene, only: analysis_dynamic, scene_t
+   use scene_groups, only: driven_alone
    use scene_size, only: is_large
    use spatial_guided, only: spatial_guided_t
    use spatial_known, only: spatial_known_t
@@ -72,8 +73,14 @@ contains
       call find_known_bodies(scene, reduction%links)
       reduction%is_driven(reduction%links%body) = .true.
       if (scene%settings%dynamic%word("coordinates") == "full") reduction%links = reduction%links(:0)
-      ! without any unknown nothing would control the step, and the works would be as good as chance
-      if (size(reduction%links) == scene%bodies%n) reduction%links = reduction%links(:0)
+      ! without any unknown nothing would control the step, and the works would be as good as chance; what else moves, and has
+      ! nothing to do with them, knows nothing of the step that they need
+      if (size(reduction%links) == scene%bodies%n) then
+         reduction%links = reduction%links(:0)
+      else if (any(reduction%links%driver > 0)) then
+         is_known(1:) = .not. driven_alone(scene, reduction%links)
+         reduction%links = pack(reduction%links, is_known(reduction%links%body))
+      end if
       associate (links => reduction%links)
          do k = 1, size(links)
             reduction%choices(links(k)%kind)%is_fixing(links(k)%item) = .true.

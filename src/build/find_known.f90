@@ -8,11 +8,12 @@ module find_known
    use item, only: find_place, item_t
    use joint_registry, only: n_joint_kinds
    use kind_info, only: leaves_nothing, leaves_turn
+   use kinds, only: wp
    use scene, only: scene_t
    use ties, only: find_joint, tie_of, tie_t
    implicit none (type, external)
    private
-   public :: find_known_bodies, has_smooth_cells, joint_bodies, link_t, rubs
+   public :: find_known_bodies, has_smooth_cells, joint_bodies, link_t, rubs, takes_work
 
    !> How a known body is fixed: a revolute joint with its driver, or a rigid joint.
    type :: link_t
@@ -90,6 +91,28 @@ contains
          end do
       end do
    end subroutine look_at_drivers
+
+   !> Whether the work of a link changes: not that of a wheel about its centre of mass, or of what stands still, on the ground.
+   function takes_work(scene, link) result(takes)
+      type(scene_t), intent(in) :: scene   !! the scene
+      type(link_t), intent(in) :: link     !! the link
+      logical :: takes                     !! it does
+
+      type(tie_t) :: tie
+      integer :: k
+
+      tie = tie_of(scene, scene%joints(link%kind)%info, scene%joints(link%kind)%items(link%item))
+      takes = all(tie%body /= 0)
+      if (link%driver == 0 .or. takes) return
+      do k = 1, 2
+         if (tie%body(k) == link%body .and. tie%point(k) > 0) takes = any(abs(scene%points%s(:, tie%point(k))) > 0.0_wp)
+      end do
+      associate (item => scene%joints(link%driver)%items(link%driving))
+         do k = 1, size(item%values)
+            if (allocated(item%values(k)%expression)) takes = takes .or. .not. item%values(k)%expression%is_constant
+         end do
+      end associate
+   end function takes_work
 
    !> Whether all functions of time in a row are smooth. A body cannot jump; where its driver does, it stays unknown, and the
    !> stabilisation brings it back.

@@ -1,12 +1,12 @@
 !> Groups of bodies that nothing joins, and each of them as a scene of its own.
 !>
 !> Two bodies are of one group if a joint, driver, force element or joint with clearance, ideal or not, names both, or points of
-!> both; the ground joins nothing. Groups of which all bodies are driven, and so have no unknowns to control a step by, stay with
-!> the first group that has some.
+!> both; the ground joins nothing. Groups of which all bodies are driven, and so have no freedom, stay with the first group
+!> that has some.
 module scene_groups
    use bodies, only: take_bodies
    use clearance_registry, only: n_clearance_kinds
-   use find_known, only: find_known_bodies, link_t
+   use find_known, only: find_known_bodies, link_t, takes_work
    use force_registry, only: n_force_kinds
    use item, only: item_t
    use joint_registry, only: n_joint_kinds
@@ -16,7 +16,7 @@ module scene_groups
    use ties, only: find_joint, names_joint
    implicit none (type, external)
    private
-   public :: begin_group_scene, find_groups, groups_t, sees_motion, set_group_scene
+   public :: begin_group_scene, driven_alone, find_groups, groups_t, sees_motion, set_group_scene
 
    !> Things sorted by the group that they belong to.
    type :: sorted_t
@@ -44,19 +44,9 @@ contains
       type(scene_t), intent(in) :: scene      !! the scene
       type(groups_t), intent(out) :: groups   !! its groups
 
-      integer :: parent(scene%bodies%n), group(scene%bodies%n)
-      integer :: k
+      integer :: k, group(scene%bodies%n), parent(scene%bodies%n)
 
-      parent = [(k, k=1, scene%bodies%n)]
-      do k = 1, n_joint_kinds
-         call join_bodies(scene, scene%joints(k), parent)
-      end do
-      do k = 1, n_force_kinds
-         call join_bodies(scene, scene%forces(k), parent)
-      end do
-      do k = 1, n_clearance_kinds
-         call join_bodies(scene, scene%clearances(k), parent)
-      end do
+      call join_all(scene, parent)
       call join_driven(scene, parent)
       groups%n = 0
       do k = 1, scene%bodies%n
@@ -79,6 +69,44 @@ contains
       end do
       allocate (groups%point(scene%points%n), source=0)
    end subroutine find_groups
+
+   !> Bodies of groups all of whose bodies are known functions of time, some of them by a driver that works.
+   function driven_alone(scene, links) result(is_alone)
+      type(scene_t), intent(in) :: scene      !! the scene
+      type(link_t), intent(in) :: links(:)    !! (known bodies) how they are fixed
+      logical :: is_alone(scene%bodies%n)     !! (bodies)
+
+      logical :: is_driven(scene%bodies%n), moves(scene%bodies%n)
+      integer :: k, parent(scene%bodies%n), root(scene%bodies%n)
+
+      call join_all(scene, parent)
+      root = [(root_of(parent, k), k=1, scene%bodies%n)]
+      moves = .true.
+      moves(links%body) = .false.
+      moves(pack(root, moves)) = .true.   ! of a group its root
+      is_driven = .false.
+      is_driven(root(pack(links%body, [(takes_work(scene, links(k)), k=1, size(links))]))) = .true.
+      is_alone = is_driven(root) .and. .not. moves(root)
+   end function driven_alone
+
+   !> Join the bodies that rows of any table name.
+   subroutine join_all(scene, parent)
+      type(scene_t), intent(in) :: scene      !! the scene
+      integer, intent(out) :: parent(:)       !! (bodies) trees of joined bodies, the root their first
+
+      integer :: k
+
+      parent = [(k, k=1, scene%bodies%n)]
+      do k = 1, n_joint_kinds
+         call join_bodies(scene, scene%joints(k), parent)
+      end do
+      do k = 1, n_force_kinds
+         call join_bodies(scene, scene%forces(k), parent)
+      end do
+      do k = 1, n_clearance_kinds
+         call join_bodies(scene, scene%clearances(k), parent)
+      end do
+   end subroutine join_all
 
    !> Whether some load sees the motion of bodies.
    pure logical function sees_motion(scene) result(sees)

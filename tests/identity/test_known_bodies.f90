@@ -154,7 +154,7 @@ contains
       integer :: k
 
       do k = 1, n_solver_kinds
-         call check_twins(k, "")
+         call check_twins(k, "[force.spring]"//nl//"name i j stiffness[N/m]"//nl//"coil arm_0 hand_0 5"//nl)
          call check_twins(k, "elbow arm_1 hand_0"//nl)
       end do
 
@@ -163,7 +163,7 @@ contains
       !> One driver, and two that want the same by different formulas.
       subroutine check_twins(number, joint)
          integer, intent(in) :: number         !! of the solver
-         character(*), intent(in) :: joint     !! row of the joint between both bodies, or nothing
+         character(*), intent(in) :: joint     !! row of the joint between both bodies, or a table of what joins them else
 
          class(augmented_t), allocatable :: solver
          type(mechanism_t) :: one, two
@@ -255,21 +255,38 @@ contains
 
    end subroutine test_smooth
 
-   !> Without any unknown body nothing would control the step: all stay unknown.
+   !> Without any unknown body nothing would control the step: all stay unknown, also beside a body that they have nothing to do
+   !> with. A wheel that a motor turns evenly about its centre of mass asks for no step.
    subroutine test_all_driven(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      type(mechanism_t) :: system
+      call check_driven("-0.5", "", 0, 1)
+      call check_driven("-0.5", "stone 1 0.1 9 9"//nl, 0, 2)
+      call check_driven("0", "stone 1 0.1 9 9"//nl, 1, 1)
 
-      call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"crank 1 0.1 0.5 0"//nl// &
-                          "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"heel crank -0.5 0"//nl// &
-                          "[joint.revolute]"//nl//"name i j"//nl//"main base heel"//nl// &
-                          "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor main 5"//nl// &
-                          "[analysis.dynamic]"//nl//"end = 1 s", system, error)
-      if (allocated(error)) return
-      call check_equal(error, system%linkage%reduced%known%n, 0, "known bodies")
-      call check_equal(error, system%linkage%rows%n_unknown, 1, "unknown bodies")
-      call check_equal(error, system%linkage%rows%n_solve, 3, "rows that are solved")
+   contains
+
+      !> A driven crank, alone or with another body.
+      subroutine check_driven(xi, other, n_known, n_unknown)
+         character(*), intent(in) :: xi       !! where the crank is held, in m along its axis
+         character(*), intent(in) :: other    !! row of another body, or nothing
+         integer, intent(in) :: n_known       !! known bodies that are expected
+         integer, intent(in) :: n_unknown     !! unknown ones
+
+         type(mechanism_t) :: system
+
+         if (allocated(error)) return
+         call system_of_text("[bodies]"//nl//"name mass[kg] inertia[kg.m^2] x[m] y[m]"//nl//"crank 1 0.1 0.5 0"//nl//other// &
+                             "[points]"//nl//"name body xi[m] eta[m]"//nl//"base ground 0 0"//nl//"heel crank "//xi//" 0"//nl// &
+                             "[joint.revolute]"//nl//"name i j"//nl//"main base heel"//nl// &
+                             "[driver.speed]"//nl//"name joint speed[rad/s]"//nl//"motor main 5"//nl// &
+                             "[analysis.dynamic]"//nl//"end = 1 s", system, error)
+         if (allocated(error)) return
+         call check_equal(error, system%linkage%reduced%known%n, n_known, "known bodies")
+         call check_equal(error, system%linkage%rows%n_unknown, n_unknown, "unknown bodies")
+         call check_equal(error, system%linkage%rows%n_solve, merge(0, 3, n_known > 0), "rows that are solved")
+      end subroutine check_driven
+
    end subroutine test_all_driven
 
    !> The scale of the rates counts the known bodies: 5000 rpm of the crank, at whatever rest of the others.
