@@ -1,4 +1,5 @@
-!> Columns of another program as a history: channels in SI with the names of a run's, and impacts where a normal force rises from zero.
+!> Columns of another program as a history: channels in SI with the names of a run's, and impacts where a normal force rises from
+!> zero.
 !>
 !> Limits: the columns of one file.
 module column_history

@@ -1,7 +1,7 @@
 !> Pictures drawn by gnuplot from scripts, several side by side, each whole or not at all.
 !>
-!> gnuplot is started directly, with fixed file names made of the deck's checked names. That it is not installed, or that one picture
-!> fails, is a warning: the scripts remain.
+!> gnuplot is started directly, with fixed file names made of the deck's checked names. That it is not installed, or that one
+!> picture fails, is a warning: the scripts remain.
 module gnuplot_runs
    use kinds, only: i8
    use output_marker, only: enter_file

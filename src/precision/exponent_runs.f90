@@ -24,7 +24,7 @@ module exponent_runs
    private
    public :: find_horizon, horizon_with_twin, plan_horizon
 
-   real(wp), parameter :: horizon_tolerance = 1.0e-10_wp   !! of the motions [1]
+   real(wp), parameter :: horizon_tolerance = 1.0e-11_wp   !! of the motions [1]
    real(wp), parameter :: distance = 1.0e-7_wp             !! of the twin, of the scales [1]
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
    integer, parameter :: fewest_instants = 64              !! reached before the processor time was up, for an exponent up to there

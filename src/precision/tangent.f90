@@ -5,7 +5,8 @@
 !> u the impact speeds that contacts remember. The products are central differences of the mechanism's own right-hand side beside
 !> the interpolant of each step; w goes from end to end of it by the classical Runge-Kutta method, in as many parts as it takes.
 !> Forces may jump at events, and these are at the ends of steps: there the products are those a thousandth of the step inside, and
-!> the states beside are so near that the event is not between.
+!> the states beside are so near that the event is not between; of steps too short for that, those at the time from which on it is
+!> not, before the event or behind it.
 !> What happens at events and instants is in `tangent_events`. Directions that constraints forbid, and those that are no motion (the
 !> length of Euler parameters, which does not decay as changes of a damped motion do), are taken away by `project`.
 !>
@@ -159,15 +160,18 @@ contains
          real(wp), intent(in) :: direction(:)   !! (n) the direction [any]
          integer, intent(in) :: stage           !! where its rate goes
 
-         real(wp) :: near, time
+         real(wp) :: clear, inside, near, time
 
          if (status /= 0) return
-         time = at - self%t_event
-         if (method%events%n_happened > 0) time = min(time, method%t - at)
+         clear = nearest/(slow*self%pace(system))
+         inside = max(at, self%t_event + clear)
+         if (method%events%n_happened > 0) inside = min(inside, method%t - clear)
+         time = inside - self%t_event
+         if (method%events%n_happened > 0) time = min(time, method%t - inside)
          near = max(nearest, min(nearness, slow*self%pace(system)*time))
-         call method%state_at(system, at, self%y)
-         call self%beside(system, at, self%y, direction, near, self%plus, status)
-         if (status == 0) call self%beside(system, at, self%y, direction, -near, self%minus, status)
+         call method%state_at(system, inside, self%y)
+         call self%beside(system, inside, self%y, direction, near, self%plus, status)
+         if (status == 0) call self%beside(system, inside, self%y, direction, -near, self%minus, status)
          associate (m => system%n - system%n_quadrature)
             self%k(:m, stage) = (self%plus(:m) - self%minus(:m))/(2.0_wp*near)
          end associate
