@@ -1,5 +1,5 @@
-!> The processor time that an analysis may take: looked at after every step, so that a run which may take for ever
-!> ends cleanly, with all that it has written.
+!> The time that an analysis may take, of the processor or by the clock on the wall: looked at after every step, so that a run
+!> which may take for ever ends cleanly, with all that it has written.
 module cpu_budget
    use errors, only: error_t, exit_integration, set_error
    use kinds, only: i8, wp
@@ -14,6 +14,7 @@ module cpu_budget
    type :: cpu_budget_t
       private
       real(wp) :: until = 0.0_wp      !! processor time of the program at which it is used up, 0: no limit [s]
+      integer(i8) :: last = 0_i8      !! count of the clock at which it is used up, 0: no limit
       integer(i8) :: looked_at = 0_i8 !! count of the clock when it was looked at
    contains
       procedure :: begin
@@ -24,12 +25,22 @@ module cpu_budget
 contains
 
    !> Begin to count.
-   subroutine begin(self, limit, used)
+   subroutine begin(self, limit, used, clock)
       class(cpu_budget_t), intent(inout) :: self  !! the budget
       real(wp), intent(in) :: limit               !! time allowed, 0: no limit [s]
       real(wp), intent(in), optional :: used      !! time used up before; absent: none [s]
+      real(wp), intent(in), optional :: clock     !! time allowed by the clock, 0 or absent: no limit [s]
+
+      integer(i8) :: now, ticks
 
       self%until = 0.0_wp
+      self%last = 0_i8
+      if (present(clock)) then
+         if (clock > 0.0_wp) then
+            call system_clock(now, ticks)
+            self%last = now + ceiling(clock*real(ticks, wp), i8)
+         end if
+      end if
       if (limit <= 0.0_wp) return
       call cpu_time(self%until)
       self%until = self%until + limit
@@ -44,8 +55,10 @@ contains
       real(wp) :: now
 
       is_spent = .false.
-      if (self%until <= 0.0_wp) return
+      if (self%until <= 0.0_wp .and. self%last == 0_i8) return
       call system_clock(clock, ticks)  ! far cheaper than the processor time, which cannot grow faster
+      is_spent = self%last > 0_i8 .and. clock >= self%last
+      if (is_spent .or. self%until <= 0.0_wp) return
       if (real(clock - self%looked_at, wp) < between*real(ticks, wp)) return
       self%looked_at = clock
       call cpu_time(now)

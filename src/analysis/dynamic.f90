@@ -77,7 +77,7 @@ contains
       call cpu_time(cpu_0)
       run%cpu_begin = cpu_0
       run%is_scheduled = size(run%whole%parts) > 1 .or. method%begins_anew()
-      if (.not. allocated(error)) call integrate(run, y, plan, limits%cpu, recorder, saved, error)
+      if (.not. allocated(error)) call integrate(run, y, plan, limits, recorder, saved, error)
       call cpu_time(cpu_1)
       aside = run%tally%aside%seconds() + run%sampler%aside%seconds()
       call run%sampler%finish(run%whole, plan, run%tally%residual, recorder, late_error)
@@ -99,11 +99,11 @@ contains
    end subroutine run_dynamic
 
    !> From step to step.
-   subroutine integrate(run, y, plan, limit_cpu, recorder, saved, error)
+   subroutine integrate(run, y, plan, limits, recorder, saved, error)
       type(run_t), intent(inout) :: run                   !! state of the run
       real(wp), intent(in) :: y(:)                        !! (n) state at t = 0 [any]
       type(time_plan_t), intent(in) :: plan               !! times
-      real(wp), intent(in) :: limit_cpu                   !! processor time that it may take, 0: no limit [s]
+      type(limits_t), intent(in) :: limits                !! the time that it may take
       class(recorder_t), intent(inout) :: recorder        !! keeps the results
       type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; none: it begins
       type(error_t), allocatable, intent(out) :: error    !! the integration failed, or a file could not be written
@@ -118,7 +118,7 @@ contains
       if (present(saved)) then
          if (allocated(saved)) call go_on(run, saved, recorder, error)
       end if
-      call run%budget%begin(limit_cpu, run%cpu_before)
+      call run%budget%begin(limits%cpu, run%cpu_before, limits%clock)
       call next_checkpoint(run, plan)
       if (.not. allocated(error)) call run%sampler%take(run%whole, plan, run%tally%residual, recorder, error)
       n_since_progress = 0

@@ -89,6 +89,7 @@ contains
       job%scene = loaded%scene
       job%settings = loaded%scene%settings%dynamic%item_t
       job%plan = loaded%plan
+      job%cpu = job%settings%number("limit_cpu")
       job%stop = limits%stop
       job%start = options%change%member
       job%with_contact_rows = plan%with%contact_rows

@@ -5,7 +5,7 @@ module accuracy_trial
    use kinds, only: least_tolerance, wp
    use precision_info, only: setting_t
    use precision_reference, only: arms_of, last_within, reference_t
-   use setting_run, only: job_t, outcome_t, run_setting, shorter
+   use setting_run, only: job_t, outcome_t, run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
@@ -57,7 +57,7 @@ contains
       trial%run%stride = search%stride
       trial%run%arm = arms_of(job)
       trial%run%wants_contact_rows = job%with_contact_rows
-      job%cpu = shorter(budget%cpu_left(until), job)
+      job%clock = budget%clock_left(until)
       call run_setting(job, setting, tolerance, trial%run, outcome)
       trial%what%wall = budget%elapsed() - begun
       trial%is_there = outcome%reason == ""

@@ -28,7 +28,7 @@ module mover
       type(moving_part_t) :: part                       !! the motion
       type(run_tally_t) :: tally                        !! what it adds up
       type(kept_run_t) :: nothing                       !! records nothing
-      type(cpu_budget_t) :: budget                      !! processor time left
+      type(cpu_budget_t) :: budget                      !! time left
       logical :: is_late = .false.                      !! that time was up
    contains
       procedure :: start
@@ -41,7 +41,7 @@ contains
    !> Begin at the start of a scene.
    subroutine start(self, job, setting, asked, end, error)
       class(mover_t), target, intent(inout) :: self       !! the mechanism, new
-      type(job_t), intent(inout) :: job                   !! scene and processor time
+      type(job_t), intent(inout) :: job                   !! scene and time
       type(setting_t), intent(in) :: setting              !! of the integration
       real(wp), intent(in) :: asked                       !! tolerance, or length of fixed steps [1 or s]
       real(wp), intent(in) :: end                         !! end of the motion [s]
@@ -51,7 +51,7 @@ contains
       type(instants_t) :: instants
       real(wp), allocatable :: y(:)
 
-      call self%budget%begin(job%cpu)
+      call self%budget%begin(job%cpu, clock=job%clock)
       call prepare_run(job, setting, asked, self%system, self%method, y, error)
       if (allocated(error)) return
       call new_instants(job%scene, end, self%system%loose%n > 0, instants)
@@ -75,7 +75,7 @@ contains
          if (allocated(error)) return
          self%is_late = self%budget%is_spent()
          if (self%is_late) then
-            call set_error(error, exit_integration, "its processor time was up at t = "//real_text(self%method%t, 4)//" s")
+            call set_error(error, exit_integration, "its time was up at t = "//real_text(self%method%t, 4)//" s")
             return
          end if
          if (present(tangent)) then

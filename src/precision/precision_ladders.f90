@@ -7,7 +7,7 @@ module precision_ladders
    use precision_results, only: error_ledger, error_violation, ladder_t, precision_t, rung_done, rung_failed, rung_t, rung_unrun
    use progress, only: progress_t
    use scene, only: scene_t
-   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting, shorter
+   use setting_run, only: has_fixed_steps, job_t, outcome_t, run_setting
    use time_budget, only: time_budget_t
    implicit none (type, external)
    private
@@ -120,7 +120,7 @@ contains
                if (i == 1) time = max(time, for_first*budget%left(until_ladders))
                until = min(until, budget%part_after(time))
             end if
-            job%cpu = shorter(budget%cpu_left(until), job)
+            job%clock = budget%clock_left(until)
             call run_rung(job, budget, study%ladders(k)%setting, rung, kept(k)%runs(i), is_over(k))
             spent(k) = spent(k) + rung%wall
             if (.not. (is_over(k) .and. pass == in_shares)) return
@@ -204,7 +204,7 @@ contains
          end do
          if (all(study%ladders%is_fixed)) then
             nothing%is_kept = .false.
-            job%cpu = shorter(budget%cpu_left(until_ladders), job)
+            job%clock = budget%clock_left(until_ladders)
             call run_setting(job, setting_t("verner", "", ""), job%scene%settings%precision%number("coarsest"), nothing, outcome)
             if (outcome%summary%count%steps > 0) longest = study%end/real(outcome%summary%count%steps, wp)
          end if

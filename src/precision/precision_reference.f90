@@ -102,7 +102,7 @@ contains
             second%run = fresh%run
             second%run%arm = arms_of(job)
             begun = budget%elapsed()
-            job%cpu = budget%cpu_left(part)
+            job%clock = budget%clock_left(part)
             call run_setting(job, second%setting, second%asked, second%run, outcome)
             second%wall = budget%elapsed() - begun
             second%is_there = outcome%reason == ""

@@ -99,9 +99,9 @@ contains
 
       call plan_horizon(job%scene%settings%precision%item_t, job%plan%end, study%horizon)
       if (job%scene%settings%precision%number("perturbation") <= 0.0_wp) return
-      job%cpu = budget%cpu_left(until_tangent)
+      job%clock = budget%clock_left(until_tangent)
       call find_horizon(job, study%horizon)
-      job%cpu = budget%cpu_left(until_exponent)
+      job%clock = budget%clock_left(until_exponent)
       call horizon_with_twin(job, study%horizon)
    end subroutine find_exponents
 
@@ -114,6 +114,7 @@ contains
 
       job%scene = scene
       job%settings = scene%settings%dynamic%item_t
+      job%cpu = job%settings%number("limit_cpu")
       job%plan = plan
       job%plan%first_output = 0.0_wp
       job%plan%every = plan%end/scene%settings%precision%number("instants")
@@ -139,7 +140,7 @@ contains
          all_walls = all_walls + sum(study%ladders(k)%rungs%wall, mask=is_timed(study%ladders(k)%rungs%state))
       end do
       timed = 0.0_wp
-      job%cpu = 0.0_wp
+      job%clock = 0.0_wp
       nothing%is_kept = .false.
       do round = 1, rounds
          do k = 1, size(study%ladders)
@@ -191,7 +192,7 @@ contains
          again%asked = ladder%rungs(study%choice%rung)%asked
          again%error = not_a_number()
          if (ladder%rungs(study%choice%rung)%wall*least_rise > budget%left(until_choice)) return
-         job%cpu = 0.0_wp
+         job%clock = 0.0_wp
          call run_rung(job, budget, ladder%setting, again, run, is_late)
          if (again%state /= rung_done) return
          call measure_rung(run, reference, study, again)

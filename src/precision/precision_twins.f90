@@ -54,7 +54,7 @@ contains
       do k = 1, attempts
          if (budget%left(until) <= base%wall .or. n == wanted) exit
          job%member = k
-         job%cpu = budget%cpu_left(until)
+         job%clock = budget%clock_left(until)
          twin = fresh
          twin%arm = base%run%arm
          call run_setting(job, base%setting, base%asked, twin, outcome)

@@ -11,7 +11,7 @@ module setting_run
    use integrator_registry, only: find_integrator
    use item, only: item_t, location_t, option_t, place_of
    use kept_run, only: kept_run_t
-   use kinds, only: not_a_number, wp
+   use kinds, only: i8, not_a_number, wp
    use mechanism, only: mechanism_t
    use perturbation, only: new_shift, random_shift
    use precision_info, only: setting_t
@@ -27,7 +27,7 @@ module setting_run
    use time_plan, only: time_plan_t
    implicit none (type, external)
    private
-   public :: first_line, has_fixed_steps, job_t, outcome_t, prepare_run, run_setting, shorter
+   public :: first_line, has_fixed_steps, job_t, outcome_t, prepare_run, run_setting
 
    !> What all runs of a scene share.
    type :: job_t
@@ -37,6 +37,7 @@ module setting_run
       type(stop_t) :: stop                  !! conditions of the deck that end the motion
       logical :: with_contact_rows = .false.  !! runs are kept with their rows at contacts
       real(wp) :: cpu = 0.0_wp              !! processor time that a run may take, 0: no limit [s]
+      real(wp) :: clock = 0.0_wp            !! time that it may take by the clock on the wall, 0: no limit [s]
       integer :: start = 0                  !! number of the start in the deck's ensemble, 0: the start as it is
       integer :: member = 0                 !! number of the perturbed start, 0: the start as it is
       real(wp) :: length = 0.0_wp           !! of a perturbation [m]
@@ -63,15 +64,6 @@ contains
       has_fixed_steps = method%steps() == steps_fixed .or. (method%steps() == steps_any .and. setting%way == "baumgarte_step")
    end function has_fixed_steps
 
-   !> The shorter one of a time and that which the deck allows; 0: no limit.
-   real(wp) function shorter(cpu, job)
-      real(wp), intent(in) :: cpu      !! a processor time [s]
-      type(job_t), intent(in) :: job   !! what runs share
-
-      shorter = job%settings%number("limit_cpu")
-      if (shorter <= 0.0_wp .or. (cpu > 0.0_wp .and. cpu < shorter)) shorter = cpu
-   end function shorter
-
    !> Run.
    subroutine run_setting(job, setting, asked, keeper, outcome)
       type(job_t), intent(inout) :: job               !! what all runs share
@@ -86,6 +78,7 @@ contains
       type(mechanism_t) :: system
       type(subsystem_t), allocatable :: subsystems(:)
       real(wp), allocatable :: y(:)
+      integer(i8) :: clock_0, clock_1, ticks
       real(wp) :: cpu_0, cpu_1
 
       outcome%reason = ""
@@ -95,17 +88,19 @@ contains
          call new_subsystems(job%scene, levels_as_written, system, method, job%plan%end, subsystems)
       end if
       call cpu_time(cpu_1)
+      call system_clock(clock_0, ticks)
       outcome%setup = cpu_1 - cpu_0
       if (.not. allocated(error)) then
          limits%cpu = job%cpu
+         limits%clock = job%clock
          call new_guards(job%scene, system, limits%guards)
          limits%stop = job%stop
          call run_dynamic(system, method, subsystems, y, job%plan, limits, keeper, outcome%summary, error)
       end if
       if (.not. allocated(error)) return
       outcome%reason = first_line(error%message)
-      call cpu_time(cpu_0)
-      outcome%is_late = job%cpu > 0.0_wp .and. cpu_0 - cpu_1 > job%cpu
+      call system_clock(clock_1)
+      outcome%is_late = job%clock > 0.0_wp .and. real(clock_1 - clock_0, wp) >= job%clock*real(ticks, wp)
       if (.not. allocated(outcome%summary%status)) outcome%summary%cpu_seconds = not_a_number()
    end subroutine run_setting
 

@@ -15,12 +15,11 @@ module time_budget
       real(wp) :: limit = 0.0_wp    !! for all but files and figures, 0: none [s]
       integer(i8) :: begun = 0_i8   !! count of the clock at the start
       integer(i8) :: rate = 1_i8    !! its counts per second
-      real(wp) :: cpu = 0.0_wp      !! processor time of the program at the start [s]
    contains
       procedure, public :: begin
       procedure, public :: elapsed
       procedure, public :: left
-      procedure, public :: cpu_left
+      procedure, public :: clock_left
       procedure, public :: part_after
    end type time_budget_t
 
@@ -33,7 +32,6 @@ contains
 
       self%limit = budget - min(for_drawing, most_for_drawing*budget)
       call system_clock(self%begun, self%rate)
-      call cpu_time(self%cpu)
    end subroutine begin
 
    !> Time since the start.
@@ -55,20 +53,14 @@ contains
       if (self%limit > 0.0_wp) left = part*self%limit - self%elapsed()
    end function left
 
-   !> The same as processor time, by the share of a processor that the program has had so far; at least a little, 0: no limit.
-   real(wp) function cpu_left(self, part)
+   !> The same for a run that begins now: at least a little, 0: no limit.
+   real(wp) function clock_left(self, part)
       class(time_budget_t), intent(in) :: self  !! the time
       real(wp), intent(in) :: part              !! of the budget [1]
 
-      real(wp) :: now, share
-
-      cpu_left = 0.0_wp
-      if (self%limit <= 0.0_wp) return
-      call cpu_time(now)
-      share = min(1.0_wp, (now - self%cpu)/max(self%elapsed(), tiny(1.0_wp)))
-      if (self%elapsed() < 0.1_wp) share = 1.0_wp
-      cpu_left = max(1.0e-3_wp, share*self%left(part))
-   end function cpu_left
+      clock_left = 0.0_wp
+      if (self%limit > 0.0_wp) clock_left = max(1.0e-3_wp, self%left(part))
+   end function clock_left
 
    !> The part of the budget that will be over when some more time is; without a limit all of it.
    real(wp) function part_after(self, time) result(part)

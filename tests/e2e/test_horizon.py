@@ -425,4 +425,4 @@ def test_time_that_ends_early(gudgeon):
     assert summary["exponent_cut"] is True and summary["exponent_reason"] == ""
     assert summary["exponent_to"] < 2 and summary["exponent_from"] == pytest.approx(0.25 * summary["exponent_to"])
     report = (summary["directory"] / "summary.txt").read_text()
-    assert "there its processor time was up" in report
+    assert "there its time was up" in report
