@@ -84,7 +84,8 @@ module socket_contacts
 
 contains
 
-   include "../math/space_vectors.inc"
+   include "../math/across.inc"
+   include "../math/turned.inc"
 
    !> Measure the contacts that act.
    subroutine socket_measure_acting(self, motion)

@@ -9,7 +9,7 @@ module spatial_contacts
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use kinds, only: wp
-   use motion, only: cross, loads_t, motion_t
+   use motion, only: loads_t, motion_t
    use normal_law, only: n_law_parameter, normal_law_t
    use point_contact, only: point_contact_t
    use point_contacts, only: point_contacts_t
@@ -50,6 +50,7 @@ contains
    end subroutine spatial_evaluate
 
    include "press.inc"
+   include "../math/across.inc"
    include "spatial_loads.inc"
 
    !> Measure the contacts that act.

@@ -58,7 +58,8 @@ module spatial_guided
 contains
 
    include "../math/sine_cosine.inc"
-   include "../math/space_vectors.inc"
+   include "../math/across.inc"
+   include "../math/turned.inc"
    include "carried_point.inc"
 
    !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too.

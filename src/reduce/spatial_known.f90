@@ -38,7 +38,8 @@ module spatial_known
 contains
 
    include "../math/sine_cosine.inc"
-   include "../math/space_vectors.inc"
+   include "../math/across.inc"
+   include "../math/turned.inc"
    include "carried_point.inc"
 
    !> Positions, velocities and accelerations of the known bodies at a time, up to the first body whose driver says what is no
