@@ -18,7 +18,7 @@ module plane_contacts
    use item, only: find_place, item_t
    use joint_frames, only: find_frames
    use kinds, only: wp
-   use motion, only: cross, motion_t
+   use motion, only: motion_t
    use point_contact, only: point_contact_t
    use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt, point_gaps
    use space_tangents, only: lie_in_space, set_sliding
@@ -68,6 +68,8 @@ module plane_contacts
    end type plane_contacts_t
 
 contains
+
+   include "../math/across.inc"
 
    !> Room for the planes, and the axes of the deck.
    subroutine make_planes(self, items)
@@ -168,7 +170,7 @@ contains
             contact%arm_j = contact%arm_j + d
             contact%arm_i = contact%arm_i + d
          end if
-         w = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
+         w = motion%v(:, j) + across(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - across(motion%omega(:, i), contact%arm_i)
          contact%rate = dot_product(contact%normal, w)
          if (with_sliding) call set_sliding(motion, i, j, contact)
       end associate
@@ -189,11 +191,11 @@ contains
          reach = reach_of(self, k, contact)*contact%normal
          arm_i = contact%arm_i - reach
          arm_j = contact%arm_j - reach
-         turn_i = cross(motion%omega(:, i), arm_i)
-         turn_j = cross(motion%omega(:, j), arm_j)
-         a = motion%a(:, j) + cross(motion%alpha(:, j), arm_j) + cross(motion%omega(:, j), turn_j) - motion%a(:, i) &
-             - cross(motion%alpha(:, i), arm_i) - cross(motion%omega(:, i), turn_i) &
-             - 2.0_wp*cross(motion%omega(:, i), motion%v(:, j) + turn_j - motion%v(:, i) - turn_i)
+         turn_i = across(motion%omega(:, i), arm_i)
+         turn_j = across(motion%omega(:, j), arm_j)
+         a = motion%a(:, j) + across(motion%alpha(:, j), arm_j) + across(motion%omega(:, j), turn_j) - motion%a(:, i) &
+             - across(motion%alpha(:, i), arm_i) - across(motion%omega(:, i), turn_i) &
+             - 2.0_wp*across(motion%omega(:, i), motion%v(:, j) + turn_j - motion%v(:, i) - turn_i)
       end associate
       acceleration = dot_product(contact%normal, a)
    end function plane_penetration_acceleration
@@ -227,8 +229,8 @@ contains
                arm_j = axis_of(motion, j, self%planes%point_j(:, c))
                arm_i = motion%r(:, j) + arm_j - motion%r(:, i)
                place = dot_product(along, arm_i - axis_of(motion, i, self%items%s_i(:, k)))
-               speed = dot_product(along, motion%v(:, j) + cross(motion%omega(:, j), arm_j) - motion%v(:, i) &
-                                   - cross(motion%omega(:, i), arm_i))
+               speed = dot_product(along, motion%v(:, j) + across(motion%omega(:, j), arm_j) - motion%v(:, i) &
+                                   - across(motion%omega(:, i), arm_i))
                inside = [place - self%axes(k)%ends(1), self%axes(k)%ends(2) - place]
                m = self%before%contacts + c
                if (minval(inside) >= delta(m)) cycle
@@ -254,8 +256,8 @@ contains
       call measure_one(self, k, .true., motion, contact)
       associate (i => self%items%body(1, item), j => self%items%body(2, item))
          reach = reach_of(self, k, contact)
-         normal_rate = cross(motion%omega(:, i), contact%normal)
-         arm_rate = cross(motion%omega(:, j), contact%arm_j - reach*contact%normal)
+         normal_rate = across(motion%omega(:, i), contact%normal)
+         arm_rate = across(motion%omega(:, j), contact%arm_j - reach*contact%normal)
          if (self%planes%radius(k) > 0.0_wp) arm_rate = arm_rate + reach*normal_rate - 0.5_wp*contact%rate*contact%normal
          call lie_in_space(motion, i, j, contact, contact%normal, normal_rate, arm_rate, tangent)
       end associate
@@ -287,11 +289,11 @@ contains
          case (of_moment)
             value = 0.0_wp
             do c = 1, size(contacts)
-               value = value + cross(contacts(c)%arm_j - centre, self%force_on_j(contacts(c), f_n(c), f_t(c)))
+               value = value + across(contacts(c)%arm_j - centre, self%force_on_j(contacts(c), f_n(c), f_t(c)))
             end do
          case (of_tilt)
             d = axis_of(motion, j, self%axes(item)%frame_j(:, 3))
-            value = atan2(norm2(cross(u, d)), dot_product(u, d))
+            value = atan2(norm2(across(u, d)), dot_product(u, d))
          end select
       end associate
    end subroutine plane_report_item

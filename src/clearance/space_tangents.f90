@@ -8,13 +8,15 @@
 module space_tangents
    use contact_grip, only: tangent_t
    use kinds, only: wp
-   use motion, only: cross, motion_t
+   use motion, only: motion_t
    use point_contact, only: point_contact_t
    implicit none (type, external)
    private
    public :: lie_in_space, set_sliding, spatial_force
 
 contains
+
+   include "../math/across.inc"
 
    !> Force of a contact on body j.
    pure function spatial_force(contact, f_n, f_t) result(f)
@@ -36,7 +38,7 @@ contains
       real(wp) :: slip(3), speed, square
 
       square = dot_product(contact%normal, contact%normal)
-      slip = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
+      slip = motion%v(:, j) + across(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - across(motion%omega(:, i), contact%arm_i)
       speed = 0.0_wp
       if (square > 0.0_wp) then
          slip = slip - dot_product(slip, contact%normal)/square*contact%normal
@@ -65,14 +67,14 @@ contains
       span_rate = motion%v(:, j) - motion%v(:, i) + arm_rate
       tangent%arm_i = contact%arm_i
       tangent%arm_j = contact%arm_j
-      v = motion%v(:, j) + cross(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - cross(motion%omega(:, i), contact%arm_i)
+      v = motion%v(:, j) + across(motion%omega(:, j), contact%arm_j) - motion%v(:, i) - across(motion%omega(:, i), contact%arm_i)
       call find_tangents(tangent%way, contact%tangent, m, m_rate, tangent%t, t_rate)
       do a = 1, 2
          tangent%v(a) = dot_product(tangent%t(:, a), v)
-         tangent%drift(a) = dot_product(t_rate(:, a), v) + dot_product(tangent%t(:, a), cross(motion%omega(:, j), arm_rate) &
-                                                                       - cross(motion%omega(:, i), span_rate))
+         tangent%drift(a) = dot_product(t_rate(:, a), v) + dot_product(tangent%t(:, a), across(motion%omega(:, j), arm_rate) &
+                                                                       - across(motion%omega(:, i), span_rate))
       end do
-      tangent%spin = cross(m, m_rate) + 0.5_wp*dot_product(m, motion%omega(:, i) + motion%omega(:, j))*m
+      tangent%spin = across(m, m_rate) + 0.5_wp*dot_product(m, motion%omega(:, i) + motion%omega(:, j))*m
    end subroutine lie_in_space
 
    !> Two tangents of a plane and their rates: the first along a fixed direction; without one along the sliding velocity, or any.
@@ -101,8 +103,8 @@ contains
       b_rate = -dot_product(along, m_rate)*m - dot_product(along, m)*m_rate
       t(:, 1) = b/length
       t_rate(:, 1) = (b_rate - dot_product(t(:, 1), b_rate)*t(:, 1))/length
-      t(:, 2) = cross(m, t(:, 1))
-      t_rate(:, 2) = cross(m_rate, t(:, 1)) + cross(m, t_rate(:, 1))
+      t(:, 2) = across(m, t(:, 1))
+      t_rate(:, 2) = across(m_rate, t(:, 1)) + across(m, t_rate(:, 1))
    end subroutine find_tangents
 
 end module space_tangents

@@ -17,7 +17,7 @@
 !> needs x_j not along z_i.
 module spatial_rows
    use kinds, only: pi, wp
-   use motion, only: cross, motion_t
+   use motion, only: motion_t
    use rows, only: rows_t
    implicit none (type, external)
    private
@@ -35,6 +35,8 @@ module spatial_rows
    end type scalar_t
 
 contains
+
+   include "../math/across.inc"
 
    !> An axis or arm of a body in the world.
    pure function axis_of(motion, body, axis) result(a)
@@ -59,13 +61,13 @@ contains
       a = axis_of(motion, body(1), a_i)
       b = axis_of(motion, body(2), b_j)
       associate (w_i => motion%omega(:, body(1)), w_j => motion%omega(:, body(2)))
-         a_dot = cross(w_i, a)
-         b_dot = cross(w_j, b)
+         a_dot = across(w_i, a)
+         b_dot = across(w_j, b)
          x%value = dot_product(a, b)
-         x%turn_i = cross(a, b)
+         x%turn_i = across(a, b)
          x%turn_j = -x%turn_i
          x%rate = dot_product(a_dot, b) + dot_product(a, b_dot)
-         x%bend = dot_product(cross(w_i, a_dot), b) + 2.0_wp*dot_product(a_dot, b_dot) + dot_product(a, cross(w_j, b_dot))
+         x%bend = dot_product(across(w_i, a_dot), b) + 2.0_wp*dot_product(a_dot, b_dot) + dot_product(a, across(w_j, b_dot))
       end associate
    end function dot_of_axes
 
@@ -82,13 +84,13 @@ contains
 
       a = axis_of(motion, body(1), a_i)
       call span_parts(motion, body, s_i, s_j, arm_i, arm_j, d, d_dot, d_bend)
-      a_dot = cross(motion%omega(:, body(1)), a)
+      a_dot = across(motion%omega(:, body(1)), a)
       x%value = dot_product(a, d)
       x%rate = dot_product(a_dot, d) + dot_product(a, d_dot)
-      x%bend = dot_product(cross(motion%omega(:, body(1)), a_dot), d) + 2.0_wp*dot_product(a_dot, d_dot) + dot_product(a, d_bend)
+      x%bend = dot_product(across(motion%omega(:, body(1)), a_dot), d) + 2.0_wp*dot_product(a_dot, d_dot) + dot_product(a, d_bend)
       x%force = a
-      x%turn_i = cross(a, d + arm_i)
-      x%turn_j = cross(arm_j, a)
+      x%turn_i = across(a, d + arm_i)
+      x%turn_j = across(arm_j, a)
    end function dot_with_span
 
    !> Length of the span of two points. Of points that coincide, its direction is taken along the world's x.
@@ -109,8 +111,8 @@ contains
       x%bend = dot_product(u, d_bend)
       if (x%value > 0.0_wp) x%bend = x%bend + max(dot_product(d_dot, d_dot) - x%rate**2, 0.0_wp)/x%value
       x%force = u
-      x%turn_i = -cross(arm_i, u)
-      x%turn_j = cross(arm_j, u)
+      x%turn_i = -across(arm_i, u)
+      x%turn_j = across(arm_j, u)
    end function length_of_span
 
    !> Arms, span, its rate, and what velocities alone make of its second derivative.
@@ -130,11 +132,11 @@ contains
       associate (i => body(1), j => body(2))
          arm_i = axis_of(motion, i, s_i)
          arm_j = axis_of(motion, j, s_j)
-         turn_i = cross(motion%omega(:, i), arm_i)
-         turn_j = cross(motion%omega(:, j), arm_j)
+         turn_i = across(motion%omega(:, i), arm_i)
+         turn_j = across(motion%omega(:, j), arm_j)
          d = motion%r(:, j) + arm_j - motion%r(:, i) - arm_i
          d_dot = motion%v(:, j) + turn_j - motion%v(:, i) - turn_i
-         d_bend = cross(motion%omega(:, j), turn_j) - cross(motion%omega(:, i), turn_i)
+         d_bend = across(motion%omega(:, j), turn_j) - across(motion%omega(:, i), turn_i)
       end associate
    end subroutine span_parts
 
