@@ -223,7 +223,8 @@ contains
                   values(guard_impact_speed) = contact%impact_speed
                   values(guard_strength) = contact%peak_force
                end associate
-               if (any(values > self%limit(:, m))) call note(self, set, c, values, t)
+               ! no more is told of what was passed by more before
+               if (any(values > max(self%limit(:, m), self%breach(:, m)%value))) call note(self, set, c, values, t)
             end do
          end associate
       end do
