@@ -62,7 +62,7 @@ module step_control
       real(wp), private :: first = 1.0_wp         !! first step of a contact, of that [1]
       real(wp), private :: last = huge(1.0_wp)    !! last step of a contact, of that, if less than the first [1]
       logical, private :: is_onset = .false.      !! a contact has just begun
-      real(wp), private :: norm_before = 1.0_wp   !! E of the step before [1]
+      real(wp), private :: log_before = 0.0_wp    !! logarithm of E of the step before [1]
       real(wp), private :: h_across = huge(1.0_wp) !! longest step across an event that will do, as far as is known [s]
       logical, private :: is_fresh = .true.       !! nothing was accepted since the start or a restart
       ! of the step in hand
@@ -157,9 +157,10 @@ contains
       real(wp), intent(in) :: norm                  !! E [1]
       logical, intent(in) :: is_last                !! cut short by the end of a stretch
 
-      real(wp) :: allowed, wanted
+      real(wp) :: allowed, log_norm, wanted
 
-      allowed = safety*max(norm, tiny(1.0_wp))**((0.75_wp*swing - 1.0_wp)/self%order)*self%norm_before**(swing/self%order)
+      log_norm = log(max(norm, tiny(1.0_wp)))
+      allowed = safety*exp(((0.75_wp*swing - 1.0_wp)*log_norm + swing*self%log_before)/self%order)
       wanted = h*min(merge(1.0_wp, growth, self%norm_rejected > 0.0_wp), allowed)
       if (self%is_fresh .and. self%is_onset) then
          wanted = max(wanted, after_root*h)
@@ -172,7 +173,7 @@ contains
          self%h_next = wanted
       end if
       self%is_fresh = .false.
-      self%norm_before = max(norm, least_norm)
+      self%log_before = max(log_norm, log(least_norm))
 
    contains
 
@@ -194,7 +195,7 @@ contains
       self%h_event = huge(1.0_wp)
       self%h_across = huge(1.0_wp)
       self%is_fresh = .true.
-      self%norm_before = 1.0_wp
+      self%log_before = 0.0_wp
       self%is_onset = is_onset .and. step_hint > 0.0_wp
       if (self%is_onset) self%h_contact = step_hint
       if (step_hint > 0.0_wp) then
@@ -213,7 +214,7 @@ contains
       integer, intent(inout) :: place            !! last place used
 
       call put(row, place, [self%h_next, self%h_before, self%h_event, self%h_across])
-      call put(row, place, [self%h_contact, self%first, self%last, self%norm_before])
+      call put(row, place, [self%h_contact, self%first, self%last, self%log_before])
       call put(row, place, self%is_fresh)
       call put(row, place, self%is_onset)
       call put(row, place, self%is_parting)
@@ -232,7 +233,7 @@ contains
       call get(row, place, self%h_contact)
       call get(row, place, self%first)
       call get(row, place, self%last)
-      call get(row, place, self%norm_before)
+      call get(row, place, self%log_before)
       call get(row, place, self%is_fresh)
       call get(row, place, self%is_onset)
       call get(row, place, self%is_parting)
