@@ -23,6 +23,7 @@ module adams_deck
    use deck_table, only: direction_cell, number_cell
    use diagnostics, only: diagnostics_t
    use kinds, only: wp
+   use name_table, only: name_table_t
    use source_text, only: source_t
    use text, only: counted, real_text, text_t, to_text
    use text_buffer, only: buffer_t
@@ -63,6 +64,7 @@ contains
             to_text(statements(k)%id)//" is an elastic body; gudgeon has rigid ones only", &
             "take it out of the dataset, or put a SPRINGDAMPER or a FIXED joint in its place")
       end do
+      call name_doubles(statements, mistakes)
       if (mistakes%count() > 0) return
       call new_model(title, statements, model, mistakes)
       if (mistakes%count() > 0) return
@@ -101,6 +103,26 @@ contains
       call buffer%line("channels   = *")
       imported%deck = buffer%get()
    end subroutine import_dataset
+
+   !> Two statements of one name and number are a mistake: nobody can say which of them is meant.
+   subroutine name_doubles(statements, mistakes)
+      type(statement_t), intent(in) :: statements(:)       !! (n) statements, their names in full
+      type(diagnostics_t), intent(inout) :: mistakes       !! collects what is wrong
+
+      type(name_table_t) :: seen
+      character(:), allocatable :: name
+      integer :: first, k
+
+      do k = 1, size(statements)
+         associate (it => statements(k))
+            if (.not. is_understood(it%keyword) .or. it%id < 0) cycle
+            name = it%keyword//"/"//to_text(it%id)
+            call seen%enter(name, k, first)
+            if (first > 0) call mistake(mistakes, it%line, name//" is there twice", "first in line "// &
+                                        to_text(statements(first)%line))
+         end associate
+      end do
+   end subroutine name_doubles
 
    !> Title, what is left out, gravity, parameters.
    subroutine write_head(model, file, imported, buffer, mistakes)

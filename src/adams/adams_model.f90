@@ -207,10 +207,6 @@ contains
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
             if (it%keyword /= "PART") cycle
-            if (any([(model%parts(i)%id == it%id, i=1, size(model%parts))])) then
-               call mistake(mistakes, it%line, "PART/"//to_text(it%id)//" is there twice", "")
-               cycle
-            end if
             new = part_t(id=it%id, statement=k)
             new%is_ground = has_word(it, "GROUND", 2)
             new%name = "PART_"//to_text(it%id)
@@ -309,6 +305,7 @@ contains
       associate (it => model%statements(part%statement), unit => model%units%mass*model%units%length**2)
          call argument_numbers(it, "MASS", mass, mistakes, 1)
          if (size(mass) > 0) part%mass = mass(1)*model%units%mass
+         if (part%mass < 0.0_wp) call mistake(mistakes, it%line, "PART/"//to_text(part%id)//" has a negative mass", "")
          cm = model%marker(id_of(it, "CM", mistakes))
          im = model%marker(id_of(it, "IM", mistakes))
          if (cm == 0 .and. find_argument(it, "CM") > 0) call mistake(mistakes, it%line, "the CM marker is not there", "")

@@ -13,12 +13,12 @@
 !> their corners.
 module clearance_block
    use clearance_translational, only: add_guide_ends, describe_corner, find_end_mistake
-   use item, only: item_t, place_of
+   use item, only: item_t
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
    use plane_contacts, only: plane_contacts_t
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment, of_tilt
-   use text, only: text_t, to_text
+   use text, only: text_t
    implicit none (type, external)
    private
    public :: clearance_block_t
@@ -36,7 +36,7 @@ module clearance_block
       procedure, nopass :: contact_labels => block_labels
       procedure, nopass :: ideal_kind => block_ideal_kind
       procedure :: prepare => block_prepare
-      procedure, nopass :: mistake => block_mistake
+      procedure, nopass :: mistake => find_end_mistake
       procedure, nopass :: describe => describe_corner
    end type clearance_block_t
 
@@ -106,6 +106,7 @@ contains
       integer :: across, corner, k, m
 
       call self%make_planes(items)
+      self%traits%is_gap = .true.
       m = 0
       do k = 1, self%n
          associate (item => items(k))
@@ -132,21 +133,5 @@ contains
 
       has_ends = max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp
    end function has_ends
-
-   !> Ends must be in order, and hold the block.
-   subroutine block_mistake(item, column, message, help)
-      type(item_t), intent(in) :: item                       !! the row
-      integer, intent(out) :: column                         !! column at fault, 0: all is well
-      character(:), allocatable, intent(out) :: message      !! what is wrong
-      character(:), allocatable, intent(out) :: help         !! what would be right
-
-      call find_end_mistake(item, column, message, help)
-      if (column > 0 .or. .not. has_ends(item)) return
-      if (item%number("guide_end") - item%number("guide_start") >= item%number("length")) return
-      column = place_of(item, "guide_end")
-      message = "the guide is "//to_text(item%number("guide_end") - item%number("guide_start"))//" m long, shorter than the " &
-                //"block: its corners are never all in it"
-      help = "a contact is one of a corner: give guide_start and guide_end at least "//to_text(item%number("length"))//" m apart"
-   end subroutine block_mistake
 
 end module clearance_block

@@ -33,6 +33,7 @@ module clearance_set
    !> What a geometry is like.
    type :: clearance_traits_t
       logical :: is_round = .false.       !! the clearance is a radial one
+      logical :: is_gap = .false.         !! the clearance is the gap between flat surfaces
       logical :: has_faces = .false.      !! contacts of an item share a face, and what it stores
       logical :: energy_jumps = .false.   !! stored energy and forces may jump where a contact begins or ends
    end type clearance_traits_t

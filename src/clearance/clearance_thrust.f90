@@ -92,6 +92,7 @@ contains
       integer :: end_sign, k, m, p
 
       call self%make_planes(items)
+      self%traits%is_gap = .true.
       m = 0
       do k = 1, self%n
          associate (item => items(k))

@@ -29,6 +29,7 @@ module clearance_translational
    use point_contacts, only: add_contact_channels, of_eccentricity, of_force, of_moment
    use slider_contacts, only: faces_blend, faces_book, faces_corners, faces_foundation, lower, n_corner, slider_contacts_t, upper
    use surfaces, only: shape_face, shape_plane, surfaces_t, take_materials
+   use text, only: to_text
    implicit none (type, external)
    private
    public :: add_guide_ends, clearance_translational_t, describe_corner, find_end_mistake
@@ -118,6 +119,7 @@ contains
       integer :: c, k, m, side
 
       call self%make_planes()
+      self%traits%is_gap = .true.
       allocate (self%guide%axis(2, self%n), self%guide%ends(2, self%n), self%guide%face_parameters(n_law_parameter, self%n), &
                 source=0.0_wp)
       allocate (self%guide%faces(self%n), source=faces_corners)
@@ -180,7 +182,7 @@ contains
       end if
    end subroutine translational_mistake
 
-   !> Ends of a guide must be in order.
+   !> Ends of a guide must be in order, and hold the slider.
    subroutine find_end_mistake(item, column, message, help)
       type(item_t), intent(in) :: item                       !! the row
       integer, intent(out) :: column                         !! column at fault, 0: all is well
@@ -190,11 +192,19 @@ contains
       column = 0
       message = ""
       help = ""
-      if (item%number("guide_end") > item%number("guide_start") .or. &
-          .not. max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp) return
-      column = place_of(item, "guide_end")
-      message = "guide_end must be beyond guide_start"
-      help = "leave both out, or give 0, for surfaces without ends"
+      associate (length => item%number("guide_end") - item%number("guide_start"))
+         if (length >= item%number("length") .or. &
+             .not. max(abs(item%number("guide_start")), abs(item%number("guide_end"))) > 0.0_wp) return
+         column = place_of(item, "guide_end")
+         if (length > 0.0_wp) then
+            message = "the guide is "//to_text(length)//" m long, shorter than the block: its corners are never all in it"
+            help = "a contact is one of a corner: give guide_start and guide_end at least "//to_text(item%number("length")) &
+                   //" m apart"
+         else
+            message = "guide_end must be beyond guide_start"
+            help = "leave both out, or give 0, for surfaces without ends"
+         end if
+      end associate
    end subroutine find_end_mistake
 
    !> A rounded corner of a slider on a plane, with the sides of the face it belongs to.

@@ -23,6 +23,7 @@ contains
 
       type(ieee_status_type) :: status
       type(watched_t) :: cell
+      character(:), allocatable :: onset
       real(wp) :: fixed, greatest
       integer :: k
 
@@ -30,6 +31,7 @@ contains
       associate (settings => loaded%scene%settings%dynamic)
          fixed = settings%number("step")
          greatest = settings%number("maximum_step")
+         onset = settings%word("contact_onset")
       end associate
       call say("")
       call say("instants and the greatest step")
@@ -58,8 +60,14 @@ contains
          if (loaded%system%loose%n > 0) then
             call say("no step is longer than a quarter of a turn of a body that may touch another", 2)
          end if
-         call say("the length of a step is else what the error allows; contacts are looked for at 8 places of it, and at least "// &
-                  "once in an output interval", 2)
+         call say("the length of a step is else what the error allows", 2)
+      end if
+      if (loaded%system%loose%n == 0) return
+      if (onset == "located") then
+         call say("contacts are looked for at 8 places of a step, and at least once in an output interval", 2)
+      else
+         call say("contacts are looked for at the ends of steps only (contact_onset = "//onset//"): one that begins and ends "// &
+                  "within a step is passed over; a maximum_step makes steps shorter", 2)
       end if
    end subroutine explain_instants_of
 

@@ -180,14 +180,14 @@ contains
       type(display_unit_t), intent(in) :: x       !! unit of the abscissa
 
       type(envelope_t) :: none
-      real(wp) :: all(2), ends(2), span
+      real(wp) :: all(2), ends(2), ideal(2), span
 
-      ends = [minval(panel%ideal%y_range(1)), maxval(panel%ideal%y_range(2))]
-      span = ends(2) - ends(1)
-      ends = ends + [-zoom_margin*span, zoom_margin*span]
+      ideal = [minval(panel%ideal%y_range(1)), maxval(panel%ideal%y_range(2))]
+      span = ideal(2) - ideal(1)
+      ends = ideal + [-zoom_margin*span, zoom_margin*span]
       all = range_of(panel, 1)
-      if (stands_on_zero(all)) ends(1) = max(0.0_wp, ends(1))
-      if (hangs_from_zero(all)) ends(2) = min(0.0_wp, ends(2))
+      if (stands_on_zero(all) .and. ideal(1) >= 0.0_wp) ends(1) = max(0.0_wp, ends(1))  ! beside high peaks what is below is nothing
+      if (hangs_from_zero(all) .and. ideal(2) <= 0.0_wp) ends(2) = min(0.0_wp, ends(2))
       call lines%line("set title 'the same on the scale of the ideal joints' font ',14'")
       call lines%line("set yrange ["//real_text(panel%unit(1)%factor*ends(1), 9)//":"// &
                       real_text(panel%unit(1)%factor*ends(2), 9)//"]")

@@ -16,7 +16,7 @@ module scene_plot
       style_hole, style_journal, style_line, style_path, style_pin, style_symbol, symbols_t
    use scene_views, only: extents_t, lay_out_views, projected, view_t
    use script_parts, only: preamble
-   use symbol_scales, only: largest_force, new_symbols
+   use symbol_scales, only: arrow_tips, largest_force, new_symbols
    use text, only: real_text, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -82,10 +82,15 @@ contains
 
       real(wp), parameter :: narrowest = 0.7_wp  ! width of a picture over its height [1]
       real(wp) :: lacking
-      integer :: rows
+      integer :: first, rows
 
       if (figure%kind == figure_mechanism) plot%cells = size(list)
-      call lay_out_views(drawing, list, path, plot%cells > 1 .or. figure%kind == figure_animation, plot%views, plot%extents)
+      call new_symbols(catalogue, drawing, list, plot%symbols)
+      first = merge(size(list), 1, figure%kind == figure_strip)  ! of the frames that are drawn with their forces
+      if (figure%kind == figure_strip) plot%symbols%force = largest_force(plot%symbols, list(first:))  ! as drawn
+      if (figure%kind == figure_coupler) plot%symbols%force = 0.0_wp
+      call lay_out_views(drawing, list, path, arrow_tips(drawing, plot%symbols, list(first:)), &
+                         plot%cells > 1 .or. figure%kind == figure_animation, plot%views, plot%extents)
       lacking = narrowest*(plot%extents%greatest(2) - plot%extents%least(2)) - (plot%extents%greatest(1) - plot%extents%least(1))
       if (lacking > 0.0_wp) then
          plot%extents%least(1) = plot%extents%least(1) - 0.5_wp*lacking
@@ -93,9 +98,6 @@ contains
       end if
       plot%unit = choose_unit("m", maxval(plot%extents%greatest - plot%extents%least))
       plot%has_axes = plot%cells == 1 .and. size(plot%views) == 1 .and. .not. drawing%is_spatial
-      call new_symbols(catalogue, drawing, list, plot%symbols)
-      if (figure%kind == figure_strip) plot%symbols%force = largest_force(plot%symbols, list(size(list):))  ! as drawn
-      if (figure%kind == figure_coupler) plot%symbols%force = 0.0_wp
       plot%symbols%scale = plot%unit%factor
       plot%cell = plot%extents%greatest - plot%extents%least
       plot%columns = ceiling(sqrt(real(plot%cells, wp)*plot%cell(2)/plot%cell(1)))

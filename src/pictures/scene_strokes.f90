@@ -13,7 +13,7 @@ module scene_strokes
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: bearing_size, body_colour, canvas_t, draw_scene, journal_part, n_style, symbols_t
+   public :: arrow_at, bearing_size, body_colour, canvas_t, draw_scene, journal_part, n_style, symbols_t
    public :: style_arrow, style_body, style_ground, style_hole, style_journal, style_line, style_path, style_pin, style_symbol
 
    ! styles, in the order in which they are drawn
@@ -162,25 +162,25 @@ contains
          call add_disc(canvas, style_hole, symbols, p(:, 1), radius)
          call add_disc(canvas, style_journal, symbols, p(:, 1) + symbols%magnified*e, journal_part*radius)
       end select
-      if (.not. symbols%force > 0.0_wp) return
-      e = (projected(view, force_at(symbols, frame, number)) - view%shift)*arrow_size*symbols%size/symbols%force
-      call draw_arrow(canvas, symbols, p(:, 2), e)
+      call draw_arrow(canvas, symbols, p(:, 2), projected(view, arrow_at(symbols, frame, number)) - view%shift)
    end subroutine draw_mark
 
-   !> The force that is drawn at a mark, zero if none is.
-   pure function force_at(symbols, frame, number) result(force)
+   !> The arrow of the force at a mark, from the second point of the mark; zero if none is drawn.
+   pure function arrow_at(symbols, frame, number) result(way)
       type(symbols_t), intent(in) :: symbols   !! which joint or load a mark is
       type(frame_t), intent(in) :: frame       !! forces
       integer, intent(in) :: number            !! the mark
-      real(wp) :: force(3)                     !! (3) world frame [N]
+      real(wp) :: way(3)                       !! (3) world frame [m]
 
-      force = 0.0_wp
+      way = 0.0_wp
+      if (.not. symbols%force > 0.0_wp) return
       if (symbols%loose(number) > 0) then
-         force = frame%f(:, symbols%loose(number))
+         way = frame%f(:, symbols%loose(number))
       else if (symbols%load(number) > 0) then
-         force = frame%load(:, symbols%load(number))
+         way = frame%load(:, symbols%load(number))
       end if
-   end function force_at
+      way = way*arrow_size*symbols%size/symbols%force
+   end function arrow_at
 
    !> Hatching where a joint stands on the ground.
    subroutine draw_support(canvas, symbols, p)

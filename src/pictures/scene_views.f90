@@ -50,11 +50,12 @@ contains
       self%greatest = max(self%greatest, p)
    end subroutine hold
 
-   !> The views of a scene, and the frame of the picture that holds all its frames and paths.
-   subroutine lay_out_views(drawing, list, track, turned_only, views, extents)
+   !> The views of a scene, and the frame of the picture that holds all its frames, paths and arrows.
+   subroutine lay_out_views(drawing, list, track, tips, turned_only, views, extents)
       type(drawing_t), intent(in) :: drawing             !! the scene
       type(frame_t), intent(in) :: list(:)               !! (n) frames
       type(track_t), intent(in) :: track                 !! a path
+      real(wp), intent(in) :: tips(:, :)                 !! (3, n) ends of arrows, world frame [m]
       logical, intent(in) :: turned_only                 !! in space only the view from a corner
       type(view_t), allocatable, intent(out) :: views(:) !! (1 or 4) views
       type(extents_t), intent(out) :: extents            !! the frame
@@ -71,7 +72,7 @@ contains
       end if
       allocate (alone(size(views)))
       do k = 1, size(views)
-         call measure(drawing, list, track, views(k), alone(k))
+         call measure(drawing, list, track, tips, views(k), alone(k))
       end do
       if (size(views) > 1) then
          greatest = maxval([(alone(k)%greatest - alone(k)%least, k=1, size(views))])
@@ -88,7 +89,7 @@ contains
          end do
       end if
       do k = 1, size(views)
-         call measure(drawing, list, track, views(k), extents)
+         call measure(drawing, list, track, tips, views(k), extents)
       end do
       margin = 0.12_wp*maxval(extents%greatest - extents%least)/sqrt(real(size(views), wp))
       margin = max(margin, 0.15_wp*drawing%size)
@@ -115,11 +116,12 @@ contains
       views(4)%label = "x, y"
    end function spatial_views
 
-   !> Make room for all frames and the path in a view.
-   subroutine measure(drawing, list, track, view, extents)
+   !> Make room for all frames, the path and the arrows in a view.
+   subroutine measure(drawing, list, track, tips, view, extents)
       type(drawing_t), intent(in) :: drawing         !! the scene
       type(frame_t), intent(in) :: list(:)           !! (n) frames
       type(track_t), intent(in) :: track             !! a path
+      real(wp), intent(in) :: tips(:, :)             !! (3, n) ends of arrows, world frame [m]
       type(view_t), intent(in) :: view               !! the view
       type(extents_t), intent(inout) :: extents      !! grown
 
@@ -144,6 +146,9 @@ contains
       end do
       do k = 1, track%n
          call extents%hold(projected(view, track%x(:, k)))
+      end do
+      do k = 1, size(tips, 2)
+         call extents%hold(projected(view, tips(:, k)))
       end do
    end subroutine measure
 

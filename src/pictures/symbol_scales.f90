@@ -4,10 +4,10 @@ module symbol_scales
    use drawing, only: drawing_t, mark_bearing, mark_load, mark_plane, mark_slide, mark_t
    use frames, only: frame_t
    use kinds, only: wp
-   use scene_strokes, only: bearing_size, journal_part, symbols_t
+   use scene_strokes, only: arrow_at, bearing_size, journal_part, symbols_t
    implicit none (type, external)
    private
-   public :: largest_force, new_symbols
+   public :: arrow_tips, largest_force, new_symbols
 
    real(wp), parameter :: least_wall = 0.0425_wp  !! from the middle of a guide to its walls, of the size of the scene, at least [1]
 
@@ -140,6 +140,25 @@ contains
       factor = 0.0_wp
       if (clearance > 0.0_wp) factor = (1.0_wp - journal_part)*bearing_size*size/clearance
    end function magnification
+
+   !> Where the arrows of some frames end.
+   pure function arrow_tips(drawing, symbols, list) result(tips)
+      type(drawing_t), intent(in) :: drawing         !! the scene
+      type(symbols_t), intent(in) :: symbols         !! scales
+      type(frame_t), intent(in) :: list(:)           !! (n) frames
+      real(wp) :: tips(3, size(list)*drawing%n_mark) !! (3, n marks) ends of the arrows, world frame [m]
+
+      integer :: f, k
+
+      do f = 1, size(list)
+         do k = 1, drawing%n_mark
+            associate (mark => drawing%marks(k))
+               tips(:, (f - 1)*drawing%n_mark + k) = list(f)%r(:, mark%body(2)) &
+                  + matmul(list(f)%a(:, :, mark%body(2)), mark%s(:, 2)) + arrow_at(symbols, list(f), k)
+            end associate
+         end do
+      end do
+   end function arrow_tips
 
    !> The greatest force of the joints with clearance, and of the loads that are drawn, in some frames.
    pure real(wp) function largest_force(symbols, list) result(force)

@@ -144,11 +144,11 @@ contains
       logical, intent(in) :: has_part(0:)           !! (0:bodies) whether a body has one
 
       type(part_t) :: part
-      real(wp) :: along(3, scene%bodies%n)
+      real(wp) :: along(3, scene%bodies%n), half(2, scene%bodies%n)
       integer, allocatable :: first(:), next(:)
       integer :: body, k
 
-      call find_ways(scene, along)
+      call find_ways(scene, along, half)
       allocate (first(0:scene%bodies%n), next(scene%points%n), source=0)
       do k = scene%points%n, 1, -1  ! lists of the points of each body, in the order of the deck
          next(k) = first(scene%points%body(k))
@@ -156,17 +156,19 @@ contains
       end do
       do body = 1, scene%bodies%n
          if (has_part(body)) cycle
-         call outline(drawing, body, distinct_points(drawing, first(body), next), along(:, body), part)
+         call outline(drawing, body, distinct_points(drawing, first(body), next), along(:, body), half(:, body), part)
          call add_part(drawing, part)
       end do
    end subroutine add_outlines
 
-   !> Directions in which bodies slide, in their own frames; zero of those that do not.
-   subroutine find_ways(scene, along)
+   !> Directions in which bodies slide, in their own frames, and half the sides of sliders of the plane; zero of those that do not.
+   subroutine find_ways(scene, along, half)
       type(scene_t), intent(in) :: scene     !! the scene
       real(wp), intent(out) :: along(:, :)   !! (3, bodies) directions [1]
+      real(wp), intent(out) :: half(:, :)    !! (2, bodies) half of length and height, as loose guides have them [m]
 
       along = 0.0_wp
+      half = 0.0_wp
       call look(scene%joints)
       call look(scene%clearances)
 
@@ -187,6 +189,10 @@ contains
                if (.not. norm2(axis) > 0.0_wp .or. tie%n < 2 .or. tie%by_joint .or. tie%body(2) == 0) cycle
                if (tables(k)%info%leaves /= leaves_way .and. find_place(tables(k)%items(i), "slider") == 0) cycle
                along(:, tie%body(2)) = matmul(matmul(start_frame(scene, tie%body(1)), axis), start_frame(scene, tie%body(2)))
+               if (find_place(tables(k)%items(i), "slider_axis") == 0) cycle
+               along(:, tie%body(2)) = direction_in_plane(tables(k)%items(i)%word("slider_axis"), &
+                                                          tables(k)%items(i)%number("slider_angle"))
+               half(:, tie%body(2)) = 0.5_wp*[tables(k)%items(i)%number("length"), tables(k)%items(i)%number("height")]
             end do
          end do
       end subroutine look

@@ -169,3 +169,43 @@ def test_mistakes_have_a_place(gudgeon):
         line, caret = re.search(r"\| (figures.*)\n.*\| (\s*\^+)", done.stderr + done.stdout).groups()
         first = caret.index("^")
         assert line[first : first + caret.count("^")] == part, (figures, done.stderr)
+
+
+def test_scale_of_the_ideal_joints_holds_their_curve(gudgeon, tmp_path):
+    """A block thrown against the upper side of its guide: the force on it is downward, that of the ideal guide m g upward."""
+    text = """deck = 1
+[scene]
+title = "Thrown block"
+gravity = 0 -9.81 m/s^2
+[bodies]
+name   mass[kg]   inertia[kg.m^2]   x[m]   y[m]   vx[m/s]   vy[m/s]
+block  0.5        1e-4              0      0      1         2
+[points]
+name   body     xi[m]   eta[m]
+guide  ground   0       0
+pin    block    0       0
+[material]
+name   young[GPa]   poisson
+steel  207          0.3
+[contact.hertz]
+name
+hertz
+[friction.rooney_deravi]
+name   coefficient   v1[mm/s]
+rubs   0.1           1
+[clearance.translational]
+name   guide   slider   axis   length[mm]   height[mm]   gap    corner_radius[mm]   material   law     friction
+loose  guide   pin      x      40           20           1mm    1                   steel      hertz   rubs
+[analysis.dynamic]
+start = given
+end   = 0.001 s
+[output]
+every = 0.01 ms
+figures = loose.force
+"""
+    call(gudgeon, "run", written(tmp_path, text), "--out", tmp_path / "run", "--quiet")
+    script = (tmp_path / "run" / "figures" / "loose.force.gp").read_text(encoding="utf-8")
+    unit = {"N": 1.0, "kN": 1e3}[re.search(r"force \[(.*?)\]", script).group(1)]
+    second = script.split("scale of the ideal joints")[1]
+    least, greatest = (float(end) * unit for end in re.search(r"set yrange \[(.*?):(.*?)\]", second).groups())
+    assert least < 0.0 and greatest > 0.5 * 9.81

@@ -6,7 +6,7 @@ import re
 import h5py
 import numpy as np
 import pytest
-from support import DECK, call, changed, written
+from support import DECK, ROOT, call, changed, written
 from test_motion_file import CRANK
 
 STYLES = ("ground", "body", "line", "path", "pin", "symbol", "hole", "journal", "arrow")
@@ -227,3 +227,28 @@ def test_a_run_that_ends_early_draws_what_it_reached(gudgeon, tmp_path):
     assert len(strokes(folder / "animation.n.10.last.1s.dat")) == 4
     listed = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
     assert listed["warnings"] == ["figure mechanism(t=0.9s): no numbers to draw"]
+
+
+@pytest.mark.parametrize("figure", ["mechanism", "strip(n=3)", "animation(n=4)", "mechanism(t=0.1s,0.9s)"])
+@pytest.mark.parametrize("force", ["{-5N}", "{5N}"])
+def test_arrows_end_within_the_picture(gudgeon, tmp_path, figure, force):
+    """Whichever way a force points, its arrow, a quarter of the size of the scene, is not cut by the frame."""
+    (path,) = run(gudgeon, tmp_path, CRANK + f"\n[force.point]\nname point fx fy\npush tip {force} {force}\n", figure).glob("*.dat")
+    script = path.with_suffix(".gp").read_text(encoding="utf-8")
+    frame = np.array([[float(end) for end in re.search(rf"set {axis}range \[(.*?):(.*?)\]", script).groups()] for axis in "xy"])
+    unit = {"mm": 1e-3, "m": 1.0}[re.search(r"x \[(.*?)\]", path.read_text(encoding="utf-8")).group(1)]
+    arrows = [line for one in strokes(path) for line in one["arrow"] if len(line) > 1]
+    assert arrows
+    for line in arrows:
+        assert np.all(line >= unit * frame[:, 0]) and np.all(line <= unit * frame[:, 1]), (line, frame)
+
+
+def test_loose_slider_has_its_size(gudgeon, tmp_path):
+    """A slider loose in a guide is drawn with the length and height that its row gives, however large the scene is."""
+    text = (ROOT / "inputs" / "slider_crank_translational.deck").read_text()
+    found = strokes(run(gudgeon, tmp_path, text, "mechanism") / "mechanism.dat")
+    sides = [np.ptp(line, axis=0) for line in found[0]["body"]]
+    row = text.split("[clearance.translational]")[1].splitlines()
+    head, cells = row[1].split(), row[2].split()
+    size = [float(cells[head.index(name)]) * 1e-3 for name in ("length[mm]", "height[mm]")]
+    assert any(np.allclose(side, size, rtol=0.02) for side in sides), (sides, size)

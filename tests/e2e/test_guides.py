@@ -308,3 +308,56 @@ def test_eccentricity_is_that_of_the_slider(gudgeon):
     assert_close(path[:, 1], run.item("bodies/position", "slider")[:, 1], absolute=1e-15, what="height")
     assert np.abs(path[:, 0]).max() == 0.0
     assert 5e-4 < np.abs(path[:, 1]).max() < 7e-4
+
+BESIDE = """deck = 1
+[scene]
+title = "a block flies at the mouth of a guide, too high"
+{space}
+[bodies]
+{bodies}
+[points]
+name   body    {xi}
+main   ground  0
+core   block   0
+[material]
+name   young[GPa]   poisson
+steel  207          0.3
+[contact.hertz]
+name
+hertz
+[clearance.translational]
+name   guide  slider  {axis}  length[mm]  height[mm]  gap[mm]  corner_radius[mm]  material  law    guide_start[mm]  guide_end[mm]  {more}
+guide  main   core    {along} 40          20          0.1      1                  steel     hertz  0                200            {width}
+[analysis.dynamic]
+start = given
+end   = 45 ms
+[output]
+every = 1 ms
+"""
+
+
+@pytest.mark.parametrize("space", ["plane", "space"])
+def test_no_surface_beyond_the_ends_of_a_guide(gudgeon, space):
+    """Beyond the ends no surface is there to be penetrated; a corner that comes in 0.2 mm above the surface is told of, with its clearance."""
+    if space == "plane":
+        text = BESIDE.format(space="", bodies="name mass[kg] inertia[kg.m^2] x[mm] y[mm] vx[m/s]\nblock 1 1e-3 -100 0.3 2", xi="xi[m] eta[m]",
+                             axis="axis", along="x", more="", width="").replace("  0\n", "  0 0\n")
+    else:
+        text = BESIDE.format(space="space = spatial", xi="xi[m]", axis="axis_i width_axis", along='"1 0 0" "0 0 1"', more="width[mm]", width="30",
+                             bodies="name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[mm] y[mm] vx[m/s]\nblock 1 1e-3 1e-3 1e-3 -100 0.3 2")
+    run = finished(gudgeon, written(scratch(), text))
+    depth, state = run.read("clearances/contacts/penetration"), run.read("clearances/contacts/state")
+    entry = 0.04  # 80 mm at 2 m/s bring the front corners to the mouth
+    assert np.abs(depth[run.time < entry]).max() == 0.0
+    assert np.abs(depth[state == 0]).max() == 0.0
+    assert run.contacts["time"][0] == pytest.approx(entry, rel=1e-9)
+    assert depth[np.isclose(run.time, entry, rtol=1e-9)].max() == pytest.approx(2e-4, rel=1e-9)
+    assert any("beyond the clearance itself, 0.1 mm" in words for words in run.summary["warnings"])
+
+
+def test_guide_shorter_than_its_slider(gudgeon):
+    """No contact would ever hold both ends of the slider: refused as in space."""
+    text = BESIDE.format(space="", bodies="name mass[kg] inertia[kg.m^2] x[mm] y[mm] vx[m/s]\nblock 1 1e-3 -100 0.3 2", xi="xi[m] eta[m]",
+                         axis="axis", along="x", more="", width="").replace("  0\n", "  0 0\n").replace("200    ", "39.9    ")
+    done = call(gudgeon, "check", written(scratch(), text), expect=3)
+    assert "0.0399 m long, shorter than the block" in done.stderr and "^^^^" in done.stderr

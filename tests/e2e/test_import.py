@@ -380,6 +380,24 @@ def test_refused_by_name(gudgeon):
     assert "no PART" in call(gudgeon, "import", "empty.adm", cwd=folder, expect=3).stderr
 
 
+@pytest.mark.parametrize("line, words", [
+    ("MARKER/2, PART = 2, QP = 1, 0, 0", "MARKER/2 is there twice"),
+    ("PART/2, MASS = 3, CM = 2", "PART/2 is there twice"),
+    ("JOI/1, SPHERICAL, I = 2, J = 1", "JOINT/1 is there twice"),
+    ("VARIABLE/7, FUNCTION = 2\nVAR/7, FUNCTION = 3", "VARIABLE/7 is there twice"),
+    ("PART/3, MASS = -1, CM = 3\nMARKER/3, PART = 3", "PART/3 has a negative mass"),
+])
+def test_statements_there_twice_and_negative_masses(gudgeon, line, words):
+    """Which of two markers of one number is meant nobody can say: a mistake with its line, and no deck."""
+    folder = scratch()
+    text = "d\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    (folder / "d.adm").write_text(text + "JOINT/1, REVOLUTE, I = 2, J = 1\n" + line + "\n")
+    done = call(gudgeon, "import", "d.adm", cwd=folder, expect=3)
+    assert words in done.stderr
+    assert f"d.adm:{text.count(chr(10)) + 1 + len(line.splitlines()) - ('negative' in words)}:" in done.stderr
+    assert not (folder / "d.deck").exists()
+
+
 def test_variables_that_name_themselves_end(gudgeon):
     """Neither for ever nor without bounds: what is left has no words, and the variable that has is put in."""
     folder = scratch()
