@@ -1,4 +1,4 @@
-"""docs/output.md against a real run.h5: every object documented, everything documented as always there present."""
+"""docs/output.md against real runs: every object and key documented, everything documented as always there present."""
 
 import fnmatch
 import json
@@ -35,7 +35,8 @@ def table(root, heading):
     """Rows of the table under a heading of docs/output.md."""
     text = (root / "docs" / "output.md").read_text(encoding="utf-8")
     section = re.split(r"^#+ ", text.split(f"# {heading}\n", 1)[1], maxsplit=1, flags=re.M)[0]
-    rows = [[cell.strip().strip("`") for cell in line.strip("|").split("|")] for line in section.splitlines() if line.startswith("|")]
+    lines = [re.split(r"(?<!\\)\|", line)[1:-1] for line in section.splitlines() if line.startswith("|")]
+    rows = [[cell.strip().strip("`") for cell in line] for line in lines]
     assert len(rows) > 2, f"no table under '{heading}'"
     return [dict(zip(rows[0], row)) for row in rows[2:]]
 
@@ -82,6 +83,69 @@ def test_every_dataset_is_as_documented(made, root):
             assert node.attrs["long_name"], path
         missing = [row["path"] for row in rows if row["present"] == "always" and row["path"] not in found]
         assert not missing
+
+
+def documented(root):
+    """Rows of the datasets by path, one for each path of a row; a star stands for the names of the deck."""
+    rows = {}
+    for row in table(root, "Datasets"):
+        paths = [path.strip("`") for path in row["path"].split(", ")] if row["path"].startswith("/") else []
+        for place, path in enumerate(paths):
+            units = row["units"].split(", ")
+            rows[path.replace("NAME", "*")] = {**row, "unit": units[place] if len(units) == len(paths) else units[0]}
+    return rows
+
+
+@pytest.mark.parametrize("deck, options", [
+    ("primitives", ()),
+    ("slider_crank_6_6_bushing", ()),
+    ("slider_crank_6_6_lubricated", ()),
+    ("crosshead", ()),
+    ("valve_train", ()),
+    ("four_bar_kinematic", ()),
+    ("journal_bearing", ()),
+    ("journal_bearing", ("--analysis", "static")),
+])
+def test_datasets_of_other_scenes_are_documented(gudgeon, root, tmp_path, deck, options):
+    """Path, type, number of dimensions, unit and frame of what other scenes write, of the plane and of space."""
+    command = [gudgeon, "run", f"inputs/{deck}.deck", "--out", tmp_path / "run", "--quiet", "--write", "channels", *options]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    rows = documented(root)
+    with h5py.File(tmp_path / "run" / "run.h5", "r") as file:
+        for path, node in datasets(file).items():
+            row = next((row for name, row in rows.items() if fnmatch.fnmatch(path, name)), None)
+            assert row, f"{path} is not in docs/output.md"
+            assert is_of_type(node.dtype, row["type"]), f"{path}: {node.dtype}"
+            ranks = [0] if row["shape"] == "scalar" else [len(shape_symbols(word)) for word in re.findall(r"\([^)]*\)", row["shape"])]
+            assert node.ndim in ranks, f"{path}: {node.shape}"
+            assert row["unit"] in ("list", "its own") or node.attrs["units"] == row["unit"], path
+            assert re.search(rf"\b{node.attrs['frame']}\b", row["frame"]), f"{path}: {node.attrs['frame']}"
+
+
+@pytest.mark.parametrize("options", [(), ("--csv", "--horizon"), ("--accuracy", "1e-3", "--budget", "20 s"), ("static",)])
+def test_every_key_of_the_summary_is_documented(gudgeon, root, tmp_path, options):
+    """Keys of summary.json both ways, objects and lists as they are called, and the keys of the objects in lists."""
+    deck, options = (("journal_bearing", ("--analysis", "static")) if options == ("static",) else ("slider_crank_translational", options))
+    command = [gudgeon, "run", f"inputs/{deck}.deck", "--out", tmp_path / "run", "--quiet", *options]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, timeout=600)
+    assert done.returncode in (0, 6), done.stderr
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
+    rows = {key: row for row in table(root, "summary.json") for key in re.findall(r"[a-zA-Z_]\w+", row["key"])}
+    for key, value in summary.items():
+        row = rows.get(re.sub(r"_\d+$", "_K", key))
+        assert row, f"{key} is not in docs/output.md"
+        told = row["what it is"]
+        if isinstance(value, list):
+            assert re.search(r"\blists?\b|\bthe same\b", told), f"{key}: {told}"
+        assert not isinstance(value, dict) or "an object" in told, f"{key}: {told}"
+        if isinstance(value, list) and value and isinstance(value[0], dict) and key in ("extremes", "first_impacts"):
+            named = set(re.findall(r"`(\w+)`", f"{told}`")) | ({row["field"] for row in table(root, "Fields of /events")} if key == "first_impacts" else set())
+            assert set(value[0]) <= named, key
+        if key == "loose_joints":
+            paths = {row["path"].rpartition("/")[2] for row in table(root, "Datasets") if row["path"].startswith("/extremes/joints/")}
+            assert set(value[0]) == paths - {"name"} | {"joint"} if value else True
+    assert not [key for key, row in rows.items() if row["when"] == "always" and key not in summary]
 
 
 def test_every_attribute_is_as_documented(made, root):
