@@ -50,7 +50,7 @@ contains
                if (text(at:at) /= "D" .or. scan(text(at + 1:at + 1), "+-") == 0) cycle
                if (scan(text(at + 2:at + 2), digits) == 0) cycle
                first = verify(text(:at - 1), digits//".", back=.true.) + 1
-               if (verify(text(first:at - 1)//"", ".") == 0) cycle
+               if (verify(text(first:at - 1), ".") == 0) cycle
                if (first > 1) then
                   if (verify(text(first - 1:first - 1), "ABCDEFGHIJKLMNOPQRSTUVWXYZ_") == 0) cycle
                end if

@@ -2,8 +2,8 @@
 !>
 !> The quintic of `interpolation` takes the accelerations at both ends. In a film of a thousandth of its clearance these are the
 !> product of a damping of 1e11 N.s/m and of what is left of the iteration: a curve with them leaves the clearance between
-!> two states that are within it. There the positions are the integral of the cubic through their derivatives at the start and at the
-!> stages, of order 5, and the rates are the collocation polynomial itself, of order 3.
+!> two states that are within it. There the positions are the integral of the cubic through their derivatives at the start and
+!> at the stages, of order 5, and the rates are the collocation polynomial itself, of order 3.
 !> Source: Hairer and Wanner (1996), section IV.8.
 submodule(radau) radau_output
    use interpolation, only: interpolate
