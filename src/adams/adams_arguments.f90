@@ -4,11 +4,11 @@
 !> Source: the public descriptions of the statements of Adams/Solver.
 module adams_arguments
    use adams_model, only: adams_model_t, leave_out
-   use dataset, only: statement_t
-   use text, only: split_blank, text_t
+   use dataset, only: statement_t, upper_case
+   use text, only: split_blank, text_t, to_text
    implicit none (type, external)
    private
-   public :: name_unknown_arguments
+   public :: name_small_degrees, name_unknown_arguments
 
 contains
 
@@ -30,6 +30,38 @@ contains
          end associate
       end do
    end subroutine name_unknown_arguments
+
+   !> Tell of degrees in expressions that may be meant as exponents of Fortran: `1D-3` is a degree less 3.
+   subroutine name_small_degrees(model, statement)
+      type(adams_model_t), intent(inout) :: model      !! the dataset
+      type(statement_t), intent(in) :: statement       !! one of its statements, with its name in full
+
+      character(*), parameter :: digits = "0123456789", expressions(7) = ["FUNCTION", "FX      ", "FY      ", "FZ      ", &
+                                                                          "TX      ", "TY      ", "TZ      "]
+      character(:), allocatable :: text
+      integer :: at, first, k, last
+
+      do k = 1, size(statement%arguments)
+         associate (it => statement%arguments(k))
+            if (len(it%name) == 0 .or. size(it%values) == 0) cycle
+            if (.not. any(index(expressions, it%name) == 1)) cycle
+            text = upper_case(it%values(1)%s)
+            do at = 2, len(text) - 2
+               if (text(at:at) /= "D" .or. scan(text(at + 1:at + 1), "+-") == 0) cycle
+               if (scan(text(at + 2:at + 2), digits) == 0) cycle
+               first = verify(text(:at - 1), digits//".", back=.true.) + 1
+               if (verify(text(first:at - 1), ".") == 0) cycle
+               if (first > 1) then
+                  if (verify(text(first - 1:first - 1), "ABCDEFGHIJKLMNOPQRSTUVWXYZ_") == 0) cycle
+               end if
+               last = at + 1 + verify(text(at + 2:)//" ", digits) - 1
+               call model%changed%add("line "//to_text(it%line)//": '"//it%values(1)%s(first:last)//"' is "//text(first:at - 1)// &
+                     merge(" degrees plus", " degrees less", text(at + 1:at + 1) == "+")//" "//text(at + 2:last)// &
+                     "; an exponent is written with E")
+            end do
+         end associate
+      end do
+   end subroutine name_small_degrees
 
    !> Arguments that are read, or that say nothing of a mechanism; blank: that is for the reader of the statement to say.
    pure function known_arguments(keyword) result(names)

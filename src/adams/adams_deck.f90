@@ -7,7 +7,7 @@
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: those of `adams_model`, `adams_joints`,
 !> `adams_forces`.
 module adams_deck
-   use adams_arguments, only: name_unknown_arguments
+   use adams_arguments, only: name_small_degrees, name_unknown_arguments
    use adams_constraints, only: add_constraints
    use adams_forces, only: add_forces
    use adams_gears, only: add_gears
@@ -82,6 +82,7 @@ contains
                call settings%add("line "//to_text(it%line)//": "//it%keyword)
             else if (is_understood(it%keyword)) then
                call name_unknown_arguments(model, it)
+               call name_small_degrees(model, it)
                call name_idle_splines(model, draft, it)
             else
                call leave_out(model, it, reason_against(it%keyword))

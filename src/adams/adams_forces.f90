@@ -251,7 +251,7 @@ contains
             previous = force
             if (.not. stored < least - 1.0e-12_wp*abs(least)) cycle
             least = stored
-            rest = x
+            rest = merge(x, max(x, 0.0_wp), turns)
          end do
       end do
       if (abs(rest - start) <= 0.0_wp) return

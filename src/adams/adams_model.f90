@@ -201,7 +201,7 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
 
       type(part_t) :: new
-      integer :: i, k
+      integer :: k
 
       allocate (model%parts(0))
       do k = 1, size(model%statements)

@@ -20,8 +20,9 @@
 !> iteration ends a good deal below.
 !>
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
-!> stiff forces would make worse; other states and quadratures by the integral of the cubic through the derivatives at the start
-!> and at the stages, of order 5.
+!> stiff forces would make worse, and in a step with a force so stiff that accelerations tell nothing (`is_stiff`), by the stages
+!> alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages, of
+!> order 5.
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
 !> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
@@ -29,7 +30,6 @@
 module radau
    use anderson, only: anderson_t
    use integrator, only: advance_no_memory, advance_step
-   use interpolation, only: interpolate
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use krylov_solver, only: krylov_solver_t
@@ -77,6 +77,7 @@ module radau
       real(wp), allocatable :: weight(:)        !! (3 n) error scales [any]
       real(wp), allocatable :: y(:)             !! (all) room [any]
       real(wp) :: norm = 0.0_wp                 !! of the estimate over TOL' [1]
+      logical :: is_stiff = .false.             !! whether accelerations tell nothing in the step in hand
       real(wp) :: contraction = 1.0_wp          !! theta/(1 - theta) of the last iteration [1]
    contains
       procedure, nopass :: info => radau_info
@@ -124,6 +125,26 @@ module radau
          real(wp), intent(in) :: h                     !! length of the step [s]
          integer, intent(out) :: status                !! of the evaluations
       end subroutine evaluate_stages
+   end interface
+
+   interface
+      !> No evaluations: the derivatives at the stages are known. Those of another length, as a search in the step leaves them, are
+      !> made again.
+      module subroutine radau_prepare_output(self, system, status)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self         !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         integer, intent(out) :: status                !! of the evaluations
+      end subroutine radau_prepare_output
+
+      !> State at a place of the last step, by interpolation.
+      module subroutine radau_within(self, system, s, y)
+         implicit none (type, external)
+         class(radau_t), intent(in) :: self         !! the integrator
+         class(ode_system_t), intent(in) :: system  !! the system
+         real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
+         real(wp), intent(inout) :: y(:)            !! (n) state [any]
+      end subroutine radau_within
    end interface
 
    interface
@@ -326,64 +347,5 @@ contains
 
       norm = self%norm
    end function radau_error_norm
-
-   !> No evaluations: the derivatives at the stages are known. Those of another length, as a search in the step leaves them, are
-   !> made again.
-   subroutine radau_prepare_output(self, system, status)
-      class(radau_t), intent(inout) :: self         !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system
-      integer, intent(out) :: status                !! of the evaluations
-
-      status = 0
-      if (self%step%h <= 0.0_wp .or. has_stages(self)) return
-      self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
-      call self%refine(system, 1.0_wp, self%y, status)
-      self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
-   end subroutine radau_prepare_output
-
-   !> Whether the derivatives at hand are those of the last step.
-   pure logical function has_stages(self)
-      class(radau_t), intent(in) :: self  !! the integrator
-
-      has_stages = abs(self%stage%t - self%step%t0) <= 0.0_wp .and. abs(self%stage%h - self%step%h) <= 0.0_wp
-   end function has_stages
-
-   !> State at a place of the last step, by interpolation.
-   subroutine radau_within(self, system, s, y)
-      class(radau_t), intent(in) :: self         !! the integrator
-      class(ode_system_t), intent(in) :: system  !! the system
-      real(wp), intent(in) :: s                  !! place in the step, 0 to 1 [1]
-      real(wp), intent(inout) :: y(:)            !! (n) state [any]
-
-      real(wp) :: p(0:3)
-      integer :: i, n
-
-      n = size(y)
-      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
-      call interpolate(self%step, system%n_position, system%traits%n_turning, s, y(:n))
-      if (.not. has_stages(self)) return
-      p = integrals(s)
-      associate (step => self%step, f => self%stage%f)
-         do i = 2*system%n_position - system%traits%n_turning + 1, n
-            y(i) = step%y0(i) + step%h*(p(0)*step%f0(i) + p(1)*f(i, 1) + p(2)*f(i, 2) + p(3)*f(i, 3))
-         end do
-      end associate
-   end subroutine radau_within
-
-   !> Integrals from 0 to s of the cubics of Lagrange through 0 and the places of the stages.
-   pure function integrals(s) result(p)
-      real(wp), intent(in) :: s  !! place in the step [1]
-      real(wp) :: p(0:3)         !! (0:3) the integrals [1]
-
-      real(wp), parameter :: places(0:3) = [0.0_wp, c]
-      real(wp) :: others(3)
-      integer :: k
-
-      do k = 0, 3
-         others = pack(places, [0, 1, 2, 3] /= k)
-         p(k) = s*(-product(others) + s*(0.5_wp*(others(1)*others(2) + others(1)*others(3) + others(2)*others(3)) &
-                                         + s*(-sum(others)/3.0_wp + s*0.25_wp)))/product(places(k) - others)
-      end do
-   end function integrals
 
 end module radau

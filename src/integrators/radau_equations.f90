@@ -263,19 +263,25 @@ contains
 
    !> Norm of the estimate.
    module procedure estimate_error
+      real(wp), parameter :: stiff = 1.5_wp   ! ratio of what is left of the equations, or unfiltered, to the estimate [1]
+      real(wp) :: noisy
       integer :: i, n
 
       n = self%n
       status = 0
       call self%set_scales(system, self%trial)
       call begin_differences(self, system)
+      call set_side(n, h, self%z, self%stage%f, self%side)
+      noisy = greatest(self, self%side)
       associate (filter => self%filter, side => self%side(:n), estimate => self%change(:n))
          filter%h = h
          do i = 1, n
             side(i) = (h*self%step%f0(i) + e(1)*self%z(i, 1) + e(2)*self%z(i, 2) + e(3)*self%z(i, 3))/real_eigenvalue
          end do
+         noisy = max(noisy, greatest(self, side))
          call apply_filter()
          if (status == 0) self%norm = greatest(self, estimate)/lenient(self%controls%tolerance)
+         self%is_stiff = status == 0 .and. noisy > stiff*greatest(self, estimate)
          if (status == 0 .and. self%norm > 1.0_wp .and. self%before%h <= 0.0_wp) then
             self%y(:) = self%step%y0
             self%y(:n) = self%y(:n) + estimate

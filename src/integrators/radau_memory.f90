@@ -7,7 +7,7 @@ contains
 
    !> Numbers that a checkpoint needs.
    module procedure radau_memory_size
-      n = one_step_memory_size(self) + 6 + 3*self%n + self%matrix%memory_size()
+      n = one_step_memory_size(self) + 7 + 3*self%n + self%matrix%memory_size()
    end procedure radau_memory_size
 
    !> Write what the integrator remembers.
@@ -17,6 +17,7 @@ contains
       call one_step_save(self, row, place)
       call put(row, place, [self%now%t, self%now%h, self%contraction, self%h_matrix, self%h_gmres])
       call put(row, place, self%is_stale)
+      call put(row, place, self%is_stiff)
       do k = 1, 3
          call put(row, place, self%now%z(:, k))
       end do
@@ -34,6 +35,7 @@ contains
       call get(row, place, self%h_matrix)
       call get(row, place, self%h_gmres)
       call get(row, place, self%is_stale)
+      call get(row, place, self%is_stiff)
       do k = 1, 3
          call get(row, place, self%now%z(:, k))
       end do

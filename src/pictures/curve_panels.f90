@@ -82,16 +82,19 @@ contains
          type(display_unit_t) :: own
          character(:), allocatable :: round
          real(wp) :: range(2)
-         integer :: status
+         integer :: digits, status
 
          range = range_of(panel, side)
          if (range(2) - range(1) > narrow*largest(range) .or. range(2) - range(1) <= constant*largest(range)) return
          if (allocated(words%y(side)%unit%symbol)) return
          own = panel%unit(side)
-         round = real_text(own%factor*0.5_wp*sum(range), 4)
-         read (round, *, iostat=status) panel%less(side)
-         if (status /= 0) return
-         panel%less(side) = panel%less(side)/own%factor
+         do digits = 4, 15
+            round = real_text(own%factor*0.5_wp*sum(range), digits)
+            read (round, *, iostat=status) panel%less(side)
+            if (status /= 0) return
+            panel%less(side) = panel%less(side)/own%factor
+            if (range(2) - range(1) > narrow*largest(range - panel%less(side))) exit
+         end do
          panel%unit(side) = choose_unit(words%y(side)%si, largest(range - panel%less(side)))
          if (side == 1) then
             panel%label = with_unit(panel%quantity(side)%s//" less "//trim(round//" "//own%symbol), panel%unit(side))

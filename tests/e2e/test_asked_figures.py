@@ -209,3 +209,27 @@ figures = loose.force
     second = script.split("scale of the ideal joints")[1]
     least, greatest = (float(end) * unit for end in re.search(r"set yrange \[(.*?):(.*?)\]", second).groups())
     assert least < 0.0 and greatest > 0.5 * 9.81
+
+
+def test_ticks_of_a_narrow_ordinate_differ(gudgeon, tmp_path):
+    """A speed that differs from 62.83185307 rad/s by a billionth of it is drawn less a value so round that what is left fills the axis."""
+    text = """deck = 1
+[bodies]
+name   mass[kg]   inertia[kg.m^2]   x[m]   y[m]   omega[rad/s]
+wheel  1          1                 0      0      62.83185307
+[force.torque]
+name   body    moment
+push   wheel   {1e-7 N.m*sin(2*pi*t/1s)}
+[analysis.dynamic]
+start     = given
+end       = 1 s
+tolerance = 1e-12
+[output]
+every   = 10 ms
+figures = wheel.angular_velocity
+"""
+    call(gudgeon, "run", written(tmp_path, text), "--out", tmp_path / "run", "--quiet")
+    script = (tmp_path / "run" / "figures" / "wheel.angular_velocity.gp").read_text(encoding="utf-8")
+    round_value = float(re.search(r"less ([0-9.]+) rad/s", script).group(1))
+    span = 1e-7 / np.pi
+    assert abs(round_value - 62.83185307) < 1e4 * span

@@ -127,3 +127,63 @@ def test_a_wild_trial_step_is_tried_again(gudgeon_debug):
     call(gudgeon_debug, "run", ROOT / "inputs" / "slider_crank_lubricated.deck", "--method", "dop853", "--tolerance", "1e-6",
          "--out", directory / "out", "--write", "numbers", "--quiet")
     assert Run(directory / "out").summary["status"] == "complete"
+
+
+TOGGLE = """deck = 1
+[scene]
+gravity = 0 -9.81 m/s^2
+[bodies]
+name   mass[kg]   inertia[kg.m^2]   x[mm]               y[mm]                       angle[deg]
+upper  1          4e-3              {50mm*sin(20deg)}   {300mm - 50mm*cos(20deg)}   -70
+lower  1          4e-3              {50mm*sin(20deg)}   {300mm - 150mm*cos(20deg)}  -110
+ram    5          2e-2              0                   {300mm - 200mm*cos(20deg)}  0
+[points]
+name   body     xi[mm]   eta[mm]
+top    ground   0        300
+base   ground   0        0
+side   ground   250      200
+u1     upper    -50      0
+u2     upper    50       0
+l1     lower    -50      0
+l2     lower    50       0
+r      ram      0        0
+[joint.revolute]
+name   i     j
+head   top   u1
+foot   l2    r
+[joint.translational]
+name   i      j   axis
+ways   base   r   y
+[clearance.revolute]
+name   bearing   journal   bearing_radius[mm]   clearance   length[mm]   film     lubricant   level        film_torque
+knee   u2        l1        15                   0.05mm      20           finite   oil         lubricated   on
+[film.finite]
+name
+finite
+[lubricant]
+name   grade        temperature
+oil    iso_vg_100   50degC
+[driver.distance]
+name   i      j    distance
+jack   side   u2   {255 mm - 8mm*sin(2*pi*2Hz*t)}
+[force.spring]
+name   i      j   law                                    damping[N.s/m]   free_length[mm]
+work   base   r   {50 N/mm*x + 2e5 N/m^2 * x*abs(x)}     20               120
+[analysis.dynamic]
+end       = 1 s
+method    = radau
+tolerance = 1e-7
+[output]
+every    = 0.5 ms
+"""
+
+
+def test_rows_between_steps_stay_within_the_film(gudgeon):
+    """A knee pressed for a second on a film of a thousandth of its clearance: rows between the steps are within the clearance as the steps
+    are, and the jack feels what it feels of an ideal knee, to a fifth, where curves through accelerations told of kilonewtons and more."""
+    for tolerance in ("1e-7", "1e-8"):
+        loose = run_of(gudgeon, TOGGLE, "--tolerance", tolerance)
+        assert np.linalg.norm(loose.item("clearances/eccentricity", "knee"), axis=-1).max() < 0.05e-3
+    ideal = run_of(gudgeon, TOGGLE, "--ideal")
+    late = loose.read("time") > 0.25
+    assert np.abs(loose.item("drivers/force", "jack")[late]).max() < 1.2 * np.abs(ideal.item("drivers/force", "jack")).max()

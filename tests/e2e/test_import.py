@@ -437,3 +437,26 @@ def test_broken_statements_end_with_a_message(gudgeon_debug, broken):
     folder = scratch()
     (folder / "a.adm").write_text((MODELS / "pendulum.adm").read_text().replace("END\n", broken + "\nEND\n"))
     call(gudgeon_debug, "import", "a.adm", cwd=folder, expect=(0, 3))
+
+
+def test_a_force_by_the_square_of_a_length_is_a_spring_of_no_length(gudgeon):
+    """It stores least where the length is 0, found to round-off, which is no negative free length; it pulls with -0.5 DM**2."""
+    folder = scratch()
+    text = "s\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1, QG = 0.3048, 0, 0\nMARKER/2, PART = 2\n"
+    (folder / "s.adm").write_text(text + "SFORCE/1, TRANSLATION, I = 2, J = 1, FUNCTION = -0.5*DM(2,1)**2\nEND\n")
+    call(gudgeon, "import", "s.adm", cwd=folder)
+    call(gudgeon, "run", "s.deck", "--set", "end=1s", "--tolerance", "1e-11", "--quiet", cwd=folder)
+    run = h5py.File(folder / "outputs" / "s" / "run.h5")
+    want = solve_ivp(lambda _, y: [y[1], -0.5 * y[0] ** 2], (0, 1), [0.3048, 0.0], t_eval=run["time"][:], rtol=1e-12, atol=1e-13).y[0]
+    assert np.abs(column(run, "bodies", "position", "PART_2")[:, 0] - want).max() < 1e-9
+
+
+def test_degrees_that_look_like_exponents_are_told(gudgeon):
+    """`1D-3` in an expression is a degree less 3, `1D3` and `1E-3` are numbers: the first is on the list, with its line."""
+    folder = scratch()
+    text = "d\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1D-3, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    (folder / "d.adm").write_text(text + "SFORCE/1, I = 2, J = 1, ACTIONONLY, TRANSLATION, FUNCTION = 1d-3*TIME + 1D3 + 1E-3 + 30D\n")
+    said = call(gudgeon, "import", "d.adm", cwd=folder).stdout
+    assert "line 7: '1d-3' is 1 degrees less 3; an exponent is written with E" in said
+    assert said.count("an exponent is written with E") == 1
+    assert "1e-3" in (folder / "d.deck").read_text().lower()

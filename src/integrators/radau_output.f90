@@ -1,0 +1,73 @@
+!> States of Radau IIA between the ends of a step.
+!>
+!> The quintic of `interpolation` takes the accelerations at both ends. In a film of a thousandth of its clearance these are the
+!> product of a damping of 1e11 N.s/m and of what is left of the iteration: a curve with them leaves the clearance between
+!> two states that are within it. There the positions are the integral of the cubic through their derivatives at the start and
+!> at the stages, of order 5, and the rates are the collocation polynomial itself, of order 3.
+!> Source: Hairer and Wanner (1996), section IV.8.
+submodule(radau) radau_output
+   use interpolation, only: interpolate
+   implicit none (type, external)
+
+contains
+
+   !> No evaluations, or those of stages of another length.
+   module procedure radau_prepare_output
+      status = 0
+      if (self%step%h <= 0.0_wp .or. has_stages(self)) return
+      self%count%n_output_evaluations = self%count%n_output_evaluations - self%count%n_evaluations
+      call self%refine(system, 1.0_wp, self%y, status)
+      self%count%n_output_evaluations = self%count%n_output_evaluations + self%count%n_evaluations
+   end procedure radau_prepare_output
+
+   !> Whether the derivatives at hand are those of the last step.
+   pure logical function has_stages(self)
+      class(radau_t), intent(in) :: self  !! the integrator
+
+      has_stages = abs(self%stage%t - self%step%t0) <= 0.0_wp .and. abs(self%stage%h - self%step%h) <= 0.0_wp
+   end function has_stages
+
+   !> By the quintic, the cubics, or the stages.
+   module procedure radau_within
+      real(wp) :: p(0:3), q(3)
+      integer :: first, i, n
+
+      n = size(y)
+      if (.not. system%traits%with_quadratures) n = n - system%n_quadrature
+      call interpolate(self%step, system%n_position, system%traits%n_turning, s, y(:n))
+      if (.not. has_stages(self)) return
+      p = integrals(s)
+      first = 2*system%n_position - system%traits%n_turning + 1
+      if (self%is_stiff) then
+         q = [s*(s - c(2))*(s - c(3))/(c(1)*(c(1) - c(2))*(c(1) - c(3))), &
+              s*(s - c(1))*(s - c(3))/(c(2)*(c(2) - c(1))*(c(2) - c(3))), &
+              s*(s - c(1))*(s - c(2))/(c(3)*(c(3) - c(1))*(c(3) - c(2)))]
+         do i = system%n_position + 1, first - 1
+            y(i) = self%step%y0(i) + q(1)*self%z(i, 1) + q(2)*self%z(i, 2) + q(3)*self%z(i, 3)
+         end do
+      end if
+      associate (step => self%step, f => self%stage%f)
+         do i = 1, n
+            if (i < first .and. .not. (self%is_stiff .and. i <= system%n_position)) cycle
+            y(i) = step%y0(i) + step%h*(p(0)*step%f0(i) + p(1)*f(i, 1) + p(2)*f(i, 2) + p(3)*f(i, 3))
+         end do
+      end associate
+   end procedure radau_within
+
+   !> Integrals from 0 to s of the cubics of Lagrange through 0 and the places of the stages.
+   pure function integrals(s) result(p)
+      real(wp), intent(in) :: s  !! place in the step [1]
+      real(wp) :: p(0:3)         !! (0:3) the integrals [1]
+
+      real(wp), parameter :: places(0:3) = [0.0_wp, c]
+      real(wp) :: others(3)
+      integer :: k
+
+      do k = 0, 3
+         others = pack(places, [0, 1, 2, 3] /= k)
+         p(k) = s*(-product(others) + s*(0.5_wp*(others(1)*others(2) + others(1)*others(3) + others(2)*others(3)) &
+                                         + s*(-sum(others)/3.0_wp + s*0.25_wp)))/product(places(k) - others)
+      end do
+   end function integrals
+
+end submodule radau_output
