@@ -39,6 +39,7 @@ contains
       type(loaded_t), intent(in) :: loaded                 !! the deck
       type(error_t), allocatable, intent(out) :: error     !! what it does not go together with
 
+      character(:), allocatable :: hint, maker
       type(setting_t) :: setting
 
       if (options%digits%accuracy <= 0.0_wp) then
@@ -49,13 +50,19 @@ contains
       else if (options%change%tolerance > 0.0_wp) then
          call set_error(error, exit_usage, "options --accuracy and --tolerance exclude each other: the first chooses the tolerance")
       else
-         ! one by one: a constructor gives both the room of the first
-         setting%method = loaded%scene%settings%dynamic%word("method")
-         setting%way = loaded%scene%settings%dynamic%word("stabilise")
+         maker = loaded%scene%settings%dynamic%word("method")
+         hint = "take another method, as with --method verner"
+         setting%method = maker
+         setting%way = ""
          setting%solver = ""
+         if (.not. has_fixed_steps(setting)) then
+            maker = loaded%scene%settings%dynamic%word("stabilise")
+            hint = "take another way of holding the constraints, as stabilise = projection"
+            setting%way = maker
+         end if
          if (has_fixed_steps(setting)) then
-            call set_error(error, exit_usage, "option --accuracy chooses a tolerance, and '"//setting%word()// &
-                           "' makes fixed steps"//new_line("a")//"  = take another method, as with --method verner")
+            call set_error(error, exit_usage, "option --accuracy chooses a tolerance, and '"//maker//"' makes fixed steps"// &
+                           new_line("a")//"  = "//hint)
          end if
       end if
    end subroutine check_accuracy

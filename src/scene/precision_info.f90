@@ -1,7 +1,8 @@
 !> The section [precision], and the words by which it names settings of an integration.
 !>
 !> A word is `METHOD`, `METHOD.WAY` or `METHOD.WAY.SOLVER`: an integrator, a way of holding the constraints, a solver of the
-!> augmented equations, as in [analysis.dynamic]; `*` stands for all of them. What a word leaves out is as the deck has it.
+!> augmented equations, as in [analysis.dynamic]; `*` stands for all of them but `auto`. What a word leaves out is as the deck
+!> has it.
 module precision_info
    use columns, only: column_of
    use diagnostics, only: diagnostics_t
@@ -38,7 +39,7 @@ contains
       info%source = "E. Hairer, S. P. Noersett, G. Wanner (1993), Solving Ordinary Differential Equations I, section II.10"
       info%is_table = .false.
       call add_words(info, "methods", "settings compared: METHOD, METHOD.WAY or METHOD.WAY.SOLVER with the words of `method`, " &
-                     //"`stabilise` and `solver` of [analysis.dynamic]; * for all of them; what is left out is the deck's own", &
+                     //"`stabilise` and `solver` of [analysis.dynamic]; * for all but auto; what is left out is the deck's own", &
                      default=choices_of("method"))
       call add_number(info, "coarsest", dim_none, "tolerance that a ladder begins with", default="1e-3", lower=least_tolerance, &
                       upper=0.01_wp)
@@ -67,7 +68,7 @@ contains
       call add_number(info, "budget", dim_time, "time that all of it may take; 0: no limit", default="60 s", lower=0.0_wp)
    end function precision_section
 
-   !> Words of a key of [analysis.dynamic], without `auto`, which is the deck's own or chosen for it.
+   !> Words of a key of [analysis.dynamic].
    function choices_of(key) result(words)
       character(*), intent(in) :: key         !! method, stabilise or solver
       character(:), allocatable :: words      !! blank-separated
@@ -76,8 +77,16 @@ contains
 
       info = dynamic_info()
       words = info%columns(column_of(info, trim(key)))%choices
-      if (index(words, "auto ") == 1) words = piece(words, 6)
    end function choices_of
+
+   !> What a star stands for: all words of a key but `auto`, which is one of the others, chosen for the deck.
+   function all_of(key) result(words)
+      character(*), intent(in) :: key         !! method, stabilise or solver
+      character(:), allocatable :: words      !! blank-separated
+
+      words = choices_of(key)
+      if (index(words, "auto ") == 1) words = piece(words, 6)
+   end function all_of
 
    !> The word that names a setting.
    pure function word(self) result(name)
@@ -183,7 +192,7 @@ contains
          if (place > size(parts)) then
             call append_text(list, "")
          else if (parts(place)%s == "*") then
-            list = split_blank(choices_of(keys(place)))
+            list = split_blank(all_of(keys(place)))
          else
             call append_text(list, parts(place)%s)
          end if

@@ -252,7 +252,9 @@ def test_bad_options(gudgeon, options, code, words):
 def test_what_it_does_not_go_with(gudgeon):
     """Fixed steps, analyses without a tolerance in time, channels without a true value, and the sweep."""
     fixed = changed(SPRING, "analysis.dynamic", method="rk4", step="1 ms")
-    assert "makes fixed steps" in accurate(gudgeon, fixed, "--accuracy", "1e-6", expect=2).done.stderr
+    assert "'rk4' makes fixed steps" in accurate(gudgeon, fixed, "--accuracy", "1e-6", expect=2).done.stderr
+    held = changed(fixed, "analysis.dynamic", method="verner", stabilise="baumgarte_step")
+    assert "'baumgarte_step' makes fixed steps" in accurate(gudgeon, held, "--accuracy", "1e-6", expect=2).done.stderr
     kinematic = ROOT / "inputs" / "four_bar_kinematic.deck"
     assert "[analysis.dynamic]" in call(gudgeon, "run", kinematic, "--out", scratch() / "out", "--accuracy", "1e-6", expect=2).stderr
     residual = changed(SPRING, "output", channels="energy.residual")

@@ -456,6 +456,19 @@ def test_the_section_is_echoed(gudgeon):
     assert [row["steps"] for row in again.rows] == [row["steps"] for row in study.rows]
 
 
+def test_auto_takes_the_place_of_the_decks_own_way(gudgeon):
+    """`auto` is a word as any: what is chosen for the scene, here projection, not the deck's gains."""
+    four_bar = (HARD / "a02_four_bars_1.deck").read_text()
+    deck = changed(four_bar, "analysis.dynamic", end="1 s", stabilise="baumgarte alpha=5s^-1 beta=5s^-1") + ladders()
+    study = compared(gudgeon, deck, "--methods", "verner verner.projection verner.auto verner.auto.auto")
+
+    def told(setting):
+        return [(row["steps"], row["rhs"], row["violation [m]"]) for row in study.ladder(setting)]
+
+    assert told("verner.auto") == told("verner.projection") == told("verner.auto.auto")
+    assert told("verner")[0][2] > 1e3 * told("verner.auto")[0][2]
+
+
 def test_with_run_time_checks(gudgeon_debug):
     """All methods, ways and solvers of a short motion with impacts, in the build with run-time checks."""
     text = plain_deck([("analysis.dynamic", "end", "2 ms")]) + ladders(finest="1e-6", step_decades=1)

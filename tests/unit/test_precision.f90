@@ -52,6 +52,9 @@ contains
       call check_equal(error, size(settings), n_integrator_kinds, "all methods")
       call settings_of(split_blank("*.none.*"), settings)
       call check_equal(error, size(settings), 5*n_integrator_kinds, "all methods and solvers")
+      call settings_of(split_blank("verner.auto verner.baumgarte.auto"), settings)
+      call check_equal(error, settings(1)%way, "auto", "the way chosen for the scene, whatever the deck has")
+      call check_equal(error, settings(2)%solver, "auto", "the solver chosen for the scene")
    end subroutine test_words
 
    !> A wrong part is told with the nearest word.
@@ -63,8 +66,10 @@ contains
       call check_setting_word("verner.projektion", message, hint)
       call check_equal(error, message, "unknown way of holding constraints 'projektion'", "a wrong way")
       call check_true(error, index(hint, "did you mean 'projection'?") == 1, "the nearest way")
-      call check_setting_word("verner.auto", message, hint)
-      call check_true(error, message /= "", "auto is no way of its own")
+      call check_setting_word("auto", message, hint)
+      call check_true(error, message /= "", "auto is no method")
+      call check_setting_word("verner.auto.auto", message, hint)
+      call check_equal(error, message, "", "auto is a word of the way and of the solver")
       call check_setting_word("verner..schur", message, hint)
       call check_true(error, message /= "", "an empty part")
       call check_setting_word("verner.none.schur.lapack", message, hint)
