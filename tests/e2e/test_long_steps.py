@@ -39,7 +39,7 @@ name body xi[m] eta[m]
 heart ball 0 0
 [force.point]
 name point fx fy
-pull heart {sqrt(0.5 - t/(1 s))*(1 N)} 0
+pull heart {sqrt(0.5 - t/(1 s))*(1 N)} {0 N}
 [analysis.dynamic]
 end = 1 s
 """
