@@ -2,6 +2,7 @@
 module run_failure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use errors, only: error_t, exit_file, exit_integration, set_error
+   use fixed_step, only: too_long
    use integrator, only: advance_failed_evaluation, advance_no_memory, advance_too_many_evaluations, &
       advance_too_many_steps, integrator_t
    use kinds, only: wp
@@ -24,7 +25,7 @@ contains
    !> Say when, where and why the integration cannot go on, and what to try.
    subroutine describe_failure(system, method, status, error, reason)
       type(mechanism_t), intent(inout) :: system      !! the system
-      class(integrator_t), intent(in) :: method           !! the integrator
+      class(integrator_t), intent(inout) :: method        !! the integrator; fixed steps: its last step is lost
       integer, intent(in) :: status                       !! how it failed
       type(error_t), allocatable, intent(out) :: error    !! the message
       character(*), intent(in), optional :: reason        !! of a guard: what it says
@@ -74,9 +75,31 @@ contains
                    real_text(abs(system%linkage%rows%phi(row)), 3)//trim(merge(" rad", " m  ", system%linkage%rows%is_angle(row)))
       end if
       message = message//wedged_joint(system)//deepest_contact(system, method)//new_line("a")// &
-                "  = everything up to the last output instant was saved; "//advice(status)
+                "  = everything up to the last output instant was saved; "
+      call blame_step(system, method, status, message)
       call set_error(error, merge(exit_file, exit_integration, status == advance_no_memory), message)
    end subroutine describe_failure
+
+   !> What to try; and where a fixed step is too long, that first: whatever else was noticed came of it.
+   subroutine blame_step(system, method, status, message)
+      type(mechanism_t), intent(inout) :: system              !! the system
+      class(integrator_t), intent(inout) :: method            !! the integrator; fixed steps: its last step is lost
+      integer, intent(in) :: status                           !! how it failed
+      character(:), allocatable, intent(inout) :: message     !! what is known
+
+      character(:), allocatable :: cause
+
+      cause = ""
+      select case (status)
+      case (advance_failed_evaluation, constraints_lost, events_without_end, guard_reached)
+         cause = too_long(system, method)
+      end select
+      if (cause == "") then
+         message = message//advice(status)
+      else
+         message = cause//new_line("a")//"  = seen by: "//message//"take a shorter step, or a method that chooses its steps"
+      end if
+   end subroutine blame_step
 
    !> What is not a finite number after an evaluation that failed: a driver, or a load.
    function not_finite(system) result(words)

@@ -18,7 +18,7 @@ module dop853
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_t
+   use one_step, only: one_step_t, wild
    use step_course, only: along, course_even, pace_at, parameter_of
    implicit none (type, external)
    private
@@ -91,7 +91,6 @@ module dop853
 
    integer, parameter :: n_new_stage = 11  !! evaluations of a trial step; the first stage is known
    integer, parameter :: n_term = 7        !! terms of the interpolant of order 7
-   real(wp), parameter :: wild = 1.0e60_wp !! derivative of a trial step far too long for a stiff force [any]
 
    !> The method with its workspace.
    type, extends(one_step_t) :: dop853_t

@@ -7,6 +7,7 @@
 !> the step, each time by the method itself, so that the event function is zero to round-off and the
 !> time of the event is as accurate as the step. Onsets of contacts may be met in other ways: `onset_control`.
 module one_step
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use event_location, only: find_first_event
    use event_prediction, only: foretell_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations
@@ -19,7 +20,9 @@ module one_step
    implicit none (type, external)
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   public :: is_wild, wild
 
+   real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
 
    !> A one-step method.
@@ -236,12 +239,23 @@ contains
       if (status == 0) then
          call system%evaluate(t_new, self%trial, self%step%f1, status)
          self%count%n_evaluations = self%count%n_evaluations + 1
+         if (status == 0 .and. self%controls%fixed_step > 0.0_wp) then
+            if (is_wild(self%step%f1)) status = 1
+         end if
       end if
       if (status /= 0) norm = huge(1.0_wp)
       if (status == 0 .and. self%controls%onset == onset_reject) then
          if (is_too_deep(system, self, t_new, self%trial)) status = too_deep
       end if
    end subroutine try_step
+
+   !> Whether a derivative is that of a step far too long, or no number: nothing can be evaluated from there on.
+   pure logical function is_wild(f)
+      real(wp), intent(in) :: f(:)   !! (n) derivative [any]
+
+      is_wild = .not. all(ieee_is_finite(f))
+      if (.not. is_wild) is_wild = maxval(abs(f)) > wild
+   end function is_wild
 
    !> Tell the system the step. A system that follows it was evaluated at the start just before, also after a step that was
    !> rejected, and its derivative there is the one that belongs to the step.

@@ -13,7 +13,7 @@ module rk4
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_t
+   use one_step, only: is_wild, one_step_t
    implicit none (type, external)
    private
    public :: rk4_t
@@ -75,16 +75,19 @@ contains
             y(i) = y0(i) + 0.5_wp*h*k1(i)
          end do
          call system%evaluate(t + 0.5_wp*h, y, k(:, 2), status)
+         if (status == 0 .and. is_wild(k(:, 2))) status = 1
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + 0.5_wp*h*k(i, 2)
          end do
          call system%evaluate(t + 0.5_wp*h, y, k(:, 3), status)
+         if (status == 0 .and. is_wild(k(:, 3))) status = 1
          if (status /= 0) return
          do concurrent(i=1:n)
             y(i) = y0(i) + h*k(i, 3)
          end do
          call system%evaluate(t + h, y, k(:, 4), status)
+         if (status == 0 .and. is_wild(k(:, 4))) status = 1
          if (status /= 0) return
          do concurrent(i=1:n)
             self%trial(i) = y0(i) + h/6.0_wp*(k1(i) + 2.0_wp*(k(i, 2) + k(i, 3)) + k(i, 4))
