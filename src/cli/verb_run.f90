@@ -33,7 +33,7 @@ module verb_run
    use saved_run, only: saved_run_t
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
    use scene_echo, only: echo_scene
-   use setting_run, only: first_line, job_t
+   use setting_run, only: first_line, job_t, shorter
    use start_state, only: find_start, ideal_start_t
    use subsystems, only: new_subsystems, subsystem_t
    use text, only: starts_with, to_text
@@ -283,7 +283,8 @@ contains
       end if
    end subroutine begin_motion
 
-   !> How fast neighbouring motions part, by the tangent, and how long digits of this run mean anything.
+   !> How fast neighbouring motions part, by the tangent, and how long digits of this run mean anything. It may take the budget
+   !> of [precision], or that of the command line, and no more than the deck allows any motion.
    subroutine look_ahead(options, loaded, horizon)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
@@ -294,7 +295,8 @@ contains
       job%scene = loaded%scene
       job%settings = loaded%scene%settings%dynamic%item_t
       job%start = options%change%member
-      job%cpu = job%settings%number("limit_cpu")
+      job%cpu = shorter(merge(options%digits%budget, loaded%scene%settings%precision%number("budget"), &
+                              options%digits%budget > 0.0_wp), job)
       call plan_horizon(loaded%scene%settings%precision%item_t, loaded%plan%end, horizon)
       if (job%settings%number("step") <= 0.0_wp) horizon%asked = job%settings%number("tolerance")
       call find_horizon(job, horizon)
