@@ -43,7 +43,9 @@ contains
       type(setting_t) :: setting
 
       if (options%digits%accuracy <= 0.0_wp) then
-         if (options%digits%budget > 0.0_wp) call set_error(error, exit_usage, "option --budget of run is for --accuracy")
+         if (options%digits%budget > 0.0_wp .and. .not. options%digits%with_horizon) then
+            call set_error(error, exit_usage, "option --budget of run is for --accuracy and --horizon")
+         end if
       else if (loaded%scene%analysis /= analysis_dynamic) then
          call set_error(error, exit_usage, "option --accuracy is for the section [analysis.dynamic]: a kinematic or static "// &
                         "analysis solves its equations to the tolerance asked for")

@@ -70,7 +70,7 @@ module command_words
       option_t("--shard", "I/N", "every N-th run from the I-th on, into DIR.shards/I-of-N, for `gudgeon merge DIR`"), &
       option_t("--methods", "LIST", "settings compared, as ""verner rk4 verner.baumgarte"", instead of the deck's"), &
       option_t("--accuracy", "X", "greatest relative error wanted; of run: choose the tolerance that keeps it"), &
-      option_t("--budget", "TIME", "time that all runs may take, as 60s, instead of the deck's (run: with --accuracy)"), &
+      option_t("--budget", "TIME", "time of all runs, as 60s, instead of the deck's (run: with --accuracy, --horizon)"), &
       option_t("--legacy", "WAY", "run with fixed steps, the book's formulas, and onsets of contacts by its procedure 1 or 2"), &
       option_t("--adams", "", "parameters of Adams' IMPACT function that come nearest to each contact law"), &
       option_t("--channel", "SPEC", "a channel and its column, as ""rod.angle=3 unit=deg absolute=1e-3""", .true.), &

@@ -283,7 +283,8 @@ contains
       end if
    end subroutine begin_motion
 
-   !> How fast neighbouring motions part, by the tangent, and how long digits of this run mean anything.
+   !> How fast neighbouring motions part, by the tangent, and how long digits of this run mean anything. It may take the budget
+   !> of [precision], or that of the command line, and no more than the deck allows any motion.
    subroutine look_ahead(options, loaded, horizon)
       type(options_t), intent(in) :: options               !! the command line
       type(loaded_t), intent(in) :: loaded                 !! the deck
@@ -295,6 +296,7 @@ contains
       job%settings = loaded%scene%settings%dynamic%item_t
       job%start = options%change%member
       job%cpu = job%settings%number("limit_cpu")
+      job%clock = merge(options%digits%budget, loaded%scene%settings%precision%number("budget"), options%digits%budget > 0.0_wp)
       call plan_horizon(loaded%scene%settings%precision%item_t, loaded%plan%end, horizon)
       if (job%settings%number("step") <= 0.0_wp) horizon%asked = job%settings%number("tolerance")
       call find_horizon(job, horizon)

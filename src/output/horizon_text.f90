@@ -31,7 +31,8 @@ contains
       else
          call lines%line("exponent   by the tangent not known: "//horizon%tangent%reason)
       end if
-      if (horizon%is_cut) call lines%line("           there its time was up: more of it goes on to the end of the motion")
+      if (horizon%is_cut) call lines%line("           there its time was up, before the end of the motion: "// &
+                                          "more of it (--budget) goes on")
       if (horizon%twin%reason == "") then
          call lines%line("           "//rate_text(horizon%twin%rate)//" by a twin, brought back "//to_text(horizon%n_renewed)// &
                          " times"//agreement(horizon))

@@ -75,7 +75,8 @@ contains
          if (allocated(error)) return
          self%is_late = self%budget%is_spent()
          if (self%is_late) then
-            call set_error(error, exit_integration, "its time was up at t = "//real_text(self%method%t, 4)//" s")
+            call set_error(error, exit_integration, "its time was up at t = "//real_text(self%method%t, 4)// &
+                           " s: more of it (--budget) goes on")
             return
          end if
          if (present(tangent)) then
