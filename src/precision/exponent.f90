@@ -47,7 +47,7 @@ module exponent
       integer :: n_renewed = 0                      !! times that the twin was brought near again
       real(wp) :: digits(n_digit) = 0.0_wp          !! (k) time up to which doubles can have k digits; NaN: beyond [s]
       real(wp) :: run_digits(n_digit) = 0.0_wp      !! (k) the same of a run of tolerance `asked` [s]
-      logical :: is_cut = .false.                   !! the instants end where the processor time was up
+      logical :: is_cut = .false.                   !! the instants end where the time was up
       logical :: with_twin = .false.                !! the twin was asked for
       logical :: is_agreed = .false.                !! both methods are known, and agree within their intervals
    end type horizon_t

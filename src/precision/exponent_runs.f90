@@ -27,7 +27,7 @@ module exponent_runs
    real(wp), parameter :: horizon_tolerance = 1.0e-11_wp   !! of the motions [1]
    real(wp), parameter :: distance = 1.0e-7_wp             !! of the twin, of the scales [1]
    real(wp), parameter :: far = 1.0e-3_wp                  !! distance at which it is no longer beside the motion [1]
-   integer, parameter :: fewest_instants = 64              !! reached before the processor time was up, for an exponent up to there
+   integer, parameter :: fewest_instants = 64              !! reached before the time was up, for an exponent up to there
    real(wp), parameter :: out_of_reach = 3.0_wp            !! distance, over the one wanted, from which it is brought back [1]
    character(*), parameter :: on_constraints = "projection"  !! way of holding: both motions are on them, as a twin that is put back
 
@@ -59,7 +59,7 @@ contains
 
    !> Exponent and digits by the tangent.
    subroutine find_horizon(job, horizon)
-      type(job_t), intent(inout) :: job                  !! scene, settings, processor time
+      type(job_t), intent(inout) :: job                  !! scene, settings, times
       type(horizon_t), intent(inout) :: horizon          !! planned; exponent of the tangent and digits follow
 
       type(error_t), allocatable :: error
@@ -115,9 +115,9 @@ contains
       horizon%is_cut = .true.
    end subroutine cut
 
-   !> Exponent by a twin. Where its processor time is up before the last instant, behind half of them, both exponents end there.
+   !> Exponent by a twin. Where its time is up before the last instant, behind half of them, both exponents end there.
    subroutine horizon_with_twin(job, horizon)
-      type(job_t), intent(inout) :: job                  !! scene, settings, processor time
+      type(job_t), intent(inout) :: job                  !! scene, settings, times
       type(horizon_t), intent(inout) :: horizon          !! planned; exponent of the twin follows
 
       type(error_t), allocatable :: error
