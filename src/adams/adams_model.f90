@@ -323,8 +323,7 @@ contains
             end do
          end if
          if (size(ip) == 6) then
-            j(1, 2) = -ip(4)*unit
-            j(1, 3) = -ip(5)*unit
+            j(1, 2:3) = -ip(4:5)*unit
             j(2, 3) = -ip(6)*unit
             j(2:3, 1) = j(1, 2:3)
             j(3, 2) = j(2, 3)
