@@ -314,8 +314,8 @@ contains
          call argument_numbers(it, "IP", ip, mistakes)
          if (size(ip) > 0 .and. size(ip) /= 3 .and. size(ip) /= 6) call mistake(mistakes, it%line, &
                                                                                  "IP has three numbers, or six", "")
-         if (part%mass < 0.0_wp .or. any(ip(:min(3, size(ip))) < 0.0_wp)) &
-            call mistake(mistakes, it%line, "PART/"//to_text(part%id)//" has a negative mass or moment of inertia", "")
+         if (min(part%mass, minval(ip(:min(3, size(ip))))) < 0.0_wp) call mistake(mistakes, it%line, "PART/"//to_text(part%id)// &
+                                                                         " has a negative mass or moment of inertia", "")
          j = 0.0_wp
          if (size(ip) >= 3) then
             do k = 1, 3

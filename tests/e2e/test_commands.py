@@ -324,3 +324,23 @@ every = 1 s
         call(gudgeon, "run", written(tmp_path, ball.replace("ONSET", onset)), "--out", tmp_path / onset, "--quiet", "--write", "numbers")
         counts[onset] = json.loads((tmp_path / onset / "summary.json").read_text())["contacts"]
     assert counts == {"located": 1, "uncontrolled": 0}
+
+
+def test_check_says_how_far_bodies_are_moved(gudgeon, tmp_path):
+    """A wheel put 50 mm below its pin is moved by as much as it is assembled."""
+    text = """deck = 1
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]
+bob   1         1                OFF
+[points]
+name   body    xi[m]  eta[m]
+hook   ground  0      0
+eye    bob     0      0
+[joint.revolute]
+name  i     j
+pin   hook  eye
+[analysis.dynamic]
+end = 1 s
+"""
+    assert "bodies moved by up to 0 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 0"))).stdout
+    assert "bodies moved by up to 0.05 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 -0.05"))).stdout
