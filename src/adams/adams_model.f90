@@ -305,7 +305,6 @@ contains
       associate (it => model%statements(part%statement), unit => model%units%mass*model%units%length**2)
          call argument_numbers(it, "MASS", mass, mistakes, 1)
          if (size(mass) > 0) part%mass = mass(1)*model%units%mass
-         if (part%mass < 0.0_wp) call mistake(mistakes, it%line, "PART/"//to_text(part%id)//" has a negative mass", "")
          cm = model%marker(id_of(it, "CM", mistakes))
          im = model%marker(id_of(it, "IM", mistakes))
          if (cm == 0 .and. find_argument(it, "CM") > 0) call mistake(mistakes, it%line, "the CM marker is not there", "")
@@ -315,6 +314,8 @@ contains
          call argument_numbers(it, "IP", ip, mistakes)
          if (size(ip) > 0 .and. size(ip) /= 3 .and. size(ip) /= 6) call mistake(mistakes, it%line, &
                                                                                  "IP has three numbers, or six", "")
+         if (min(part%mass, minval(ip(:min(3, size(ip))))) < 0.0_wp) call mistake(mistakes, it%line, "PART/"//to_text(part%id)// &
+                                                                         " has a negative mass or moment of inertia", "")
          j = 0.0_wp
          if (size(ip) >= 3) then
             do k = 1, 3
@@ -322,11 +323,9 @@ contains
             end do
          end if
          if (size(ip) == 6) then
-            j(1, 2) = -ip(4)*unit
-            j(1, 3) = -ip(5)*unit
+            j(1, 2:3) = -ip(4:5)*unit
             j(2, 3) = -ip(6)*unit
-            j(2, 1) = j(1, 2)
-            j(3, 1) = j(1, 3)
+            j(2:3, 1) = j(1, 2:3)
             j(3, 2) = j(2, 3)
          end if
          if (im > 0) then

@@ -50,7 +50,8 @@ contains
       call say(loaded%path//": no mistakes; "//counted(loaded%system%linkage%bodies%n, "body", "bodies")//", "// &
                counted(loaded%system%linkage%rows%n, "constraint row", "constraint rows")//", "// &
                counted(loaded%system%loose%n, "loose joint", "loose joints")//"; assembled to "// &
-               real_text(assembly%residual, 2)//" m or rad"//sweep_text(loaded)//comparison_text(loaded))
+               real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)//" m"// &
+               sweep_text(loaded)//comparison_text(loaded))
    end subroutine check_deck
 
    !> How many cases and runs a sweep of the deck has; blank if it has none.

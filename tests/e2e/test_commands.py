@@ -285,3 +285,62 @@ def test_a_mechanism_that_cannot_be_assembled(gudgeon):
         done = call(gudgeon, verb, deck, cwd=directory, expect=4)
         assert re.search(r"main|big_end|guide|gudgeon", done.stderr)
         assert list(directory.iterdir()) == []
+
+
+def test_explain_says_where_contacts_are_looked_for(gudgeon, tmp_path):
+    """Within steps where onsets are located; else at their ends only, as a contact shorter than a step shows."""
+    assert "contacts are looked for at 8 places of a step" in call(gudgeon, "explain", DECK).stdout
+    deck = written(tmp_path, plain_deck((("analysis.dynamic", "contact_onset", "interpolate"),)))
+    text = call(gudgeon, "explain", deck).stdout
+    assert "at the ends of steps only (contact_onset = interpolate)" in text and "8 places" not in text
+    ball = """deck = 1
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]  vx[m/s]
+ball  1         1e-3             -1.25 0.09  1
+[points]
+name  body    xi[m]  eta[m]
+post  ground  0      0
+core  ball    0      0
+[material]
+name   young[GPa]  poisson
+steel  207         0.3
+[contact.hertz]
+name
+hertz
+[clearance.discs]
+name  i     j     radius_i[mm]  radius_j[mm]  material  law
+hit   post  core  50            50            steel     hertz
+[analysis.dynamic]
+start = given
+end   = 2.5 s
+contact_onset = ONSET
+step  = 0.5 s
+method = rk4
+[output]
+every = 1 s
+"""
+    counts = {}
+    for onset in ("located", "uncontrolled"):
+        call(gudgeon, "run", written(tmp_path, ball.replace("ONSET", onset)), "--out", tmp_path / onset, "--quiet", "--write", "numbers")
+        counts[onset] = json.loads((tmp_path / onset / "summary.json").read_text())["contacts"]
+    assert counts == {"located": 1, "uncontrolled": 0}
+
+
+def test_check_says_how_far_bodies_are_moved(gudgeon, tmp_path):
+    """A wheel put 50 mm below its pin is moved by as much as it is assembled."""
+    text = """deck = 1
+[bodies]
+name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]
+bob   1         1                OFF
+[points]
+name   body    xi[m]  eta[m]
+hook   ground  0      0
+eye    bob     0      0
+[joint.revolute]
+name  i     j
+pin   hook  eye
+[analysis.dynamic]
+end = 1 s
+"""
+    assert "bodies moved by up to 0 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 0"))).stdout
+    assert "bodies moved by up to 0.05 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 -0.05"))).stdout

@@ -386,6 +386,7 @@ def test_refused_by_name(gudgeon):
     ("JOI/1, SPHERICAL, I = 2, J = 1", "JOINT/1 is there twice"),
     ("VARIABLE/7, FUNCTION = 2\nVAR/7, FUNCTION = 3", "VARIABLE/7 is there twice"),
     ("PART/3, MASS = -1, CM = 3\nMARKER/3, PART = 3", "PART/3 has a negative mass"),
+    ("PART/3, MASS = 1, CM = 3, IP = 1, -1, 1\nMARKER/3, PART = 3", "PART/3 has a negative mass or moment of inertia"),
 ])
 def test_statements_there_twice_and_negative_masses(gudgeon, line, words):
     """Which of two markers of one number is meant nobody can say: a mistake with its line, and no deck."""
