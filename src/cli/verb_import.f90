@@ -6,10 +6,10 @@ module verb_import
    use errors, only: error_t, exit_file, exit_usage, set_error
    use load, only: load_deck, loaded_t
    use options, only: options_t
-   use posix, only: path_exists
+   use posix, only: make_directory, path_exists
    use source_text, only: read_source, source_t
    use text, only: append_text, counted, lower, text_t
-   use text_file, only: write_file
+   use text_file, only: fail_file, write_file
    implicit none (type, external)
    private
    public :: import_model
@@ -27,6 +27,7 @@ contains
       type(options_t) :: check
       type(source_t) :: source
       character(:), allocatable :: message, path
+      integer :: code
 
       if (size(options%operands) /= 1) then
          call set_error(error, exit_usage, "'gudgeon import' needs one dataset: gudgeon import MODEL.adm writes MODEL.deck")
@@ -46,7 +47,12 @@ contains
       call import_dataset(source, base_name(options%operands(1)%s), imported, mistakes)
       call mistakes%to_error([source], error)
       if (allocated(error)) return
-      call write_file(path, imported%deck, error)
+      if (allocated(options%directory)) then
+         code = make_directory(options%directory)
+         if (code /= 0) call fail_file(error, "cannot make the directory", options%directory, code, &
+                                       "Name another one with --out DIRECTORY.")
+      end if
+      if (.not. allocated(error)) call write_file(path, imported%deck, error)
       if (allocated(error)) return
       call report(path, imported)
       check%verb = "check"

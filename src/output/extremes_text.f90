@@ -37,16 +37,22 @@ contains
          width = max(width, min(len(full_name(extremes, catalogue, list(i))), widest_name))
       end do
       call lines%line("")
-      call lines%line("extremes"//repeat(" ", width + 3)//right("least")//right("at [s]")//right("greatest")//right("at [s]")// &
-                      right("mean")//right("rms"))
+      if (extremes%has_time()) then
+         call lines%line("extremes"//repeat(" ", width + 3)//right("least")//right("at [s]")//right("greatest")//right("at [s]")// &
+                         right("mean")//right("rms"))
+      else
+         call lines%line("values")
+      end if
       do i = 1, size(list)
          k = list(i)
          name = full_name(extremes, catalogue, k)
          associate (one => extremes%of(k))
-            call lines%line("           "//name//repeat(" ", max(width - len(name), 0))//right(real_text(one%least, 5))// &
-                            right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
-                            right(real_text(one%greatest_time, 6))//right(real_text(extremes%shown_mean(k), 5))// &
-                            right(real_text(extremes%rms(k), 5)))
+            call lines%add("           "//name//repeat(" ", max(width - len(name), 0))//right(real_text(one%least, 5)))
+            if (extremes%has_time()) call lines%add(right(real_text(one%least_time, 6))//right(real_text(one%greatest, 5))// &
+                                                    right(real_text(one%greatest_time, 6))// &
+                                                    right(real_text(extremes%shown_mean(k), 5))// &
+                                                    right(real_text(extremes%rms(k), 5)))
+            call lines%line("")
          end associate
       end do
       if (n > size(list)) call lines%line("           "//to_text(n - size(list))//" more in summary.json and in run.h5, /extremes")

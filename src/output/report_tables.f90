@@ -103,6 +103,10 @@ contains
       if (size(extremes%channels) == 0) return
       time = choose_unit("s", abs(time_end))
       n = min(size(extremes%channels), most_channels)
+      if (.not. extremes%has_time()) then
+         call values_table(lines, extremes, catalogue)
+         return
+      end if
       call head(lines, "extremes", "Extremes of the channels")
       call begin_table(lines, [character(16) :: "channel", "unit", "least", "at ["//time%symbol//"]", "greatest", &
                                "at ["//time%symbol//"]", "mean", "rms"])
@@ -116,6 +120,26 @@ contains
       end do
       call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")
    end subroutine extremes_table
+
+   !> Values of the channels at one instant.
+   subroutine values_table(lines, extremes, catalogue)
+      type(buffer_t), intent(inout) :: lines        !! the page
+      type(extremes_t), intent(in) :: extremes      !! what was gathered
+      type(catalogue_t), intent(in) :: catalogue    !! what can be recorded
+
+      type(display_unit_t) :: unit
+      integer :: k, n
+
+      n = min(size(extremes%channels), most_channels)
+      call head(lines, "extremes", "Values of the channels")
+      call begin_table(lines, [character(7) :: "channel", "unit", "value"])
+      do k = 1, n
+         unit = choose_unit(catalogue%groups(extremes%channels(k)%group)%channel%unit, abs(extremes%of(k)%least))
+         call lines%line("<tr><td>"//escaped(scalar_name(catalogue, extremes%channels(k)), .true.)//"</td><td>"//unit%symbol// &
+                         "</td>"//cell(extremes%of(k)%least, unit)//"</tr>")
+      end do
+      call end_table(lines, size(extremes%channels) - n, "run.h5, /extremes/channels")
+   end subroutine values_table
 
    !> What the loose joints went through.
    subroutine joint_table(lines, joints, time_end)

@@ -40,6 +40,7 @@ module extremes
       procedure :: start => start_extremes
       procedure :: sample => sample_extremes
       procedure :: note => note_extremes
+      procedure :: has_time
       procedure :: mean => mean_of
       procedure :: shown_mean
       procedure :: is_nothing
@@ -140,13 +141,20 @@ contains
       end if
    end function value_of
 
+   !> Whether there are two instants, so that something can pass: an equilibrium is one.
+   pure logical function has_time(self)
+      class(extremes_t), intent(in) :: self   !! what was gathered
+
+      has_time = self%n_sample > 1 .and. self%t_last > self%t_first
+   end function has_time
+
    !> Mean of a number over the time; NaN: there is no time.
    pure real(wp) function mean_of(self, k)
       class(extremes_t), intent(in) :: self   !! what was gathered
       integer, intent(in) :: k                !! which number
 
       mean_of = not_a_number()
-      if (self%n_sample > 1 .and. self%t_last > self%t_first) mean_of = self%of(k)%integral/(self%t_last - self%t_first)
+      if (self%has_time()) mean_of = self%of(k)%integral/(self%t_last - self%t_first)
    end function mean_of
 
    !> The same for people: what is round-off beside the root mean square is zero.
@@ -157,7 +165,7 @@ contains
       real(wp), parameter :: round_off = 1.0e-12_wp  ! of the root mean square [1]
 
       mean = self%mean(k)
-      if (.not. (self%n_sample > 1 .and. self%t_last > self%t_first)) return
+      if (.not. self%has_time()) return
       if (abs(mean) < round_off*self%rms(k)) mean = 0.0_wp
    end function shown_mean
 
@@ -175,7 +183,7 @@ contains
       integer, intent(in) :: k                !! which number
 
       rms_of = not_a_number()
-      if (self%n_sample > 1 .and. self%t_last > self%t_first) rms_of = sqrt(self%of(k)%integral_2/(self%t_last - self%t_first))
+      if (self%has_time()) rms_of = sqrt(self%of(k)%integral_2/(self%t_last - self%t_first))
    end function rms_of
 
    !> What the contacts of all loose joints went through between two instants.

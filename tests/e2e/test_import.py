@@ -336,6 +336,17 @@ def test_expressions(gudgeon):
         assert np.abs(force - [meaning(t) for t in run["time"][:]]).max() < 1e-9, expression
 
 
+def test_a_directory_is_made(gudgeon):
+    """The directory that `--out` names is made, those above it too, as for a run."""
+    place = scratch() / "new" / "room"
+    call(gudgeon, "import", ROOT / "tests" / "adams" / "splines.adm", "--out", place)
+    assert (place / "splines.deck").exists()
+    blocked = scratch() / "file"
+    blocked.write_text("")
+    done = call(gudgeon, "import", ROOT / "tests" / "adams" / "splines.adm", "--out", blocked / "in", expect=9)
+    assert "cannot make the directory" in done.stderr
+
+
 def test_import_takes_time_in_proportion(gudgeon):
     """Thousands of statements, and thousands of lines of one statement: four times as many take less than ten times as long."""
     folder = scratch()
