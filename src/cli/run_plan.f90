@@ -47,6 +47,7 @@ contains
       call tell_origin(options, loaded, plan)
       if (options%write /= "nothing") plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
       plan%title = loaded%scene%title
+      plan%moved = assembly%moved
       plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
       if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
       call plan_statistics(loaded, plan%statistics)

@@ -24,6 +24,7 @@ module summary_writer
    public :: accuracy_lines, complete_summary, cost_lines, first_impacts, headline, outcome_t, summary_json, summary_lines
 
    integer, parameter :: most_impacts = 5          !! rows of the table of first impacts
+   real(wp), parameter :: worth_telling = 1.0e-6_wp  !! way of a body in the assembly [m]
    character(*), parameter :: kind_contact = "contact"  !! kind of event that is an impact
 
    !> What a run left behind besides its numbers.
@@ -94,6 +95,8 @@ contains
       if (len(summary%equilibrium) > 0) call lines%line("equilibrium: "//summary%equilibrium)
       call linear_lines(lines, summary%linear)
       call lines%line("")
+      if (plan%moved > worth_telling) call lines%line("start      bodies were moved by up to "//real_text(plan%moved, 3)// &
+                                                      " m from where the deck puts them, to close the joints")
       call cost_lines(lines, summary)
       call accuracy_lines(lines, summary)
       if (plan%accuracy%asked > 0.0_wp) call asked_lines(lines, plan%accuracy)
@@ -278,6 +281,7 @@ contains
       call json%put_text("title", plan%title)
       call json%put_text("directory", plan%directory)
       call json%put_integer("degrees_of_freedom", int(plan%n_freedom, i8))
+      call json%put_real("assembly_moved", plan%moved)
       call put_summary(json, summary)
       call linear_json(json, summary%linear)
       if (plan%accuracy%asked > 0.0_wp) call json%put_object("accuracy", accuracy_json(plan%accuracy))

@@ -326,8 +326,8 @@ every = 1 s
     assert counts == {"located": 1, "uncontrolled": 0}
 
 
-def test_check_says_how_far_bodies_are_moved(gudgeon, tmp_path):
-    """A wheel put 50 mm below its pin is moved by as much as it is assembled."""
+def test_how_far_bodies_are_moved_is_told(gudgeon, tmp_path):
+    """A wheel put 50 mm below its pin is moved by as much as it is assembled, and `check` and the summary say so."""
     text = """deck = 1
 [bodies]
 name  mass[kg]  inertia[kg.m^2]  x[m]  y[m]
@@ -344,3 +344,7 @@ end = 1 s
 """
     assert "bodies moved by up to 0 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 0"))).stdout
     assert "bodies moved by up to 0.05 m" in call(gudgeon, "check", written(tmp_path, text.replace("OFF", "0 -0.05"))).stdout
+    for place, told in (("0 0", ""), ("0 -0.05", "start      bodies were moved by up to 0.05 m from where the deck puts them")):
+        call(gudgeon, "run", written(tmp_path, text.replace("OFF", place)), "--out", tmp_path / "out", "--quiet")
+        lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()
+        assert [line[:len(told)] for line in lines if line.startswith("start")] == [told] * bool(told)
