@@ -59,11 +59,7 @@ contains
 
       call read_statements(source, title, statements)
       call full_names(statements)
-      do k = 1, size(statements)
-         if (is_refused(statements(k)%keyword)) call mistake(mistakes, statements(k)%line, statements(k)%keyword//"/"// &
-            to_text(statements(k)%id)//" is an elastic body; gudgeon has rigid ones only", &
-            "take it out of the dataset, or put a SPRINGDAMPER or a FIXED joint in its place")
-      end do
+      call name_refused(statements, mistakes)
       call name_doubles(statements, mistakes)
       if (mistakes%count() > 0) return
       call new_model(title, statements, model, mistakes)
@@ -104,6 +100,20 @@ contains
       call buffer%line("channels   = *")
       imported%deck = buffer%get()
    end subroutine import_dataset
+
+   !> Statements of what gudgeon does not model are mistakes: without them the dataset is of another mechanism.
+   subroutine name_refused(statements, mistakes)
+      type(statement_t), intent(in) :: statements(:)       !! (n) statements, their names in full
+      type(diagnostics_t), intent(inout) :: mistakes       !! collects what is wrong
+
+      integer :: k
+
+      do k = 1, size(statements)
+         if (is_refused(statements(k)%keyword)) call mistake(mistakes, statements(k)%line, statements(k)%keyword//"/"// &
+            to_text(statements(k)%id)//" is an elastic body; gudgeon has rigid ones only", &
+            "take it out of the dataset, or put a SPRINGDAMPER or a FIXED joint in its place")
+      end do
+   end subroutine name_refused
 
    !> Two statements of one name and number are a mistake: nobody can say which of them is meant.
    subroutine name_doubles(statements, mistakes)
