@@ -259,7 +259,7 @@ contains
       real(wp), intent(in) :: shift                !! so much beyond it along the motion, if the step ends there [s]
       real(wp), intent(inout) :: y(:)              !! (n) the state [any]
 
-      integer :: k, status
+      integer :: k
 
       if (at_peak) then
          do k = 1, part%watch%n_peak
@@ -268,9 +268,7 @@ contains
             return
          end do
       end if
-      ! what cannot be evaluated between is interpolated without it
-      if (t < part%method%t) call part%method%prepare_output(part%system, status)
-      call part%method%state_at(part%system, t, y)
+      call part%method%reach(part%system, t, y)
       if (shift > 0.0_wp .and. t >= part%method%t) y = y + shift*part%method%step%f1
    end subroutine part_state_at
 

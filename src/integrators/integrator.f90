@@ -84,6 +84,7 @@ module integrator
       procedure :: prepare_output => integrator_prepare_output
       procedure :: within => integrator_within
       procedure :: state_at => integrator_state_at
+      procedure :: reach => integrator_reach
       procedure :: list_memory => integrator_list_memory
       procedure, nopass :: memory_version => integrator_memory_version
       procedure :: memory_size => integrator_memory_size
@@ -245,6 +246,20 @@ contains
          call self%within(system, (t - self%step%t0)/self%step%h, y)
       end if
    end subroutine integrator_state_at
+
+   !> The same as rows tell it, whose forces follow the state: by interpolation too, as good as it gets; what cannot be evaluated
+   !> between is interpolated without it. A method whose interpolation is not good enough for stiff forces overrides this.
+   subroutine integrator_reach(self, system, t, y)
+      class(integrator_t), intent(inout) :: self    !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t                     !! time [s]
+      real(wp), intent(inout) :: y(:)               !! (n) state [any]
+
+      integer :: status
+
+      if (t < self%t) call self%prepare_output(system, status)
+      call self%state_at(system, t, y)
+   end subroutine integrator_reach
 
    !> State at a place of the last step, by interpolation; quadratures that nobody wants are left alone.
    subroutine integrator_within(self, system, s, y)

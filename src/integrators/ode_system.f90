@@ -32,6 +32,7 @@ module ode_system
    type :: ode_traits_t
       integer :: n_turning = 0              !! bodies that turn in space, the first ones
       logical :: follows_step = .false.     !! whether `set_step` changes the derivative
+      logical :: has_films = .false.        !! whether films act, whose forces multiply what is wrong of a state
       logical :: contact_begins = .false.   !! whether the last event was the onset of a contact
       logical :: with_quadratures = .true.  !! whether quadratures are wanted now: else they, or their rates, may be left
    end type ode_traits_t

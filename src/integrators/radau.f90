@@ -22,7 +22,7 @@
 !> Between the ends of a step: positions and rates by the quintic of `interpolation`, without evaluations within the step, which
 !> stiff forces would make worse, and in a step with a force so stiff that accelerations tell nothing (`is_stiff`), by the stages
 !> alone; other states and quadratures by the integral of the cubic through the derivatives at the start and at the stages, of
-!> order 5.
+!> order 5. Rows of such a step, and where films act, are reached by a step of that length from its start (`radau_reach`).
 !>
 !> Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), section IV.8. Limits: where there
 !> are more freedoms than `radau_matrix` takes, and more than some ten forces are stiff, each in its own way, GMRES needs as many
@@ -89,6 +89,7 @@ module radau
       procedure :: error_norm => radau_error_norm
       procedure :: prepare_output => radau_prepare_output
       procedure :: within => radau_within
+      procedure :: reach => radau_reach
       procedure :: memory_size => radau_memory_size
       procedure :: save => radau_save
       procedure :: load => radau_load
@@ -136,6 +137,15 @@ module radau
          class(ode_system_t), intent(inout) :: system  !! the system
          integer, intent(out) :: status                !! of the evaluations
       end subroutine radau_prepare_output
+
+      !> State at a time within the last step as rows tell it: where forces are stiff by a step of that length.
+      module subroutine radau_reach(self, system, t, y)
+         implicit none (type, external)
+         class(radau_t), intent(inout) :: self         !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(in) :: t                     !! time [s]
+         real(wp), intent(inout) :: y(:)               !! (n) state [any]
+      end subroutine radau_reach
 
       !> State at a place of the last step, by interpolation.
       module subroutine radau_within(self, system, s, y)

@@ -386,6 +386,7 @@ contains
       call move_alloc(way, self%way)
       self%holds = self%way%at_steps
       self%traits%follows_step = self%way%follows_step
+      self%traits%has_films = self%loose%has_films
       allocate (self%held(merge(self%linkage%n_position + self%linkage%n_rate, 0, self%way%at_stages)), source=0.0_wp)
    end subroutine mechanism_take_way
 
