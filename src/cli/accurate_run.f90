@@ -24,7 +24,7 @@ module accurate_run
    use time_plan, only: last_instant
    implicit none (type, external)
    private
-   public :: check_accuracy, choose_tolerance, tell_accuracy
+   public :: budget_of, check_accuracy, choose_tolerance, tell_accuracy
 
    real(wp), parameter :: most_kept = 2.0e6_wp  !! numbers that are kept of a run: beyond, of fewer instants [1]
 
@@ -32,6 +32,15 @@ module accurate_run
    character(*), parameter :: left_out = " violation violation_rate residual state "
 
 contains
+
+   !> Time that comparisons of a deck may take: that of the command line, or of its section [precision]; 0: no limit.
+   real(wp) function budget_of(options, loaded) result(budget)
+      type(options_t), intent(in) :: options    !! the command line
+      type(loaded_t), intent(in) :: loaded      !! the deck
+
+      budget = options%digits%budget
+      if (budget <= 0.0_wp) budget = loaded%scene%settings%precision%number("budget")
+   end function budget_of
 
    !> What the option goes together with.
    subroutine check_accuracy(options, loaded, error)
@@ -105,8 +114,7 @@ contains
       asked = reshape([(scalars(k)%group, scalars(k)%component, scalars(k)%item, k=1, size(scalars))], [3, size(scalars)])
       stride = ceiling(real(last_instant(loaded%plan) + 1, wp)*real(count_kept(catalogue) + 3*size(scalars), wp)/most_kept)
       plan%accuracy%asked = options%digits%accuracy
-      call budget%begin(merge(options%digits%budget, loaded%scene%settings%precision%number("budget"), &
-                              options%digits%budget > 0.0_wp))
+      call budget%begin(budget_of(options, loaded))
       call display%start(plan%with%progress)
       call find_accuracy(job, budget, loaded%scene%settings%dynamic%word("method"), asked, stride, display, plan%accuracy)
       call display%finish()

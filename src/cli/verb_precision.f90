@@ -1,5 +1,6 @@
 !> `gudgeon precision DECK`: how long for how many digits, by which method, and up to what time digits mean anything.
 module verb_precision
+   use accurate_run, only: budget_of
    use build_info, only: compile_flags, compiler
    use catalogue, only: catalogue_t
    use console, only: say
@@ -121,8 +122,7 @@ contains
       type(precision_t), intent(out) :: study              !! asked, not begun
 
       associate (asked => loaded%scene%settings%precision)
-         study%budget = asked%number("budget")
-         if (options%digits%budget > 0.0_wp) study%budget = options%digits%budget
+         study%budget = budget_of(options, loaded)
          study%accuracy = asked%number("accuracy")
          if (options%digits%accuracy > 0.0_wp) study%accuracy = options%digits%accuracy
          study%wanted = findloc(error_names == asked%word("error"), .true., dim=1)

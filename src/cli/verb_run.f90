@@ -1,6 +1,6 @@
 !> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
 module verb_run
-   use accurate_run, only: check_accuracy, choose_tolerance, tell_accuracy
+   use accurate_run, only: budget_of, check_accuracy, choose_tolerance, tell_accuracy
    use build_system, only: levels_as_written, levels_ideal, new_system
    use checkpoint_file, only: read_checkpoint
    use consistent_start, only: assembly_t
@@ -296,7 +296,7 @@ contains
       job%settings = loaded%scene%settings%dynamic%item_t
       job%start = options%change%member
       job%cpu = job%settings%number("limit_cpu")
-      job%clock = merge(options%digits%budget, loaded%scene%settings%precision%number("budget"), options%digits%budget > 0.0_wp)
+      job%clock = budget_of(options, loaded)
       call plan_horizon(loaded%scene%settings%precision%item_t, loaded%plan%end, horizon)
       if (job%settings%number("step") <= 0.0_wp) horizon%asked = job%settings%number("tolerance")
       call find_horizon(job, horizon)

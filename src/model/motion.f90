@@ -36,6 +36,11 @@ module motion
       real(wp), allocatable :: moment(:, :)   !! (3, 0:n) moment about the centre of mass, world frame [N.m]
    end type loads_t
 
+   !> Vector product, for all that need not have it inlined.
+   interface cross
+      module procedure across
+   end interface cross
+
 contains
 
    !> Room for n bodies, all at rest in the origin.
@@ -68,16 +73,7 @@ contains
       allocate (loads%force(3, 0:n), loads%moment(3, 0:n), source=0.0_wp)
    end subroutine new_loads
 
-   !> a x b.
-   pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3)  !! (3) first factor [any]
-      real(wp), intent(in) :: b(3)  !! (3) second factor [any]
-      real(wp) :: c(3)              !! (3) product [any]
-
-      c(1) = a(2)*b(3) - a(3)*b(2)
-      c(2) = a(3)*b(1) - a(1)*b(3)
-      c(3) = a(1)*b(2) - a(2)*b(1)
-   end function cross
+   include "../math/across.inc"
 
    !> Position of a body-fixed point, r + A s'. Flores et al. (2008), eq. (2.1).
    pure function point_position(motion, body, s) result(r)

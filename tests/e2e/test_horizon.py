@@ -433,13 +433,13 @@ def test_time_that_ends_early(gudgeon):
 def test_the_horizon_keeps_its_budget(gudgeon, key):
     """Without a limit of the deck the search ends where its budget is up, given by --budget or by the section; the run does not."""
     budget = "6 s" if IS_SANITIZED else "1 s"
-    text = changed(changed(plain_deck([]), "analysis.dynamic", end="2 s"), "output", every="1 ms", figures=None)
-    text += f"\n[precision]\nbudget = {budget if key else '10 min'}\n"
+    text = changed(changed(plain_deck([]), "analysis.dynamic", end="4 s"), "output", every="1 ms", figures=None)
+    text += f"\n[precision]\nbudget = {budget if key else '10 min'}\nexponent_instants = 2000\n"
     began = time.monotonic()
     summary = run_with_horizon(gudgeon, text, "--write", "numbers", *(() if key else ("--budget", budget)))
     assert time.monotonic() - began < 60
-    assert summary["time_end"] == 2 and summary["status"] == "complete"
-    assert summary["exponent_cut"] is True and 0 < summary["exponent_to"] < 2
+    assert summary["time_end"] == 4 and summary["status"] == "complete"
+    assert summary["exponent_cut"] is True and 0 < summary["exponent_to"] < 4
     assert "(--budget)" in (summary["directory"] / "summary.txt").read_text()
     short = run_with_horizon(gudgeon, text, "--write", "numbers", "--budget", "1 ms")
     assert "time was up" in short["exponent_reason"]
