@@ -24,7 +24,7 @@ module curve_script
    real(wp), parameter :: peak_ratio = 20.0_wp      !! beyond this the ideal curve gets a panel of its own [1]
    real(wp), parameter :: flat_ratio = 1.0e-9_wp    !! an ideal curve this flat needs none [1]
    real(wp), parameter :: zoom_margin = 0.6_wp      !! beyond the ideal curve in that panel, of its span [1]
-   integer, parameter :: heights(6) = [800, 1000, 1200, 1400, 1600, 1800]  !! of pictures with so many panels, in pixels
+   integer, parameter :: heights(6) = [800, 1000, 1200, 1400, 1600, 1800]  !! of pictures with so many panels, in units of layout
 
    character(*), parameter :: range_style = " with filledcurves fillstyle transparent solid 0.35 noborder"  !! of an envelope
    character(*), parameter :: ideal_style = " with lines linewidth 1.2 dashtype (12,8) linecolor rgb '#101010' "  !! of the twin

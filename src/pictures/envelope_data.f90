@@ -15,7 +15,7 @@ module envelope_data
    private
    public :: count_turns, envelope_t, make_envelope
 
-   integer, parameter :: n_column = 350               !! columns of an envelope, three pixels each
+   integer, parameter :: n_column = 290               !! columns of an envelope, three pixels each
    real(wp), parameter :: least_swing = 0.1_wp        !! between two turns that count, of the range of the curve [1]
 
    !> The ranges of some curves of a figure.

@@ -24,7 +24,7 @@ module scene_plot
    private
    public :: write_scene_plot
 
-   integer, parameter :: width_still = 1200    !! of a picture, in pixels
+   integer, parameter :: width_still = 1200    !! of a picture, in units of layout
    integer, parameter :: width_moving = 640    !! of an animation, in pixels
    integer, parameter :: seconds_moving = 6    !! that an animation takes, about
 

@@ -15,6 +15,9 @@ module script_parts
       [character(7) :: "#1f6fb4", "#d1495b", "#2e8b57", "#c98a00", "#7b4fa3", "#4d4d4d", &
        "#17a2b8", "#e377c2", "#9acd32", "#8c564b", "#ff7f50", "#a0a0a0"]  !! of curves
 
+   !> Pixels per unit of length in which pictures are laid out: to make a PNG file takes as long as it has pixels.
+   real(wp), parameter :: pixels = 5.0_wp/6.0_wp
+
    !> Where the legend stands.
    character(*), parameter :: key_below = &
       "set key below center horizontal Left reverse samplen 2.5 spacing 1.2 height 0.6"
@@ -32,14 +35,17 @@ contains
    subroutine preamble(lines, name, width, height)
       type(buffer_t), intent(inout) :: lines   !! the script
       character(*), intent(in) :: name         !! of the figure's files
-      integer, intent(in) :: width             !! of the picture, in pixels
-      integer, intent(in) :: height            !! of the picture, in pixels
+      integer, intent(in) :: width             !! of the picture, in units of layout
+      integer, intent(in) :: height            !! of the picture, in units of layout
 
+      character(:), allocatable :: scale
+
+      scale = real_text(pixels, 4)
       call lines%line("# Edit this script and run it here again:  gnuplot "//name//".gp")
       call lines%line("reset")
       call lines%line("set encoding utf8")
-      call lines%line("set terminal pngcairo noenhanced size "//to_text(width)//","//to_text(height)// &
-                      " font ""DejaVu Sans,15""")
+      call lines%line("set terminal pngcairo noenhanced size "//to_text(nint(pixels*width))//","//to_text(nint(pixels*height))// &
+                      " font ""DejaVu Sans,15"" fontscale "//scale//" linewidth "//scale//" pointscale "//scale)
       call lines%line("set output '"//name//".png'")
       call lines%line("set key noautotitle")
       call lines%line(key_below)
