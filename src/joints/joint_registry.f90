@@ -14,6 +14,7 @@ module joint_registry
    use joint_rigid, only: joint_rigid_t
    use joint_set, only: joint_set_t
    use joint_translational, only: joint_translational_t
+   use spatial_constant_velocity, only: spatial_constant_velocity_t
    use spatial_cylindrical, only: spatial_cylindrical_t
    use spatial_distance, only: spatial_distance_t
    use spatial_driver_angle, only: spatial_driver_angle_t
@@ -39,7 +40,7 @@ module joint_registry
    private
    public :: new_joint_set, n_joint_kinds
 
-   integer, parameter :: n_joint_kinds = 34  !! number of kinds
+   integer, parameter :: n_joint_kinds = 35  !! number of kinds
 
 contains
 
@@ -84,6 +85,7 @@ contains
       case (32); allocate (spatial_parallel_axes_t :: set)
       case (33); allocate (spatial_perpendicular_t :: set)
       case (34); allocate (spatial_rack_t :: set)
+      case (35); allocate (spatial_constant_velocity_t :: set)
       end select
    end subroutine new_joint_set
 

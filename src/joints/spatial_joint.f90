@@ -7,8 +7,9 @@
 !>     at_point        P_i - P_j                       three rows
 !>     across a, b     a_i . b_j = 0                   the axes, by number, stay at right angles
 !>     beside a        a_i . d = 0                     no displacement along an axis of i
+!>     untwisted       x_i . y_j - y_i . x_j = 0       j is turned against i about an axis across z alone
 !>
-!> Rows of `across` are angles. Signs: the force on body i of a point is -lambda.
+!> Rows of `across` and `untwisted` are angles. Signs: the force on body i of a point is -lambda.
 !> Source: Flores et al. (2008), eqs. (6.13) to (6.15), with the two independent rows of the parallel axes.
 !> Limits: parallel axes may be opposed: `closing_fault` says so, and the start refuses it.
 module spatial_joint
@@ -21,16 +22,17 @@ module spatial_joint
    use motion, only: motion_t
    use rows, only: rows_t
    use spatial_rows, only: angle_between, axis_of, dot_with_span, put_across_rows, put_row, put_vector_rows, &
-      scalar_t
+      scalar_t, twist_of_frames
    implicit none (type, external)
    private
    public :: across, add_axis_columns, add_joint_columns, add_reaction_channels, add_spatial_channels, at_point, beside
    public :: element_t, set_joint_frames
-   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report_own
+   public :: add_slide_channels, add_turn_channels, press_ends, spatial_joint_t, spatial_report_own, untwisted
 
    integer, parameter :: is_point = 1    !! an element: two points coincide
    integer, parameter :: is_across = 2   !! two axes at right angles
    integer, parameter :: is_beside = 3   !! no displacement along an axis
+   integer, parameter :: is_untwisted = 4 !! no twist
 
    ! channels of joints with an axis
    integer, parameter :: of_angle = of_own            !! about the axis
@@ -48,7 +50,8 @@ module spatial_joint
       integer :: of_j = 0          !! axis of j, 1 to 3
    end type element_t
 
-   type(element_t), parameter :: at_point = element_t(is_point, 0, 0)  !! the points coincide
+   type(element_t), parameter :: at_point = element_t(is_point, 0, 0)       !! the points coincide
+   type(element_t), parameter :: untwisted = element_t(is_untwisted, 0, 0)  !! no twist between the frames
 
    !> Elementary constraints of each item, and the axes of all.
    type :: joint_axes_t
@@ -146,7 +149,7 @@ contains
       row = 0
       do k = 1, size(elements)
          row = row + merge(3, 1, elements(k)%what == is_point)
-         self%is_angle(row) = elements(k)%what == is_across
+         self%is_angle(row) = elements(k)%what == is_across .or. elements(k)%what == is_untwisted
       end do
       allocate (self%axes%axis_i(3, self%n), self%axes%axis_j(3, self%n), source=0.0_wp)
       allocate (self%axes%frame_i(3, 3, self%n), self%axes%frame_j(3, 3, self%n), source=0.0_wp)
@@ -212,6 +215,12 @@ contains
                call put_across_rows(self%n, self%body, element%of_i, axes%frame_i, element%of_j, axes%frame_j, &
                                     ubound(motion%angle, 1), motion%rot, motion%omega, row, self%n_row_item, rows%n, rows%phi, &
                                     rows%phi_t, rows%jac, rows%gam)
+               row = row + 1
+            case (is_untwisted)
+               do k = 1, self%n
+                  x = twist_of_frames(motion, self%body(:, k), axes%frame_i(:, :, k), axes%frame_j(:, :, k))
+                  call put_row(rows, row + 1 + (k - 1)*self%n_row_item, motion, self%body(:, k), x, 0.0_wp, 0.0_wp, 0.0_wp)
+               end do
                row = row + 1
             case default
                do k = 1, self%n

@@ -10,6 +10,7 @@
 !>     a . d     F_j = -F_i = a,  N_i = a x (d + s_i),  N_j = s_j x a
 !>     |d|       F_j = -F_i = u,  N_i = -s_i x u,  N_j = s_j x u,  u = d/|d|
 !>     angle     of x_j against x_i about z_i: atan2(y_i . x_j, x_i . x_j)
+!>     twist     x_i . y_j - y_i . x_j
 !>     point     P_i - P_j along each axis of the world
 !>
 !> `bend` is the second derivative that the velocities alone make, so that gamma is -bend.
@@ -22,7 +23,7 @@ module spatial_rows
    implicit none (type, external)
    private
    public :: angle_between, angle_of, axis_of, dot_of_axes, dot_with_span, length_of_span, put_across_rows, put_row, &
-      put_vector_rows, row_of, scalar_t, seen_from_other, wrapped
+      put_vector_rows, row_of, scalar_t, seen_from_other, twist_of_frames, wrapped
 
    !> A scalar of two bodies, and what moves it.
    type :: scalar_t
@@ -151,6 +152,25 @@ contains
       x = angle_of(dot_of_axes(motion, body, frame_i(:, 1), frame_j(:, 1)), &
                    dot_of_axes(motion, body, frame_i(:, 2), frame_j(:, 1)))
    end function angle_between
+
+   !> x_i . y_j - y_i . x_j: that of two frames which are turned against one another about axes across z alone is zero.
+   pure function twist_of_frames(motion, body, frame_i, frame_j) result(x)
+      type(motion_t), intent(in) :: motion   !! positions and velocities
+      integer, intent(in) :: body(2)         !! (2) bodies i and j
+      real(wp), intent(in) :: frame_i(3, 3)  !! (3, 3) axes x, y, z of the joint in i as columns, its frame [1]
+      real(wp), intent(in) :: frame_j(3, 3)  !! (3, 3) those in j [1]
+      type(scalar_t) :: x                    !! -(1 + cosine of the angle of the axes z) times the sine of the twist [1]
+
+      type(scalar_t) :: back
+
+      x = dot_of_axes(motion, body, frame_i(:, 1), frame_j(:, 2))
+      back = dot_of_axes(motion, body, frame_i(:, 2), frame_j(:, 1))
+      x%value = x%value - back%value
+      x%rate = x%rate - back%rate
+      x%bend = x%bend - back%bend
+      x%turn_i = x%turn_i - back%turn_i
+      x%turn_j = x%turn_j - back%turn_j
+   end function twist_of_frames
 
    !> Angle of a direction in the plane of two axes, -pi to pi, from its products with them.
    pure function angle_of(c, s) result(x)

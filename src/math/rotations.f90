@@ -16,6 +16,7 @@ module rotations
    private
    public :: axes_across, euler_parameters_of, principal_axes, product_of, rate_of_parameters, rotation_about, rotation_of_axes
    public :: rotation_of_parameters, rotation_of_sequence, rotation_vector_of, second_rate_of_parameters, spin_of, turned_by
+   public :: turned_onto
 
 contains
 
@@ -90,6 +91,22 @@ contains
       q = product_of(p, [cos(half), part*x])
       q = q/norm2(q)
    end function turned_by
+
+   !> A frame turned about the common perpendicular of its z and an axis, until z is along the axis; about x by half a turn if it
+   !> points the other way.
+   pure function turned_onto(frame, axis) result(a)
+      real(wp), intent(in) :: frame(3, 3)  !! (3, 3) axes x, y, z as columns [1]
+      real(wp), intent(in) :: axis(3)      !! (3) where z goes, of length one [1]
+      real(wp) :: a(3, 3)                  !! (3, 3) the frame there [1]
+
+      real(wp) :: q(4), z(3)
+
+      z = frame(:, 3)
+      ! twice the square of the cosine of half the angle is 1 + cos
+      q = [1.0_wp + dot_product(z, axis), z(2)*axis(3) - z(3)*axis(2), z(3)*axis(1) - z(1)*axis(3), z(1)*axis(2) - z(2)*axis(1)]
+      if (.not. norm2(q) > 0.0_wp) q(2:4) = frame(:, 1)
+      a = matmul(rotation_of_parameters(q), frame)
+   end function turned_onto
 
    !> The turn, at most half a revolution, that leads from one orientation to another: axis times angle, body's frame.
    pure function rotation_vector_of(from, to) result(x)

@@ -51,6 +51,7 @@ class Joint:
         "translational": "parallel turn inline", "screw": "parallel inline screw", "planar": "parallel inplane",
         "rigid": "point parallel turn", "distance": "distance", "revolute_spherical": "inplane distance", "inline": "inline",
         "inplane": "inplane", "orientation": "parallel turn", "parallel_axes": "parallel", "perpendicular": "cross",
+        "constant_velocity": "point twist",
         # driven: the joint first, then a row for each driver
         "pin and motor": "point parallel motor", "shaft, motor and pusher": "parallel inline motor pusher", "cylinder": "ram"}
     drivers = {"motor": "angle", "pusher": "position", "ram": "distance"}
@@ -66,7 +67,7 @@ class Joint:
             z = np.cross(z, random.normal(size=3))
         self.axis_j = rot_j.T @ z
         self.frame.append(frame_of(self.axis_j))
-        if any(row in self.rows[kind] for row in ("turn", "screw", "motor")):
+        if any(row in self.rows[kind] for row in ("turn", "screw", "motor", "twist")):
             self.frame[1] = rot_j.T @ rot_i @ self.frame[0]
         # the point of j where the rows let it be
         self.driven = [row for row in self.rows[kind].split() if row in self.drivers]
@@ -99,6 +100,8 @@ class Joint:
                 found += [dot(a[..., c, :], b[..., 2, :]) for c in (0, 1)]
             if row == "turn":
                 found.append(dot(a[..., 0, :], b[..., 1, :]))
+            if row == "twist":
+                found.append(dot(a[..., 0, :], b[..., 1, :]) - dot(a[..., 1, :], b[..., 0, :]))
             if row == "cross":
                 found.append(dot(a[..., 2, :], b[..., 2, :]))
             if row == "inline":
