@@ -1,10 +1,14 @@
 !> Joints and joint primitives of an Adams dataset as rows of a deck.
 !>
 !> A joint of Adams moves marker I against marker J along and about the axis z of J; a deck's joint moves j against i. So i of
-!> the deck is J, and j is I.
+!> the deck is J, and j is I. Two kinds have conventions of their own:
 !>
-!> Source: the public descriptions of the statements of Adams/Solver.
-!> Limits: no constant-velocity joints; racks do not tell where they touch.
+!> | Adams | deck |
+!> |---|---|
+!> | CONVEL: axes z of I and J point along the shafts, away from the joint | `joint.constant_velocity`, `axis_j` along -z of I |
+!> | RACKPIN: the pinion turns about its z, and its x points along z of the rack, whose pitch line that is | `joint.rack` |
+!>
+!> Source: the public descriptions of the statements of Adams/Solver. Limits: a RACKPIN whose x and z are not along one another.
 module adams_joints
    use adams_model, only: adams_model_t, argument_numbers, id_of, leave_out, mistake
    use adams_starts, only: add_start
@@ -13,6 +17,7 @@ module adams_joints
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
    use kinds, only: wp
+   use motion, only: cross
    use text, only: exact_text, to_text
    implicit none (type, external)
    private
@@ -29,10 +34,10 @@ contains
       type(deck_draft_t), intent(inout) :: draft         !! the deck
       type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
 
-      character(14), parameter :: adams(8) = [character(14) :: "REVOLUTE", "TRANSLATIONAL", "CYLINDRICAL", "SPHERICAL", &
-                                                 "UNIVERSAL", "HOOKE", "PLANAR", "FIXED"]
-      character(13), parameter :: deck(8) = [character(13) :: "revolute", "translational", "cylindrical", "spherical", &
-                                                "universal", "universal", "planar", "rigid"]
+      character(14), parameter :: adams(9) = [character(14) :: "REVOLUTE", "TRANSLATIONAL", "CYLINDRICAL", "SPHERICAL", &
+                                                 "UNIVERSAL", "HOOKE", "PLANAR", "FIXED", "CONVEL"]
+      character(17), parameter :: deck(9) = [character(17) :: "revolute", "translational", "cylindrical", "spherical", &
+                                                "universal", "universal", "planar", "rigid", "constant_velocity"]
       integer :: i, k, marker(2)
 
       allocate (draft%joints(0))
@@ -45,11 +50,15 @@ contains
                call add_screw(model, draft, it, marker, mistakes)
                cycle
             end if
+            if (has_word(it, "RACKPIN", 2)) then
+               call add_rack(model, draft, it, marker, mistakes)
+               cycle
+            end if
             do i = 1, size(adams)
                if (has_word(it, trim(adams(i)), 2)) exit
             end do
             if (i > size(adams)) then
-               call leave_out(model, it, no_joint(first_word(it)))
+               call leave_out(model, it, "a deck's space has no such joint ("//first_word(it)//")")
             else if (trim(adams(i)) == "CYLINDRICAL" .and. is_of_screw(model, marker, mistakes)) then
                call model%changed%add("line "//to_text(it%line)//": JOINT/"//to_text(it%id)// &
                                       " (cylindrical) and the screw on the same axis are one joint.screw")
@@ -69,16 +78,6 @@ contains
       axis = 3
       if (kind == "HOOKE") axis = [1, 2]
    end function axes_of
-
-   !> Why a deck does not have a type of joint.
-   pure function no_joint(word) result(reason)
-      character(*), intent(in) :: word          !! type in the dataset
-      character(:), allocatable :: reason       !! one line
-
-      reason = "a deck's space has no such joint ("//word//")"
-      if (index(word, "CO") == 1) reason = reason//": no joint keeps equal speeds at any angle; joint.universal does not"
-      if (index(word, "RA") == 1) reason = reason//": joint.rack wants a point of the pitch line, which the dataset does not tell"
-   end function no_joint
 
    !> The first word of a statement that has no value.
    pure function first_word(statement) result(word)
@@ -140,6 +139,11 @@ contains
          if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
          if (maxval(abs(a - b)) > same) call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"// &
             to_text(statement%id)//" holds the orientation that the dataset begins with, in which I and J differ")
+      case ("joint.constant_velocity")
+         axis_i = direction_cell(body_axis(model, marker(2), 3))
+         x = body_axis(model, marker(1), 3)
+         axis_j = direction_cell(merge(-x, x, dot_product(a(:, 3), b(:, 3)) < 0.0_wp))
+         call check_shafts(model, statement, a, b)
       case default
          axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
          x = body_axis(model, marker(1), axis(1))
@@ -157,6 +161,68 @@ contains
       new = joint_t(statement%id, statement%keyword == "JPRIM", name, kind, marker)
       draft%joints = [draft%joints, new]
    end subroutine add_joint
+
+   !> What a constant-velocity joint has otherwise in a deck.
+   subroutine check_shafts(model, statement, a, b)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(statement_t), intent(in) :: statement         !! the statement
+      real(wp), intent(in) :: a(3, 3)                    !! (3, 3) axes of I as columns, world frame [1]
+      real(wp), intent(in) :: b(3, 3)                    !! (3, 3) those of J [1]
+
+      character(:), allocatable :: place
+
+      place = "line "//to_text(statement%line)//": JOINT/"//to_text(statement%id)//" (constant velocity)"
+      if (dot_product(a(:, 3), b(:, 3)) >= 0.0_wp) then
+         call model%changed%add(place//": the axes z of I and J do not point away from one another; they are taken as the shafts")
+      else if (abs(dot_product(a(:, 1), b(:, 2)) + dot_product(a(:, 2), b(:, 1))) > same) then
+         call model%changed%add(place//" holds the twist that the dataset begins with, in which the axes x of I and J differ")
+      end if
+   end subroutine check_shafts
+
+   !> A rack and its pinion.
+   subroutine add_rack(model, draft, statement, marker, mistakes)
+      type(adams_model_t), intent(inout) :: model        !! the dataset
+      type(deck_draft_t), intent(inout) :: draft         !! the deck
+      type(statement_t), intent(in) :: statement         !! the statement
+      integer, intent(in) :: marker(2)                   !! (2) I and J
+      type(diagnostics_t), intent(inout) :: mistakes     !! collects what is wrong
+
+      real(wp), parameter :: near = 1.0e-3_wp  ! a part of a length that is no difference [1]
+      character(:), allocatable :: name, point_i, point_j
+      real(wp), allocatable :: diameter(:)
+      real(wp) :: axes(3, 3, 2), radius, side
+      integer :: k, pinion, rack
+
+      call argument_numbers(statement, "PD", diameter, mistakes, 2)
+      if (size(diameter) == 0) then
+         call mistake(mistakes, statement%line, "a rack and pinion have a pitch diameter PD", "")
+         return
+      end if
+      do k = 1, 2
+         axes(:, :, k) = model%axes(marker(k))
+      end do
+      pinion = 0
+      do k = 1, 2
+         if (dot_product(axes(:, 1, k), axes(:, 3, 3 - k)) > 1.0_wp - same) pinion = pinion + k
+      end do
+      if (pinion /= 1 .and. pinion /= 2) then
+         call leave_out(model, statement, "which marker is the pinion's follows from its x, along z of the rack; here "// &
+                        trim(merge("neither is so ", "both are so   ", pinion == 0)))
+         return
+      end if
+      rack = 3 - pinion
+      radius = 0.5_wp*diameter(1)*model%units%length
+      side = dot_product(model%place(marker(pinion)) - model%place(marker(rack)), cross(axes(:, 3, pinion), axes(:, 3, rack)))
+      if (abs(abs(side) - abs(radius)) > near*abs(radius)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
+         to_text(statement%id)//" (rack and pinion): the axes are "//exact_text(abs(side))//" m apart; half of PD holds")
+      call draft%new_name(named(statement), statement%id, name)
+      call draft%point(model, marker(rack), point_i)
+      call draft%point(model, marker(pinion), point_j)
+      call draft%put("joint.rack", "name i j axis_i axis_j radius", name//tab//point_i//tab//point_j//tab// &
+                     direction_cell(body_axis(model, marker(rack), 3))//tab//direction_cell(body_axis(model, marker(pinion), 3))// &
+                     tab//exact_text(sign(radius, merge(side, radius, abs(side) > near*abs(radius))))//"m")
+      draft%joints = [draft%joints, joint_t(statement%id, .false., name, "joint.rack", marker)]
+   end subroutine add_rack
 
    !> The name of a statement.
    pure function named(statement) result(name)

@@ -160,6 +160,36 @@ def test_stops_drags_and_gears(gudgeon):
         assert np.abs(spin[k] - ratio * first).max() < 1e-7, k
 
 
+def test_shafts_and_racks(gudgeon):
+    """CONVEL keeps the speeds of two shafts equal, RACKPIN lets a rack turn its pinion as it falls; closed forms."""
+    run, said = imported(gudgeon, "shafts")
+    t = run["time"][:]
+    driving, driven = (column(run, "bodies", "spin", f"PART_{k}") for k in (2, 3))
+    assert np.abs(driving[:, 2] - (8 - 0.05 / 0.007 * t)).max() < 1e-7
+    assert np.abs(driven[:, 2] - driving[:, 2]).max() < 1e-8
+    assert np.abs(column(run, "joints", "bend", "JOINT_2") - np.radians(35)).max() < 1e-7
+    fall = -9.81 * 3 / (3 + 0.002 / 0.08**2)
+    assert np.abs(column(run, "bodies", "position", "PART_5") - np.stack([1.9 + fall * t**2 / 2, 0 * t - 0.08, 0 * t], 1)).max() < 1e-8
+    assert np.abs(column(run, "bodies", "spin", "PART_4")[:, 2] - fall * t / 0.08).max() < 1e-7
+    assert "line 35: JOINT/7: which marker is the pinion's" in said and "(1 item)" in said
+
+
+def test_twist_of_a_constant_velocity_joint_is_told(gudgeon):
+    """Shafts twisted at the start, or whose axes point the same way, are taken as they are, and the list says so."""
+    folder = scratch()
+    model = (MODELS / "shafts.adm").read_text()
+    (folder / "twisted.adm").write_text(model.replace("MARKER/23, PART = 2, QP = 0, 0, 0, REULER = 0D, 180D, 0D",
+                                                      "MARKER/23, PART = 2, QP = 0, 0, 0, REULER = 20D, 180D, 0D"))
+    assert "(constant velocity) holds the twist" in call(gudgeon, "import", "twisted.adm", cwd=folder).stdout
+    (folder / "turned.adm").write_text(model.replace("REULER = 0D, 180D, 0D", "REULER = 0D, 0D, 0D"))
+    said = call(gudgeon, "import", "turned.adm", cwd=folder).stdout
+    assert "do not point away from one another; they are taken as the shafts" in said
+    (folder / "far.adm").write_text(model.replace("PD = 160, I = 41", "PD = 150, I = 41"))
+    assert "the axes are 0.08 m apart; half of PD holds" in call(gudgeon, "import", "far.adm", cwd=folder).stdout
+    (folder / "none.adm").write_text(model.replace("RACKPIN, PD = 160, I = 41", "RACKPIN, I = 41"))
+    assert "a pitch diameter PD" in call(gudgeon, "import", "none.adm", cwd=folder, expect=3).stderr
+
+
 def test_joint_primitives(gudgeon):
     """Primitives against the joint that they make up, closed forms, and a deck with the joint."""
     run, _ = imported(gudgeon, "primitives")
@@ -367,7 +397,7 @@ def test_what_is_left_out_is_named_with_its_line(gudgeon):
     for statement in ("JOINT/11", "FRICTION/1", "CONTACT/1", "ARRAY/1", "SFORCE/7", "SFORCE/8", "MOTION/9", "INTEGRATOR"):
         line = next(k for k, words in enumerate(text, 1) if words.startswith(statement))
         assert f"line {line}: {statement}" in said, statement
-    for reason in ("IMPACT with a damping that is there at once", "VM has no words in a deck", "no joint keeps equal speeds", "its law is none of a deck's"):
+    for reason in ("IMPACT with a damping that is there at once", "VM has no words in a deck", "follows from its x, along z of the rack; here neither is so", "its law is none of a deck's"):
         assert reason in said, reason
 
 
