@@ -2,7 +2,8 @@
 !>
 !> Positions and velocities satisfy their constraints at every step, to the error of Newton's iteration:
 !> no stabilisation is needed and none acts. A system without constraints is integrated as it is. The
-!> Jacobian by difference quotients over state and multipliers is a full matrix up to 50 bodies, beyond sparse.
+!> Jacobian by difference quotients over state and multipliers is a full matrix up to 50 bodies, beyond sparse. Newton's iteration
+!> goes on until the multipliers are found, as what they do to the velocities in a step says; the local error is that of the state.
 !>
 !> Accuracy of events: the event function is zero to round-off, the time as accurate as the motion
 !> (docs/accuracy.md has the figures).

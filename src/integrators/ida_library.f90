@@ -19,21 +19,23 @@
 !> in differential-algebraic equations, SIAM (1996); A. C. Hindmarsh et al., SUNDIALS, ACM Trans. Math.
 !> Softw. 31 (2005) 363-396.
 module ida_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_funloc, c_int, c_loc, c_long, c_null_ptr
    use dae_system, only: dae_system_t
    use fida_mod, only: fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, fidagetnumnonlinsolvconvfails, &
-      fidainit, fidareinit, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxconvfails, fidasetmaxerrtestfails, &
-      fidasetmaxstep, fidasetminstep, &
-      fidasetstoptime, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
+      fidainit, fidareinit, fidasetid, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxconvfails, &
+      fidasetmaxerrtestfails, fidasetmaxstep, fidasetminstep, fidasetnonlinearsolver, fidasetstoptime, &
+      fidasetsuppressalg, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunlinsol_klu_mod, only: fsunlinsol_klu
+   use fsunnonlinsol_newton_mod, only: fsunnonlinsol_newton
    use fsunmatrix_dense_mod, only: fsundensematrix
-   use fsunmatrix_sparse_mod, only: fsunsparsematrix, fsunsparsematrix_data, fsunsparsematrix_indexpointers, &
-      fsunsparsematrix_indexvalues
+   use fsunmatrix_sparse_mod, only: fsunsparsematrix
+   use ida_callbacks, only: differentiate, residual, test_convergence
    use kinds, only: wp
-   use sundials, only: fn_vdestroy, fn_vgetarraypointer, n_vector, new_ida, sunindextype, sunmatrix
-   use sundials_library, only: dense_block, increments, library_t, most_failures, note, problem_t, weigh
+   use sundials, only: fn_vdestroy, fn_vgetarraypointer, fsunnonlinsolfree, fsunnonlinsolsetconvtestfn, &
+      n_vector, new_ida, sunindextype, sunmatrix, sunnonlinearsolver
+   use sundials_library, only: library_t, most_failures, note, problem_t, weigh
    implicit none (type, external)
    private
    public :: ida_library_t
@@ -43,6 +45,7 @@ module ida_library
    !> IDA with its objects.
    type, extends(library_t) :: ida_library_t
       type(n_vector), pointer :: rate => null()        !! its derivative
+      type(sunnonlinearsolver), pointer :: newton => null()  !! Newton's iteration
    contains
       procedure :: begin => ida_begin
       procedure :: step => ida_step
@@ -75,6 +78,7 @@ contains
 
       status = 0
       self%problem%holds_copies = .true.
+      self%problem%reach = 0.0_wp
       if (.not. c_associated(self%memory)) then
          call create(self, status)
       else
@@ -148,6 +152,7 @@ contains
       call note(fidainit(self%memory, c_funloc(residual), self%problem%method%t, self%state, self%rate), status)
       call note(fidasetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fidawftolerances(self%memory, c_funloc(weigh)), status)
+      call leave_multipliers(self, status)
       if (self%problem%is_large()) then
          call self%problem%start_newton()
          self%jacobian => fsunsparsematrix(n, n, int(size(self%problem%newton%row), sunindextype), by_columns, self%context)
@@ -161,7 +166,28 @@ contains
       if (status /= 0) return
       call note(fidasetlinearsolver(self%memory, self%linear, self%jacobian), status)
       call note(fidasetjacfn(self%memory, c_funloc(differentiate)), status)
+      self%newton => fsunnonlinsol_newton(self%state, self%context)
+      self%problem%lacks_memory = .not. associated(self%newton)
+      if (self%problem%lacks_memory) status = -1
+      if (status /= 0) return
+      call note(fidasetnonlinearsolver(self%memory, self%newton), status)
+      call note(fsunnonlinsolsetconvtestfn(self%newton, c_funloc(test_convergence), c_loc(self%problem)), status)
    end subroutine create
+
+   !> Multipliers are not integrated: they are left out of the test of errors.
+   subroutine leave_multipliers(self, status)
+      class(ida_library_t), intent(inout) :: self   !! the library
+      integer, intent(inout) :: status              !! 0: done
+
+      real(c_double), pointer :: kind(:)
+
+      if (rows_of(self%problem%system) == 0) return
+      kind => fn_vgetarraypointer(self%look)
+      kind = 0.0_c_double
+      kind(:self%problem%system%n) = 1.0_c_double
+      call note(fidasetid(self%memory, self%look), status)
+      call note(fidasetsuppressalg(self%memory, 1_c_int), status)
+   end subroutine leave_multipliers
 
    !> One step, not beyond t_stop.
    subroutine ida_step(self, t_stop, t, y, status)
@@ -262,147 +288,12 @@ contains
    subroutine ida_free(self)
       type(ida_library_t), intent(inout) :: self   !! the library
 
+      integer :: status
+
       if (c_associated(self%memory)) call fidafree(self%memory)
+      if (associated(self%newton)) status = fsunnonlinsolfree(self%newton)
       if (associated(self%rate)) call fn_vdestroy(self%rate)
       call self%close()
    end subroutine ida_free
-
-   !> What is left of the equations at u and u'.
-   subroutine find_residual(problem, t, u, rate, left, status)
-      type(problem_t), intent(inout) :: problem         !! the problem
-      real(wp), intent(in) :: t                         !! time [s]
-      real(wp), intent(in), contiguous :: u(:)          !! (N) state and multipliers [any]
-      real(wp), intent(in), contiguous :: rate(:)       !! (N) derivative [any]
-      real(wp), intent(out), contiguous :: left(:)      !! (N) residual [any]
-      integer, intent(out) :: status                    !! 0 done, > 0 retry with a smaller step, < 0 give up
-
-      integer :: m, n
-
-      n = problem%system%n
-      m = (size(u) - n)/2
-      associate (system => problem%system)
-         select type (system)
-         class is (dae_system_t)
-            call problem%count_evaluation(status)
-            if (status == 0) call system%dae_residual(t, u(:n), rate(:n), u(n + 1:n + m), u(n + m + 1:), left(:n), &
-                                                      left(n + 1:n + m), left(n + m + 1:), status)
-            problem%is_fatal = problem%is_fatal .or. status < 0
-         class default
-            call problem%evaluate(t, u, left, status)
-            left = rate - left
-         end select
-      end associate
-   end subroutine find_residual
-
-   ! ---- called by IDA ------------------------------------------------------------------------------
-
-   !> Residual.
-   integer(c_int) function residual(t, u, rate, left, user_data) bind(c, name="") result(status)
-      real(c_double), value :: t              !! time [s]
-      type(n_vector), intent(inout) :: u      !! state and multipliers
-      type(n_vector), intent(inout) :: rate   !! their derivatives
-      type(n_vector), intent(inout) :: left   !! residual
-      type(c_ptr), value :: user_data         !! the problem
-
-      type(problem_t), pointer :: problem
-      real(c_double), pointer :: numbers(:), rates(:), rest(:)
-      integer :: outcome
-
-      call c_f_pointer(user_data, problem)
-      numbers => fn_vgetarraypointer(u)
-      rates => fn_vgetarraypointer(rate)
-      rest => fn_vgetarraypointer(left)
-      call find_residual(problem, t, numbers, rates, rest, outcome)
-      status = int(outcome, c_int)
-   end function residual
-
-   !> Jacobian dF/du + c dF/du' by forward differences.
-   integer(c_int) function differentiate(t, c, u, rate, left, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &
-      result(status)
-      real(c_double), value :: t                     !! time [s]
-      real(c_double), value :: c                     !! du'/du of the method [1/s]
-      type(n_vector), intent(inout) :: u             !! state and multipliers
-      type(n_vector), intent(inout) :: rate          !! their derivatives
-      type(n_vector), intent(inout) :: left          !! residual there
-      type(sunmatrix), intent(inout) :: matrix       !! (N, N) the Jacobian
-      type(c_ptr), value :: user_data                !! the problem
-      type(n_vector), intent(inout) :: scratch_1     !! room
-      type(n_vector), intent(inout) :: scratch_2     !! room
-      type(n_vector), intent(inout) :: scratch_3     !! room
-
-      type(problem_t), pointer :: problem
-      real(c_double), pointer, contiguous :: block(:, :)
-      real(c_double), pointer :: increment(:), moved(:), moved_rate(:), numbers(:), rates(:), rest(:)
-      integer :: first, j, n, outcome
-
-      call c_f_pointer(user_data, problem)
-      numbers => fn_vgetarraypointer(u)
-      rates => fn_vgetarraypointer(rate)
-      rest => fn_vgetarraypointer(left)
-      increment => fn_vgetarraypointer(scratch_1)
-      moved => fn_vgetarraypointer(scratch_2)
-      moved_rate => fn_vgetarraypointer(scratch_3)
-      n = problem%system%n
-      if (problem%is_large()) then
-         call fill_sparse(problem, t, c, numbers, rates, matrix, outcome)
-         status = int(outcome, c_int)
-         return
-      end if
-      first = n - problem%system%n_quadrature
-      call dense_block(matrix, size(numbers), block)
-      call increments(problem%system, numbers(:n), problem%method%scale, increment(:n))
-      increment(n + 1:) = max(abs(numbers(n + 1:)), 1.0_wp)
-      moved = numbers
-      moved_rate = rates
-      block = 0.0_wp
-      outcome = 0
-      do j = 1, size(numbers)
-         if (j > first .and. j <= n) then
-            block(j, j) = c  ! nothing depends on a quadrature
-            cycle
-         end if
-         moved(j) = numbers(j) + increment(j)
-         if (j <= n) moved_rate(j) = rates(j) + c*increment(j)
-         call find_residual(problem, t, moved, moved_rate, block(:, j), outcome)
-         if (outcome /= 0) exit
-         block(:, j) = (block(:, j) - rest)/increment(j)
-         moved(j) = numbers(j)
-         moved_rate(j) = rates(j)
-      end do
-      status = int(outcome, c_int)
-   end function differentiate
-
-   !> The Jacobian of a large system.
-   subroutine fill_sparse(problem, t, c, u, rate, matrix, status)
-      type(problem_t), intent(inout) :: problem         !! the problem
-      real(wp), intent(in) :: t                         !! time [s]
-      real(wp), intent(in) :: c                         !! du'/du of the method [1/s]
-      real(wp), intent(in) :: u(:)                      !! (N) state and multipliers [any]
-      real(wp), intent(in) :: rate(:)                   !! (N) their derivatives [any]
-      type(sunmatrix), intent(inout) :: matrix          !! (N, N) the Jacobian, by columns
-      integer, intent(out) :: status                    !! 0 done, > 0 retry with a smaller step, < 0 give up
-
-      real(c_double), pointer :: entries(:)
-      integer(sunindextype), pointer :: places(:), rows(:)
-      real(c_double), pointer :: first_entry(:)                    ! the library's own pointers have one element
-      integer(sunindextype), pointer :: first_place(:), first_row(:)
-      integer :: m, n
-
-      n = problem%system%n
-      m = (size(u) - n)/2
-      call problem%fill_newton(t, c, u(:n), rate(:n), u(n + 1:n + m), u(n + m + 1:), status)
-      if (status /= 0) return
-      first_place => fsunsparsematrix_indexpointers(matrix)
-      first_row => fsunsparsematrix_indexvalues(matrix)
-      first_entry => fsunsparsematrix_data(matrix)
-      associate (newton => problem%newton)
-         call c_f_pointer(c_loc(first_place(1)), places, [size(newton%column)])
-         call c_f_pointer(c_loc(first_row(1)), rows, [size(newton%row)])
-         call c_f_pointer(c_loc(first_entry(1)), entries, [size(newton%a)])
-         places = newton%column
-         rows = newton%row
-         entries = newton%a
-      end associate
-   end subroutine fill_sparse
 
 end module ida_library
