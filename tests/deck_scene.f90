@@ -163,7 +163,7 @@ contains
       self%time(self%n_sample) = t
       if (self%room == 0) return
       group = catalogue%find_group(self%room, self%channel)
-      self%value(self%n_sample) = catalogue%groups(group)%data(1, size(catalogue%groups(group)%data, 2))
+      self%value(self%n_sample) = catalogue%values(catalogue%place(group, 1, size(catalogue%groups(group)%has)))
    end subroutine keeper_sample
 
    subroutine keeper_event(self, event, error)

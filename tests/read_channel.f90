@@ -1,6 +1,5 @@
 !> One channel of a set, as a report finds it.
 module read_channel
-   use catalogue, only: group_t
    use clearance_set, only: clearance_set_t
    use coordinates, only: coordinates_t
    use joint_set, only: joint_set_t
@@ -40,34 +39,38 @@ contains
       real(wp), intent(in) :: phi_dot(:)               !! (rows) rates of the violations [m/s or rad/s]
       real(wp), intent(inout) :: values(:, :)          !! (components, columns) values [any]
 
-      type(group_t) :: groups(1)
       type(readings_t) :: readings
+      real(wp) :: row(size(values))
       integer :: k
 
       call readings%start(set%n)
       do k = 1, set%n
-         call readings%add(code, 1, k)
+         call readings%add(code, 1, k, size(values, 1)*(set%column(k) - 1), size(values, 1))
       end do
-      groups(1)%data = values
-      call set%report(readings, motion, coordinates, rows, lambda, phi_dot, groups)
-      values = groups(1)%data
+      row = reshape(values, [size(values)])
+      call set%report(readings, motion, coordinates, rows, lambda, phi_dot, row)
+      values = reshape(row, shape(values))
    end subroutine read_joints
 
    !> Values of a channel of all items, or of all contacts.
-   subroutine read_loose(set, channel, motion, values)
+   subroutine read_loose(set, channel, motion, values, is_evaluated)
       class(clearance_set_t), intent(in) :: set   !! the set
       character(*), intent(in) :: channel         !! name of the channel
       type(motion_t), intent(in) :: motion        !! positions and velocities
       real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values [any]
+      logical, intent(in), optional :: is_evaluated   !! the set was evaluated at this motion last; absent: it may not have been
 
-      type(group_t) :: groups(1)
       type(readings_t) :: readings
+      real(wp) :: row(size(values))
+      logical :: takes_over
 
+      takes_over = .false.
+      if (present(is_evaluated)) takes_over = is_evaluated
       call readings%start(1)
-      call readings%add(channel_code(set%info(), channel), 1, 0)
-      groups(1)%data = values
-      call set%report(readings, motion, groups)
-      values = groups(1)%data
+      call readings%add(channel_code(set%info(), channel), 1, 0, 0, size(values, 1))
+      row = reshape(values, [size(values)])
+      call set%report(readings, motion, takes_over, row)
+      values = reshape(row, shape(values))
    end subroutine read_loose
 
 end module read_channel

@@ -103,7 +103,7 @@ contains
             other = of_small%find_group(room, name)
             call check_true(error, other > 0, name//" is reported by both")
             if (allocated(error)) return
-            call compare(of_small%groups(other)%data, of_full%groups(k)%data, of_full%rooms(room)%name//" "//name)
+            call compare(values_of(of_small, other), values_of(of_full, k), of_full%rooms(room)%name//" "//name)
          end associate
       end do
       associate (of_small => rate_small(small%linkage%n_position + small%linkage%n_rate + 1:), &
@@ -113,10 +113,21 @@ contains
 
    contains
 
+      !> Values of a quantity of all items.
+      pure function values_of(catalogue, group) result(values)
+         type(catalogue_t), intent(in) :: catalogue   !! what is reported
+         integer, intent(in) :: group                 !! number of the quantity
+         real(wp), allocatable :: values(:)           !! (components of all items) its values [any]
+
+         associate (first => catalogue%place(group, 1, 1), n => catalogue%groups(group)%channel%components)
+            values = catalogue%values(first:first + n*size(catalogue%groups(group)%has) - 1)
+         end associate
+      end function values_of
+
       !> Compare a channel of all items.
       subroutine compare(actual, expected, name)
-         real(wp), intent(in) :: actual(:, :)     !! (components, items) values [any]
-         real(wp), intent(in) :: expected(:, :)   !! (components, items) values [any]
+         real(wp), intent(in) :: actual(:)        !! (components of all items) values [any]
+         real(wp), intent(in) :: expected(:)      !! (components of all items) values [any]
          character(*), intent(in) :: name         !! the channel
 
          real(wp), allocatable :: a(:), e(:)

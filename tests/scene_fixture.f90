@@ -110,7 +110,7 @@ contains
             if (group%channel%name /= channel) cycle
             do i = 1, size(catalogue%rooms(group%room)%names)
                if (catalogue%rooms(group%room)%names(i)%s /= item) cycle
-               x(1:group%channel%components) = group%data(:, i)
+               x(1:group%channel%components) = catalogue%value(k, i)
             end do
          end associate
       end do

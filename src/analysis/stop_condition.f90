@@ -157,7 +157,7 @@ contains
 
       do k = 1, self%n
          associate (condition => self%list(k))
-            values(k) = catalogue%groups(condition%group)%data(condition%component, condition%item) - condition%limit
+            values(k) = catalogue%values(catalogue%place(condition%group, condition%component, condition%item)) - condition%limit
             if (.not. condition%is_above) values(k) = -values(k)
          end associate
       end do

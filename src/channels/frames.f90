@@ -156,7 +156,7 @@ contains
 
       x = 0.0_wp
       if (group == 0) return
-      associate (values => catalogue%groups(group)%data(:, item))
+      associate (values => catalogue%value(group, item))
          if (.not. any(ieee_is_nan(values))) x(:size(values)) = values
       end associate
    end function vector_of

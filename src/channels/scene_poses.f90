@@ -71,8 +71,8 @@ contains
       a(:, :, 0) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
       n = catalogue%n_coordinates
       do k = 1, self%n_body
-         r(:n, k) = catalogue%groups(self%position)%data(:n, k)
-         associate (turn => catalogue%groups(self%turn)%data(:, k))
+         r(:n, k) = catalogue%value(self%position, k)
+         associate (turn => catalogue%value(self%turn, k))
             if (size(turn) == 1) then
                a(:, :, k) = rotation_about([0.0_wp, 0.0_wp, 1.0_wp], turn(1))
             else
@@ -95,8 +95,8 @@ contains
       w = 0.0_wp
       n = catalogue%n_coordinates
       do k = 1, self%n_body
-         v(:n, k) = catalogue%groups(self%velocity)%data(:n, k)
-         associate (spin => catalogue%groups(self%spin)%data(:, k))
+         v(:n, k) = catalogue%value(self%velocity, k)
+         associate (spin => catalogue%value(self%spin, k))
             if (size(spin) == 1) then
                w(3, k) = spin(1)
             else
@@ -125,7 +125,7 @@ contains
 
       x = 0.0_wp
       if (reader%point == 0) return
-      associate (values => catalogue%groups(reader%point)%data(:, k))
+      associate (values => catalogue%value(reader%point, k))
          if (.not. any(ieee_is_nan(values))) x(:size(values)) = values
       end associate
    end function at_contact
@@ -139,7 +139,7 @@ contains
 
       value = 0.0_wp
       if (reader%of_contact(quantity) == 0) return
-      value = catalogue%groups(reader%of_contact(quantity))%data(1, k)
+      value = catalogue%values(catalogue%place(reader%of_contact(quantity), 1, k))
       if (ieee_is_nan(value)) value = 0.0_wp
    end function contact_value
 

@@ -8,7 +8,6 @@
 module clearance_set
    use bearing_films, only: bearing_films_t
    use bodies, only: material_t, points_t
-   use catalogue, only: group_t
    use contact_grip, only: new_grip, tangent_t
    use contact_states, only: contact_states_t
    use floors, only: gentle
@@ -179,13 +178,14 @@ module clearance_set
       end subroutine lie_interface
 
       !> Values that are read, of all items, or of all contacts if a channel is one of theirs. No allocation.
-      subroutine report_interface(self, readings, motion, groups)
-         import :: clearance_set_t, group_t, motion_t, readings_t
+      subroutine report_interface(self, readings, motion, is_evaluated, values)
+         import :: clearance_set_t, motion_t, readings_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          type(readings_t), intent(in) :: readings    !! channels that are read, as `info` numbers them
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         type(group_t), intent(inout) :: groups(:)   !! (groups) values of all items and contacts; others are left alone
+         logical, intent(in) :: is_evaluated         !! the set was evaluated at this motion last
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine report_interface
 
       !> Elastic energy that the contacts store which act.

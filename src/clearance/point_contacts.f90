@@ -13,7 +13,6 @@
 !> Source: Flores et al. (2008), sections 3.6 and 4.2 to 4.4. Limits: a contact is a point; contacts that share a face
 !> (`has_faces`): see `faced_contacts`.
 module point_contacts
-   use catalogue, only: group_t
    use clearance_set, only: clearance_set_t
    use contact_grip, only: slip_force, tangent_t
    use contact_laws, only: rub_by_law
@@ -127,12 +126,13 @@ module point_contacts
 
       !> Values that are read: those of the contacts and the force on j here, others as the geometry has them. The contacts of an
       !> item are found once for all of them.
-      module subroutine point_report(self, readings, motion, groups)
+      module subroutine point_report(self, readings, motion, is_evaluated, values)
          implicit none (type, external)
          class(point_contacts_t), intent(in) :: self  !! the set
          type(readings_t), intent(in) :: readings     !! channels that are read
          type(motion_t), intent(in) :: motion         !! positions and velocities
-         type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
+         logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine point_report
 
       !> Force of the contacts of an item on its body j, and their moment about its centre of mass.

@@ -62,72 +62,109 @@ contains
       type(point_contact_t) :: contacts(1)
 
       if (self%n_contact_item == 1) then  ! nothing is made ready for sixteen
-         call report_items(self, readings, motion, 1, contacts, groups)
+         call report_items(self, readings, motion, is_evaluated, 1, contacts, values)
       else
-         call report_several(self, readings, motion, groups)
+         call report_several(self, readings, motion, is_evaluated, values)
       end if
    end procedure point_report
 
    !> Items of several contacts.
-   subroutine report_several(self, readings, motion, groups)
+   subroutine report_several(self, readings, motion, is_evaluated, values)
       class(point_contacts_t), intent(in) :: self  !! the set
       type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
+      logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(point_contact_t) :: contacts(most_of_item)
 
-      call report_items(self, readings, motion, self%n_contact_item, contacts, groups)
+      call report_items(self, readings, motion, is_evaluated, self%n_contact_item, contacts, values)
    end subroutine report_several
 
    !> Values of all items.
-   subroutine report_items(self, readings, motion, n, contacts, groups)
+   subroutine report_items(self, readings, motion, is_evaluated, n, contacts, values)
       class(point_contacts_t), intent(in) :: self           !! the set
       type(readings_t), intent(in) :: readings              !! channels that are read
       type(motion_t), intent(in) :: motion                  !! positions and velocities
+      logical, intent(in) :: is_evaluated                   !! the set was evaluated at this motion last
       integer, intent(in) :: n                              !! contacts of an item
       type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
-      type(group_t), intent(inout) :: groups(:)             !! (groups) values of all items and contacts
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
       real(wp), allocatable :: gap(:)
-      integer :: c, code, column, first, g, item, m
-      logical :: is_found
+      integer :: at, c, code, column, first, item, m, width
+      logical :: is_found, takes_over, with_sliding
 
+      with_sliding = readings%most >= of_sliding_speed
+      takes_over = is_evaluated .and. self%grip%memory == memory_none
+      if (with_sliding .and. .not. allocated(self%laws%friction)) takes_over = .false.
       do item = 1, self%n
          first = (item - 1)*n
          column = self%before%contacts + first
          is_found = .false.
          do m = 1, readings%n
             code = readings%code(m)
-            g = readings%group(m)
-            if (.not. is_found .and. (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle)) then
-               call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, readings%most >= of_sliding_speed)
-               is_found = .true.
+            if (.not. is_found) then
+               if (code <= of_contact_point .or. code == of_moment .or. code >= of_contact_angle) then
+                  if (takes_over) then
+                     call take_evaluated(self, first, n, motion, contacts, f_n, f_t, f_elastic)
+                  else
+                     call find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, with_sliding)
+                  end if
+                  is_found = .true.
+               end if
             end if
-            select case (code)
-            case (of_penetration:of_state)
+            if (code >= of_penetration .and. code <= of_state) then
+               at = readings%place(m) + column
                do c = 1, n
-                  groups(g)%data(1, column + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
-                                                                   contacts(c)%rate, f_n(c), f_t(c))
+                  values(at + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
+                                                    contacts(c)%rate, f_n(c), f_t(c))
                   if (code /= of_penetration .or. self%contact(first + c)%is_touching .or. contacts(c)%delta <= 0.0_wp) cycle
                   call find_gaps(self, motion, gap)  ! beyond its end a surface is not there
-                  groups(g)%data(1, column + c) = max(0.0_wp, min(contacts(c)%delta, gap(column + c)))
+                  values(at + c) = max(0.0_wp, min(contacts(c)%delta, gap(column + c)))
                end do
-            case (of_contact_point)
-               call report_points(motion%r(:, self%items%body(2, item)), n, contacts, groups(g)%data(:, column + 1:column + n))
-            case (of_contact_angle:of_p_v)
-               call report_rubbing(code, n, self%contact(first + 1:first + n), contacts, f_n, f_t, f_elastic, &
-                                   self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), &
-                                   groups(g)%data(1, column + 1:column + n))
-            case (of_force)
-               call report_force(self, n, contacts, f_n, f_t, self%before%items + item, groups(g))
-            case default
-               call self%report_item(code, item, motion, contacts, f_n, f_t, groups(g)%data(:, self%before%items + item))
-            end select
+            else if (code == of_contact_point .or. code >= of_contact_angle) then
+               width = readings%width(m)
+               at = readings%place(m) + width*column
+               call report_course(self, code, item, n, motion, contacts, f_n, f_t, f_elastic, width, values(at + 1:at + width*n))
+            else
+               width = readings%width(m)
+               at = readings%place(m) + width*(self%before%items + item - 1)
+               if (code == of_force) then
+                  call report_force(self, n, contacts, f_n, f_t, width, values(at + 1:at + width))
+               else
+                  call self%report_item(code, item, motion, contacts, f_n, f_t, values(at + 1:at + width))
+               end if
+            end if
          end do
       end do
    end subroutine report_items
+
+   !> Where the contacts of an item are, or how they rub: values of a channel.
+   subroutine report_course(self, code, item, n, motion, contacts, f_n, f_t, f_elastic, width, values)
+      class(point_contacts_t), intent(in) :: self           !! the set
+      integer, intent(in) :: code                           !! the channel
+      integer, intent(in) :: item                           !! the item
+      integer, intent(in) :: n                              !! contacts
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
+      real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
+      real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
+      real(wp), intent(in) :: f_elastic(n)                  !! (n) elastic parts of the normal forces [N]
+      integer, intent(in) :: width                          !! components of the channel
+      real(wp), intent(inout) :: values(width*n)            !! (width n) values [any]
+
+      integer :: first
+
+      first = (item - 1)*n
+      if (code == of_contact_point) then
+         call report_points(motion%r(:, self%items%body(2, item)), n, contacts, width, values)
+      else
+         call report_rubbing(code, n, self%contact(first + 1:first + n), contacts, f_n, f_t, f_elastic, &
+                             self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), values)
+      end if
+   end subroutine report_course
 
    !> Penetrations of all contacts with the ends of the surfaces, once.
    subroutine find_gaps(self, motion, gap)
@@ -248,28 +285,29 @@ contains
    end subroutine report_rubbing
 
    !> Where the forces on j act.
-   pure subroutine report_points(r_j, n, contacts, values)
+   pure subroutine report_points(r_j, n, contacts, n_axis, values)
       real(wp), intent(in) :: r_j(3)                        !! (3) centre of mass of j, world frame [m]
       integer, intent(in) :: n                              !! contacts
       type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
-      real(wp), intent(inout), contiguous :: values(:, :)   !! (2 or 3, n) the points, world frame [m]
+      integer, intent(in) :: n_axis                         !! components of a vector
+      real(wp), intent(inout) :: values(n_axis, n)          !! (2 or 3, n) the points, world frame [m]
 
       integer :: c
 
       do c = 1, n
-         values(:, c) = r_j(:size(values, 1)) + contacts(c)%arm_j(:size(values, 1))
+         values(:, c) = r_j(:n_axis) + contacts(c)%arm_j(:n_axis)
       end do
    end subroutine report_points
 
    !> Force of all contacts of an item on j.
-   pure subroutine report_force(self, n, contacts, f_n, f_t, column, group)
+   pure subroutine report_force(self, n, contacts, f_n, f_t, n_axis, value)
       class(point_contacts_t), intent(in) :: self           !! the set
       integer, intent(in) :: n                              !! contacts
       type(point_contact_t), intent(in) :: contacts(n)      !! (n) their kinematics
       real(wp), intent(in) :: f_n(n)                        !! (n) normal forces [N]
       real(wp), intent(in) :: f_t(n)                        !! (n) friction forces on j along t [N]
-      integer, intent(in) :: column                         !! place of the item
-      type(group_t), intent(inout) :: group                 !! values, world frame [N]
+      integer, intent(in) :: n_axis                         !! components of a vector
+      real(wp), intent(inout) :: value(n_axis)              !! (2 or 3) the force, world frame [N]
 
       real(wp) :: force(3)
       integer :: c
@@ -278,10 +316,43 @@ contains
       do c = 1, n
          force = force + self%force_on_j(contacts(c), f_n(c), f_t(c))
       end do
-      do c = 1, size(group%data, 1)
-         group%data(c, column) = force(c)
+      do c = 1, n_axis
+         value(c) = force(c)
       end do
    end subroutine report_force
+
+   !> Kinematics and forces of the contacts of an item as the last evaluation found them, at this motion: sliding velocities where
+   !> there is friction. Not for friction that contacts remember: it may be found with the accelerations.
+   subroutine take_evaluated(self, first, n, motion, contacts, f_n, f_t, f_elastic)
+      class(point_contacts_t), intent(in) :: self           !! the set, evaluated
+      integer, intent(in) :: first                          !! contacts before those of the item
+      integer, intent(in) :: n                              !! contacts of an item
+      type(motion_t), intent(in) :: motion                  !! positions and velocities
+      type(point_contact_t), intent(inout) :: contacts(n)   !! (n) kinematics
+      real(wp), intent(out) :: f_n(n)                       !! (n) normal forces [N]
+      real(wp), intent(out) :: f_t(n)                       !! (n) friction forces on j along t [N]
+      real(wp), intent(out) :: f_elastic(n)                 !! (n) elastic parts of the normal forces [N]
+
+      integer :: c
+      logical :: acts, acts_apart
+
+      acts_apart = self%laws%normal%acts_apart
+      acts = self%n_touching > 0 .or. acts_apart
+      do c = 1, n
+         if (self%contact(first + c)%is_touching .or. acts_apart) then
+            contacts(c) = self%work%contacts(first + c)
+         else
+            call self%measure(first + c, allocated(self%laws%friction), motion, contacts(c))
+         end if
+         f_n(c) = 0.0_wp
+         f_t(c) = 0.0_wp
+         f_elastic(c) = 0.0_wp
+         if (.not. acts) cycle
+         f_n(c) = self%work%f_n(first + c)
+         f_t(c) = self%work%f_t(first + c)
+         f_elastic(c) = self%work%f_elastic(first + c)
+      end do
+   end subroutine take_evaluated
 
    !> Kinematics and forces of the contacts of an item at a motion: forces are zero of those that are free.
    subroutine find_forces(self, item, n, motion, contacts, f_n, f_t, f_elastic, with_sliding)

@@ -11,7 +11,7 @@
 !> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
 !> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
 module round_contacts
-   use catalogue, only: group_t, state_contact, state_film, state_mixed
+   use catalogue, only: state_contact, state_film, state_mixed
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
@@ -250,18 +250,19 @@ contains
    end subroutine find_centres
 
    !> Values that are read: of films here, and what they add to those of contacts.
-   subroutine round_report(self, readings, motion, groups)
+   subroutine round_report(self, readings, motion, is_evaluated, values)
       class(round_contacts_t), intent(in) :: self  !! the set
       type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
+      logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(film_motion_t) :: film
       type(film_state_t) :: state
-      integer :: k, m
+      integer :: at, k, m
       logical :: has_state
 
-      call point_report(self, readings, motion, groups)
+      call point_report(self, readings, motion, is_evaluated, values)
       if (.not. allocated(self%laws%films)) return
       do k = 1, self%n
          film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
@@ -272,13 +273,12 @@ contains
                if (.not. has_state) state = self%laws%films%state_of(k, self%items%body(:, k), film, motion)
                has_state = .true.
             end select
-            associate (values => groups(readings%group(m))%data)
-               if (readings%code(m) == of_state) then
-                  call add_film_state(state, values(1, self%before%contacts + k))
-               else
-                  call report_film(self, readings%code(m), k, film, state, values(:, self%before%items + k))
-               end if
-            end associate
+            if (readings%code(m) == of_state) then
+               call add_film_state(state, values(readings%place(m) + self%before%contacts + k))
+            else
+               at = readings%place(m) + readings%width(m)*(self%before%items + k - 1)
+               call report_film(self, readings%code(m), k, film, state, values(at + 1:at + readings%width(m)))
+            end if
          end do
       end do
    end subroutine round_report
@@ -326,13 +326,29 @@ contains
       real(wp), intent(in) :: f_t(self%n_contact_item)    !! (n_contact_item) friction force on j along t [N]
       real(wp), intent(inout), contiguous :: value(:)     !! (2) the value [m]
 
-      real(wp) :: distance, s_i(2), s_j(2)
-
       if (code /= of_eccentricity) return
-      call find_centres(self, item, motion, s_i, s_j, distance)
-      associate (i => self%items%body(1, item), j => self%items%body(2, item))
-         value = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
-      end associate
+      call find_eccentricity(self%items%body(:, item), self%items%s_i(:, item), self%items%s_j(:, item), ubound(motion%angle, 1), &
+                             motion%r, motion%rot, value)
    end subroutine round_report_item
+
+   !> The same on plain arrays.
+   pure subroutine find_eccentricity(body, s_bearing, s_journal, n_body, r, rot, e)
+      integer, intent(in) :: body(2)                     !! (2) bodies of bearing and journal
+      real(wp), intent(in) :: s_bearing(3)               !! (3) centre of the bearing, frame of its body [m]
+      real(wp), intent(in) :: s_journal(3)               !! (3) centre of the journal, frame of its body [m]
+      integer, intent(in) :: n_body                      !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)             !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: rot(3, 3, 0:n_body)        !! (3, 3, 0:bodies) body frames to world frame [1]
+      real(wp), intent(inout) :: e(2)                    !! (2) of the journal's centre, world frame [m]
+
+      real(wp) :: s_i, s_j
+      integer :: c
+
+      do c = 1, 2
+         s_i = rot(c, 1, body(1))*s_bearing(1) + rot(c, 2, body(1))*s_bearing(2)
+         s_j = rot(c, 1, body(2))*s_journal(1) + rot(c, 2, body(2))*s_journal(2)
+         e(c) = r(c, body(2)) + s_j - r(c, body(1)) - s_i
+      end do
+   end subroutine find_eccentricity
 
 end module round_contacts

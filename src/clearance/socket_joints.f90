@@ -3,7 +3,7 @@
 !> Levels are those of the plane, see `clearance_revolute`. Channels of the force and of the moment are those of contacts and film
 !> together. Limits: those of both.
 module socket_joints
-   use catalogue, only: group_t, state_contact, state_film, state_mixed
+   use catalogue, only: state_contact, state_film, state_mixed
    use film_law, only: film_motion_t, greatest_eccentricity
    use film_places, only: film_state_t
    use item, only: item_t
@@ -71,30 +71,30 @@ contains
    end subroutine seat_films
 
    !> Values that are read: of films here, and what they add to those of contacts.
-   subroutine joints_report(self, readings, motion, groups)
+   subroutine joints_report(self, readings, motion, is_evaluated, values)
       class(socket_joints_t), intent(in) :: self   !! the set
       type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      type(group_t), intent(inout) :: groups(:)    !! (groups) values of all items and contacts
+      logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(film_motion_t) :: film
       type(film_state_t) :: state
-      integer :: first, k, m
+      integer :: at, k, m
 
-      call point_report(self, readings, motion, groups)
+      call point_report(self, readings, motion, is_evaluated, values)
       if (.not. allocated(self%laws%films)) return
       do k = 1, self%n
          film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)
          state = self%laws%films%state_of(k, self%items%body(:, k), film, motion)
-         first = self%before%contacts + (k - 1)*self%n_contact_item
          do m = 1, readings%n
-            associate (values => groups(readings%group(m))%data)
-               if (readings%code(m) == of_state) then
-                  if (state%share > 0.0_wp) call add_film_state(values(1, first + 1:first + self%n_contact_item))
-               else
-                  call report_film(self, readings%code(m), k, film, state, values(:, self%before%items + k))
-               end if
-            end associate
+            if (readings%code(m) == of_state) then
+               at = readings%place(m) + self%before%contacts + (k - 1)*self%n_contact_item
+               if (state%share > 0.0_wp) call add_film_state(values(at + 1:at + self%n_contact_item))
+            else
+               at = readings%place(m) + readings%width(m)*(self%before%items + k - 1)
+               call report_film(self, readings%code(m), k, film, state, values(at + 1:at + readings%width(m)))
+            end if
          end do
       end do
    end subroutine joints_report

@@ -181,7 +181,7 @@ contains
       n = 0
       do k = 1, size(catalogue%groups)
          associate (group => catalogue%groups(k))
-            if (sort_of(group%room, group%channel%name) > 0) n = n + numbers_of(group)*size(group%data, 2)
+            if (sort_of(group%room, group%channel%name) > 0) n = n + numbers_of(group)*size(group%has)
          end associate
       end do
    end function count_kept

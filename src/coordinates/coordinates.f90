@@ -4,7 +4,6 @@
 !> diagonal. Everything between the joints and the analysis works with this contract and knows neither number.
 module coordinates
    use bodies, only: bodies_t
-   use catalogue, only: group_t
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -239,13 +238,13 @@ module coordinates
          real(wp), intent(out) :: moment(3)         !! (3) moment about the centre of mass, world frame [N.m]
       end subroutine split_interface
 
-      !> Values that are read, of all bodies or of one. No allocation.
-      pure subroutine report_interface(readings, motion, groups)
-         import :: group_t, motion_t, readings_t
+      !> Values that are read, body by body. No allocation.
+      pure subroutine report_interface(readings, motion, values)
+         import :: motion_t, readings_t, wp
          implicit none (type, external)
          type(readings_t), intent(in) :: readings   !! channels that are read, of `bodies`
          type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-         type(group_t), intent(inout) :: groups(:)  !! (groups) values
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine report_interface
 
       !> The row of a direction at a point of a body: its product with the rates is the velocity of the point that way.

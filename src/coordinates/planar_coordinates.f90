@@ -7,7 +7,6 @@ module planar_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: bodies_info, bodies_t, of_acceleration, of_angle, of_angular_acceleration, of_angular_velocity, &
       of_position, of_velocity
-   use catalogue, only: group_t
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: loads_t, motion_t
@@ -68,12 +67,12 @@ module planar_coordinates
          real(wp), intent(out) :: v_change(self%n_v, n)    !! (3, n) changes of the rates [m/s, m/s, rad/s]
       end subroutine planar_from_local
 
-      !> Values that are read, of all bodies or of one.
-      pure module subroutine planar_report(readings, motion, groups)
+      !> Values that are read, body by body.
+      pure module subroutine planar_report(readings, motion, values)
          implicit none (type, external)
          type(readings_t), intent(in) :: readings   !! channels that are read
          type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-         type(group_t), intent(inout) :: groups(:)  !! (groups) values
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine planar_report
    end interface
 

@@ -15,19 +15,10 @@ contains
       call turn(n, q, 1.0_wp, x, w, q_change, v_change)
    end procedure planar_from_local
 
-   !> Values that are read, of all bodies or of one.
+   !> Values that are read, body by body.
    module procedure planar_report
-      integer :: k, m
-
-      do m = 1, readings%n
-         if (readings%item(m) > 0) then
-            call report_body(readings%code(m), readings%item(m), motion, groups(readings%group(m)))
-         else
-            do k = 1, size(groups(readings%group(m))%data, 2)
-               call report_body(readings%code(m), k, motion, groups(readings%group(m)))
-            end do
-         end if
-      end do
+      call report_bodies(readings%n, readings%code, readings%item, readings%place, ubound(motion%angle, 1), motion%r, motion%v, &
+                         motion%a, motion%angle, motion%omega, motion%alpha, size(values), values)
    end procedure planar_report
 
    !> Two vectors for each body, turned by its angle or back.
@@ -51,30 +42,45 @@ contains
       end do
    end subroutine turn
 
-   !> The value of a channel of one body.
-   pure subroutine report_body(code, k, motion, group)
-      integer, intent(in) :: code              !! the channel
-      integer, intent(in) :: k                 !! the body
-      type(motion_t), intent(in) :: motion     !! the motion, accelerations too
-      type(group_t), intent(inout) :: group    !! values
+   !> The same on plain arrays.
+   pure subroutine report_bodies(n, code, item, place, n_body, r, v, a, angle, omega, alpha, n_value, values)
+      integer, intent(in) :: n                         !! channels that are read
+      integer, intent(in) :: code(n)                   !! (n) the channels
+      integer, intent(in) :: item(n)                   !! (n) the bodies
+      integer, intent(in) :: place(n)                  !! (n) values before those that are read
+      integer, intent(in) :: n_body                    !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)           !! (3, 0:bodies) centres of mass [m]
+      real(wp), intent(in) :: v(3, 0:n_body)           !! (3, 0:bodies) velocities [m/s]
+      real(wp), intent(in) :: a(3, 0:n_body)           !! (3, 0:bodies) accelerations [m/s^2]
+      real(wp), intent(in) :: angle(0:n_body)          !! (0:bodies) angles [rad]
+      real(wp), intent(in) :: omega(3, 0:n_body)       !! (3, 0:bodies) angular velocities [rad/s]
+      real(wp), intent(in) :: alpha(3, 0:n_body)       !! (3, 0:bodies) angular accelerations [rad/s^2]
+      integer, intent(in) :: n_value                   !! values of the catalogue
+      real(wp), intent(inout) :: values(n_value)       !! (n_value) they, those that are read are set [any]
 
-      select case (code)
-      case (of_position)
-         group%data(1, k) = motion%r(1, k)
-         group%data(2, k) = motion%r(2, k)
-      case (of_velocity)
-         group%data(1, k) = motion%v(1, k)
-         group%data(2, k) = motion%v(2, k)
-      case (of_acceleration)
-         group%data(1, k) = motion%a(1, k)
-         group%data(2, k) = motion%a(2, k)
-      case (of_angle)
-         group%data(1, k) = motion%angle(k)
-      case (of_angular_velocity)
-         group%data(1, k) = motion%omega(3, k)
-      case (of_angular_acceleration)
-         group%data(1, k) = motion%alpha(3, k)
-      end select
-   end subroutine report_body
+      integer :: at, k, m
+
+      do m = 1, n
+         at = place(m)
+         k = item(m)
+         select case (code(m))
+         case (of_position)
+            values(at + 1) = r(1, k)
+            values(at + 2) = r(2, k)
+         case (of_velocity)
+            values(at + 1) = v(1, k)
+            values(at + 2) = v(2, k)
+         case (of_acceleration)
+            values(at + 1) = a(1, k)
+            values(at + 2) = a(2, k)
+         case (of_angle)
+            values(at + 1) = angle(k)
+         case (of_angular_velocity)
+            values(at + 1) = omega(3, k)
+         case (of_angular_acceleration)
+            values(at + 1) = alpha(3, k)
+         end select
+      end do
+   end subroutine report_bodies
 
 end submodule planar_local_changes

@@ -10,7 +10,6 @@
 module spatial_coordinates
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use bodies, only: bodies_t, of_acceleration, of_angular_acceleration, of_angular_velocity, of_position, of_velocity
-   use catalogue, only: group_t
    use coordinates, only: coordinates_t
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
@@ -75,12 +74,12 @@ module spatial_coordinates
          real(wp), intent(out) :: v_change(self%n_v, n)    !! (6, n) changes of the rates [m/s and rad/s]
       end subroutine spatial_from_local
 
-      !> Values that are read, of all bodies or of one. What is along a body's axes is along those of the deck.
-      pure module subroutine spatial_report(readings, motion, groups)
+      !> Values that are read, body by body. What is along a body's axes is along those of the deck.
+      pure module subroutine spatial_report(readings, motion, values)
          implicit none (type, external)
          type(readings_t), intent(in) :: readings   !! channels that are read
          type(motion_t), intent(in) :: motion       !! the motion, accelerations too
-         type(group_t), intent(inout) :: groups(:)  !! (groups) values
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine spatial_report
 
       !> Displacements, and turns about axes of the body; Euler parameters come out at length one.

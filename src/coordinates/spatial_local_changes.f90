@@ -32,39 +32,32 @@ contains
       end do
    end procedure spatial_from_local
 
-   !> Values that are read, of all bodies or of one. What is along a body's axes is along those of the deck.
+   !> Values that are read, body by body. What is along a body's axes is along those of the deck.
    module procedure spatial_report
       real(wp) :: p(4)
-      integer :: first, k, last, m
+      integer :: at, k, m
 
       do m = 1, readings%n
-         associate (values => groups(readings%group(m))%data)
-            first = max(readings%item(m), 1)
-            last = first
-            if (readings%item(m) == 0) last = size(values, 2)
-            select case (readings%code(m))
-            case (of_position)
-               values(:, first:last) = motion%r(:, first:last)
-            case (of_velocity)
-               values(:, first:last) = motion%v(:, first:last)
-            case (of_acceleration)
-               values(:, first:last) = motion%a(:, first:last)
-            case (of_orientation)
-               do k = first, last
-                  ! of the own axes, on the side of the parameters that are integrated, so that the curves have no jumps
-                  p = euler_parameters_of(motion%spatial%own(:, :, k))
-                  values(:, k) = product_of(motion%spatial%p(:, k), [p(1), -p(2:4)])/norm2(motion%spatial%p(:, k))
-               end do
-            case (of_angular_velocity)
-               values(:, first:last) = motion%omega(:, first:last)
-            case (of_angular_acceleration)
-               values(:, first:last) = motion%alpha(:, first:last)
-            case (of_spin)
-               do k = first, last
-                  values(:, k) = matmul(motion%spatial%own(:, :, k), motion%spatial%spin(:, k))
-               end do
-            end select
-         end associate
+         at = readings%place(m)
+         k = readings%item(m)
+         select case (readings%code(m))
+         case (of_position)
+            values(at + 1:at + 3) = motion%r(:, k)
+         case (of_velocity)
+            values(at + 1:at + 3) = motion%v(:, k)
+         case (of_acceleration)
+            values(at + 1:at + 3) = motion%a(:, k)
+         case (of_orientation)
+            ! of the own axes, on the side of the parameters that are integrated, so that the curves have no jumps
+            p = euler_parameters_of(motion%spatial%own(:, :, k))
+            values(at + 1:at + 4) = product_of(motion%spatial%p(:, k), [p(1), -p(2:4)])/norm2(motion%spatial%p(:, k))
+         case (of_angular_velocity)
+            values(at + 1:at + 3) = motion%omega(:, k)
+         case (of_angular_acceleration)
+            values(at + 1:at + 3) = motion%alpha(:, k)
+         case (of_spin)
+            values(at + 1:at + 3) = matmul(motion%spatial%own(:, :, k), motion%spatial%spin(:, k))
+         end select
       end do
    end procedure spatial_report
 

@@ -20,53 +20,69 @@ contains
                        of_violation_rate)
    end procedure add_joint_channels
 
-   !> Values that are read. They are written to their places one by one: a name for a place is a descriptor, made at each reading.
+   !> Values that are read. What is read often is found here, all else by a call.
    module procedure joint_report
       real(wp) :: force(3), load(most_rates), moment(3), rate
-      integer :: column, first, group, i, k, last, m
+      integer :: at, i, k, m
 
       do m = 1, readings%n
          k = readings%item(m)
-         group = readings%group(m)
-         column = self%column(k)
-         first = self%first_row + (k - 1)*self%n_row_item + 1
-         last = first + self%n_row_item - 1
-         select case (readings%code(m))
-         case (of_force, of_moment)
-            if (self%is_driver) then
-               groups(group)%data(1, column) = -lambda(first)
-            else if (readings%code(m) == of_force) then
-               call find_load(self, k, 0, coordinates%n_v, rows%jac, lambda, load)
-               call coordinates%split_load(load(:coordinates%n_v), motion, self%body(1, k), force, moment)
-               do i = 1, size(groups(group)%data, 1)
-                  groups(group)%data(i, column) = force(i)
-               end do
-            else
-               call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
-               i = merge(3, 1, size(groups(group)%data, 1) == 1)
-               groups(group)%data(:, column) = moment(i:)
-            end if
-         case (of_violation)
-            groups(group)%data(1, column) = norm2(rows%phi(first:last))
-         case (of_violation_rate)
-            groups(group)%data(1, column) = norm2(phi_dot(first:last))
-         case (of_coordinate)
-            call self%coordinate(k, motion, groups(group)%data(1, column), rate)
-         case (of_power)
-            groups(group)%data(1, column) = sum(lambda(first:last)*rows%phi_t(first:last))
-         case (of_friction_moment, of_friction_force)
-            do i = 1, self%friction%n
-               if (self%friction%item(i) /= k) cycle
-               groups(group)%data(1, column) = self%friction%force(i)
-               if (readings%code(m) == of_friction_moment) then
-                  groups(group)%data(1, column) = self%friction%length(1, i)*self%friction%force(i)
-               end if
+         at = readings%place(m)
+         if (self%is_driver .and. readings%code(m) <= of_moment) then
+            values(at + 1) = -lambda(self%first_row + (k - 1)*self%n_row_item + 1)
+         else if (readings%code(m) == of_force) then
+            call find_load(self%n_row_item, self%first_row + (k - 1)*self%n_row_item, 0, coordinates%n_v, rows%n, rows%jac, &
+                           lambda, load)
+            call coordinates%split_load(load(:coordinates%n_v), motion, self%body(1, k), force, moment)
+            do i = 1, readings%width(m)
+               values(at + i) = force(i)
             end do
-         case default
-            call self%report_own(readings%code(m), k, motion, coordinates, rows, lambda, groups(group)%data(:, column))
-         end select
+         else if (readings%code(m) == of_coordinate) then
+            call self%coordinate(k, motion, values(at + 1), rate)
+         else
+            call report_other(self, readings%code(m), k, motion, coordinates, rows, lambda, phi_dot, &
+                              values(at + 1:at + readings%width(m)))
+         end if
       end do
    end procedure joint_report
+
+   !> A channel that is neither a force nor a coordinate.
+   subroutine report_other(self, code, k, motion, coordinates, rows, lambda, phi_dot, value)
+      class(joint_set_t), intent(in) :: self           !! the set
+      integer, intent(in) :: code                      !! the channel
+      integer, intent(in) :: k                         !! item of the set
+      type(motion_t), intent(in) :: motion             !! positions and velocities
+      class(coordinates_t), intent(in) :: coordinates  !! what loads on the rates are
+      type(rows_t), intent(in) :: rows                 !! rows at the motion
+      real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
+      real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
+      real(wp), intent(inout), contiguous :: value(:)  !! (components) the value [any]
+
+      real(wp) :: force(3), moment(3)
+      integer :: first, i, last
+
+      first = self%first_row + (k - 1)*self%n_row_item + 1
+      last = first + self%n_row_item - 1
+      select case (code)
+      case (of_moment)
+         call self%reaction(k, motion, coordinates, rows, lambda, force, moment)
+         value = moment(merge(3, 1, size(value) == 1):)
+      case (of_violation)
+         value(1) = norm2(rows%phi(first:last))
+      case (of_violation_rate)
+         value(1) = norm2(phi_dot(first:last))
+      case (of_power)
+         value(1) = sum(lambda(first:last)*rows%phi_t(first:last))
+      case (of_friction_moment, of_friction_force)
+         do i = 1, self%friction%n
+            if (self%friction%item(i) /= k) cycle
+            value(1) = self%friction%force(i)
+            if (code == of_friction_moment) value(1) = self%friction%length(1, i)*self%friction%force(i)
+         end do
+      case default
+         call self%report_own(code, k, motion, coordinates, rows, lambda, value)
+      end select
+   end subroutine report_other
 
    !> Reaction of an item on body i, or j.
    module procedure joint_reaction
@@ -76,26 +92,28 @@ contains
       before = 0
       if (present(side)) before = (side - 1)*coordinates%n_v
       body = self%body(merge(2, 1, before > 0), item)
-      call find_load(self, item, before, coordinates%n_v, rows%jac, lambda, load)
+      call find_load(self%n_row_item, self%first_row + (item - 1)*self%n_row_item, before, coordinates%n_v, rows%n, rows%jac, &
+                     lambda, load)
       call coordinates%split_load(load(:coordinates%n_v), motion, body, force, moment)
       moment = moment - cross(self%reaction_point(item, motion) - motion%r(:, body), force)
    end procedure joint_reaction
 
-   !> Load of the rows of an item on the rates of a body.
-   pure subroutine find_load(self, item, before, n, jac, lambda, load)
-      class(joint_set_t), intent(in) :: self          !! the set
-      integer, intent(in) :: item                     !! item of the set
+   !> Load of some rows on the rates of a body.
+   pure subroutine find_load(n_own, first, before, n, n_row, jac, lambda, load)
+      integer, intent(in) :: n_own                    !! how many rows
+      integer, intent(in) :: first                    !! rows before them
       integer, intent(in) :: before                   !! places before the body's in the rows
       integer, intent(in) :: n                        !! rates of a body
-      real(wp), intent(in), contiguous :: jac(:, :)   !! (2 n, rows) Phi_q [1 or m]
-      real(wp), intent(in), contiguous :: lambda(:)   !! (rows) multipliers [N or N.m]
+      integer, intent(in) :: n_row                    !! number of all rows
+      real(wp), intent(in) :: jac(2*n, n_row)         !! (2 n, rows) Phi_q [1 or m]
+      real(wp), intent(in) :: lambda(n_row)           !! (rows) multipliers [N or N.m]
       real(wp), intent(inout) :: load(most_rates)     !! (n) first: the load [N or N.m]
 
       integer :: i, k, row
 
       load(1:n) = 0.0_wp
-      do k = 1, self%n_row_item
-         row = self%first_row + (item - 1)*self%n_row_item + k
+      do k = 1, n_own
+         row = first + k
          !GCC$ novector
          do i = 1, n
             load(i) = load(i) - jac(before + i, row)*lambda(row)

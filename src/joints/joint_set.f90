@@ -8,7 +8,6 @@
 !> A planar row has six columns: x_i, y_i, angle_i, x_j, y_j, angle_j; one in space twelve: the velocity of i and its angular
 !> velocity in the frame of its body, then those of j (`spatial_rows`).
 module joint_set
-   use catalogue, only: group_t
    use coordinates, only: coordinates_t
    use item, only: item_t
    use joint_friction, only: joint_friction_t
@@ -116,7 +115,7 @@ module joint_set
 
       !> Values that are read, item by item: channels that joints or drivers share here, those of a kind's own by `report_own`. A
       !> channel of `info()` that nobody fills is a mistake of the kind; the tests of the registry find it. No allocation.
-      module subroutine joint_report(self, readings, motion, coordinates, rows, lambda, phi_dot, groups)
+      module subroutine joint_report(self, readings, motion, coordinates, rows, lambda, phi_dot, values)
          implicit none (type, external)
          class(joint_set_t), intent(in) :: self           !! the set
          type(readings_t), intent(in) :: readings         !! channels that are read, of those that the kind announces
@@ -125,7 +124,7 @@ module joint_set
          type(rows_t), intent(in) :: rows                 !! rows at the motion
          real(wp), intent(in), contiguous :: lambda(:)    !! (rows) multipliers [N or N.m]
          real(wp), intent(in), contiguous :: phi_dot(:)   !! (rows) rates of the violations [m/s or rad/s]
-         type(group_t), intent(inout) :: groups(:)        !! (groups) values
+         real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine joint_report
 
       !> Reaction of an item on body i, or j: force, and moment about its reaction point.

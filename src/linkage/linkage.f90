@@ -327,7 +327,7 @@ contains
       real(wp) :: inside
       integer :: k
 
-      inside = self%piece%inside(t)
+      inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
       do k = 1, size(wanted%sets)
          call self%joints(wanted%sets(k))%set%evaluate(inside, self%motion, self%rows)
       end do
@@ -340,8 +340,8 @@ contains
          do k = 1, known%n
             call copy(known%held(k)%body)
          end do
-         call known%find_multipliers(known%held, self%reduced%carried, self%rows%jac, self%mass, g, solution%a, self%rest, &
-                                     solution%lambda)
+         call known%find_multipliers(self%coordinates%n_v, self%bodies%n, self%rows%n, known%held, self%reduced%carried, &
+                                     self%rows%jac, self%mass, g, solution%a, self%rest, solution%lambda)
       end associate
 
    contains

@@ -42,7 +42,7 @@ module catalogue
       type(channel_t) :: channel              !! name, SI unit, frame, components and long name
       logical, allocatable :: has(:)          !! (items) which of them have the channel
       logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found
-      real(wp), allocatable :: data(:, :)     !! (components, items) current values, SI; NaN: the item has no such channel [any]
+      integer :: before = 0                   !! numbers before its own in `values`: all components of its first item, of its second
    end type group_t
 
    !> The items of one sort.
@@ -68,6 +68,7 @@ module catalogue
       type(room_t) :: rooms(n_rooms)              !! (n_rooms) items
       integer :: n_group = 0                      !! quantities so far
       type(group_t), allocatable :: groups(:)     !! (groups) quantities; while some are added with places for more
+      real(wp), allocatable :: values(:)          !! (any) current values of all, SI; NaN: the item has no such channel [any]
       type(reading_offer_t) :: offer              !! what the sets of the system tell
       type(reading_plan_t) :: readings            !! what is read of the sets of the system, if it is bound
       type(bound_formula_t), allocatable :: formulas(:)  !! (any) expressions over channels, each after those that it uses
@@ -78,6 +79,8 @@ module catalogue
       procedure :: allocate_data => catalogue_allocate_data
       procedure :: find_group => catalogue_find_group
       procedure :: item_has => catalogue_item_has
+      procedure :: place => catalogue_place
+      procedure :: value => catalogue_value
       procedure :: list => catalogue_list
       procedure :: bind => catalogue_bind
       procedure :: spread_wants => catalogue_spread_wants
@@ -149,7 +152,7 @@ contains
       call move_alloc(from%channel%help, to%channel%help)
       call move_alloc(from%has, to%has)
       call move_alloc(from%is_wanted, to%is_wanted)
-      call move_alloc(from%data, to%data)
+      to%before = from%before
    end subroutine take_over
 
    !> Add all the channels that a kind announces to a room.
@@ -235,6 +238,28 @@ contains
       has = self%groups(group)%has(item)
    end function catalogue_item_has
 
+   !> Where a number stands in `values`.
+   pure integer function catalogue_place(self, group, component, item) result(place)
+      class(catalogue_t), intent(in) :: self  !! the catalogue
+      integer, intent(in) :: group            !! number of the group
+      integer, intent(in) :: component        !! the component
+      integer, intent(in) :: item             !! number of the item in the group's room
+
+      place = self%groups(group)%before + self%groups(group)%channel%components*(item - 1) + component
+   end function catalogue_place
+
+   !> Current value of a quantity of an item.
+   pure function catalogue_value(self, group, item) result(x)
+      class(catalogue_t), intent(in) :: self                   !! the catalogue
+      integer, intent(in) :: group                             !! number of the group
+      integer, intent(in) :: item                              !! number of the item in the group's room
+      real(wp) :: x(self%groups(group)%channel%components)     !! (components) its value [any]
+
+      associate (before => self%place(group, 0, item))
+         x = self%values(before + 1:before + size(x))
+      end associate
+   end function catalogue_value
+
    !> What a set tells: its channels, and where their values go.
    subroutine catalogue_list(self, room, info, offer)
       class(catalogue_t), intent(in) :: self     !! the catalogue
@@ -248,38 +273,47 @@ contains
       do k = 1, count_channels(info)
          group = self%find_group(room, info%channels(k)%name)
          if (group == 0 .and. room == room_clearances) group = self%find_group(room_contacts, info%channels(k)%name)
-         if (group > 0) call offer%add(info%channels(k)%code, group, 0)
+         if (group > 0) call offer%add(info%channels(k)%code, group, 0, 0, info%channels(k)%components)
       end do
    end subroutine catalogue_list
 
-   !> What is read of a set: those of its channels that someone wants of any item, or item by item. Bodies are read one by one where
-   !> not all are wanted.
+   !> What is read of a set: those of its channels that someone wants of any item, or item by item.
    pure subroutine catalogue_bind(self, offer, readings, columns)
       class(catalogue_t), intent(in) :: self      !! the catalogue
       type(readings_t), intent(in) :: offer       !! what the set tells
       type(readings_t), intent(inout) :: readings !! what is read
-      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: as above
+      integer, intent(in), optional :: columns(:) !! (items of the set) their places in the room; absent: not item by item
 
       integer :: i, k, n
 
-      n = max(self%rooms(room_bodies)%n, 1)
+      n = 1
       if (present(columns)) n = size(columns)
       call readings%start(n*offer%n)
       do k = 1, offer%n
-         associate (code => offer%code(k), group => offer%group(k), this => self%groups(offer%group(k)))
+         associate (this => self%groups(offer%group(k)))
             if (present(columns)) then
                do i = 1, n
-                  if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call readings%add(code, group, i)
+                  if (this%has(columns(i)) .and. this%is_wanted(columns(i))) call add(columns(i), i, readings)
                end do
-            else if (this%room /= room_bodies .or. all(this%is_wanted)) then
-               if (any(this%is_wanted)) call readings%add(code, group, 0)
-            else
-               do i = 1, n
-                  if (this%is_wanted(i)) call readings%add(code, group, i)
-               end do
+            else if (any(this%is_wanted)) then
+               call add(1, 0, readings)
             end if
          end associate
       end do
+
+   contains
+
+      !> Add the channel at hand of one item, or of all.
+      pure subroutine add(column, item, list)
+         integer, intent(in) :: column           !! place in the room of the item, or of the first
+         integer, intent(in) :: item             !! item of the set, 0: all
+         type(readings_t), intent(inout) :: list !! what is read
+
+         associate (group => offer%group(k))
+            call list%add(offer%code(k), group, item, self%place(group, 0, column), self%groups(group)%channel%components)
+         end associate
+      end subroutine add
+
    end subroutine catalogue_bind
 
    !> What wanted expressions read is wanted too.
@@ -317,10 +351,10 @@ contains
             if (formula%group == 0) cycle
             if (.not. self%groups(formula%group)%is_wanted(1)) cycle
             do m = 1, size(formula%source, 2)
-               x(1 + m) = self%groups(formula%source(1, m))%data(formula%source(2, m), formula%source(3, m))
+               x(1 + m) = self%values(self%place(formula%source(1, m), formula%source(2, m), formula%source(3, m)))
             end do
             call formula%expression%evaluate_seeing(x(:1 + size(formula%source, 2)), 1, value, slope)
-            self%groups(formula%group)%data(1, 1) = value
+            self%values(self%place(formula%group, 1, 1)) = value
          end associate
       end do
       call ieee_set_status(status)
@@ -349,7 +383,7 @@ contains
       class(catalogue_t), intent(inout) :: self  !! the catalogue
 
       character(:), allocatable :: word
-      integer :: item, k
+      integer :: item, k, n
 
       self%rooms(room_bodies)%name = "bodies"
       self%rooms(room_joints)%name = "joints"
@@ -367,15 +401,19 @@ contains
       end do
       call resize_groups(self, self%n_group)
       if (.not. allocated(self%formulas)) allocate (self%formulas(0))
+      n = 0
       do k = 1, size(self%groups)
          associate (group => self%groups(k))
-            if (allocated(group%data)) deallocate (group%data, group%has, group%is_wanted)
+            if (allocated(group%has)) deallocate (group%has, group%is_wanted)
             allocate (group%is_wanted(size(self%rooms(group%room)%names)), source=.true.)
-            allocate (group%data(group%channel%components, size(self%rooms(group%room)%names)), source=not_a_number())
             word = " "//group%channel%name//" "
-            group%has = [(has_channel(self%rooms(group%room), word, item), item=1, size(group%data, 2))]
+            group%has = [(has_channel(self%rooms(group%room), word, item), item=1, size(group%is_wanted))]
+            group%before = n
+            n = n + group%channel%components*size(group%has)
          end associate
       end do
+      if (allocated(self%values)) deallocate (self%values)
+      allocate (self%values(n), source=not_a_number())
    end subroutine catalogue_allocate_data
 
    !> The word for a contact state.

@@ -1,7 +1,7 @@
 !> Which values of a system's sets are read, and where they go: found once, so that a sample compares no names.
 !>
-!> A kind numbers its channels in `info()`. What is read of a set is a list of these numbers, each with the group of the catalogue
-!> that its values go to; of joints item by item.
+!> A kind numbers its channels in `info()`. What is read of a set is a list of these numbers, each with the place of its values
+!> among all values of the catalogue; of joints item by item.
 module readings
    implicit none (type, external)
    private
@@ -14,6 +14,8 @@ module readings
       integer, allocatable :: code(:)     !! (n or more) the channels, as `info()` of the set numbers them
       integer, allocatable :: group(:)    !! (n or more) groups of the catalogue that their values go to
       integer, allocatable :: item(:)     !! (n or more) the item of the set, 0: all
+      integer, allocatable :: place(:)    !! (n or more) values before that of the item, or of the room's first
+      integer, allocatable :: width(:)    !! (n or more) numbers that a value has
    contains
       procedure :: start => readings_start
       procedure :: add => readings_add
@@ -53,22 +55,26 @@ contains
 
       self%n = 0
       self%most = 0
-      if (allocated(self%code)) deallocate (self%code, self%group, self%item)
-      allocate (self%code(most), self%group(most), self%item(most), source=0)
+      if (allocated(self%code)) deallocate (self%code, self%group, self%item, self%place, self%width)
+      allocate (self%code(most), self%group(most), self%item(most), self%place(most), self%width(most), source=0)
    end subroutine readings_start
 
    !> Add a channel; there is room for it.
-   pure subroutine readings_add(self, code, group, item)
+   pure subroutine readings_add(self, code, group, item, place, width)
       class(readings_t), intent(inout) :: self   !! the list
       integer, intent(in) :: code                !! the channel
       integer, intent(in) :: group               !! its group
       integer, intent(in) :: item                !! item of the set, 0: all
+      integer, intent(in) :: place               !! values before that of the item, or of the room's first
+      integer, intent(in) :: width               !! numbers that a value has
 
       self%n = self%n + 1
       self%most = max(self%most, code)
       self%code(self%n) = code
       self%group(self%n) = group
       self%item(self%n) = item
+      self%place(self%n) = place
+      self%width(self%n) = width
    end subroutine readings_add
 
 end module readings

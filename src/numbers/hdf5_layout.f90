@@ -25,12 +25,10 @@ module hdf5_layout
    !> One quantity in the file, and its rows that are not yet there.
    type :: dataset_t
       integer(hid_t) :: id = -1                 !! the open dataset
-      integer :: group = 0                      !! its group in the catalogue
-      integer :: components = 1                 !! numbers of an item
-      integer, allocatable :: items(:)          !! (n) items of the room that are kept
+      integer, allocatable :: place(:)          !! (numbers of a row) where they stand in the values of the catalogue
       integer(hsize_t), allocatable :: shape(:) !! (rank) extent of one row, in Fortran's order
       logical :: is_state = .false.             !! contact states, kept as small integers
-      real(wp), allocatable :: rows(:, :)       !! (components*n, block) rows to be written [any]
+      real(wp), allocatable :: rows(:, :)       !! (numbers of a row, block) rows to be written [any]
    end type dataset_t
 
    integer, parameter :: longest_scale = 32                               !! characters of the path of a scale
@@ -257,19 +255,19 @@ contains
       character(:), allocatable :: path
       integer(hid_t) :: kind_of_number
       integer(hsize_t) :: rows
+      integer :: c, i
 
-      associate (this => catalogue%groups(group), room => catalogue%groups(group)%room)
-         dataset%group = group
-         dataset%items = items
-         dataset%components = this%channel%components
+      associate (this => catalogue%groups(group), room => catalogue%groups(group)%room, &
+                 components => catalogue%groups(group)%channel%components)
+         dataset%place = [((catalogue%place(group, c, items(i)), c=1, components), i=1, size(items))]
          dataset%is_state = room == room_contacts .and. this%channel%name == "state"
-         allocate (dataset%rows(dataset%components*size(items), block))
+         allocate (dataset%rows(size(dataset%place), block))
          if (room == room_energy .or. room == room_requests) then
             allocate (dataset%shape(0))
-         else if (dataset%components == 1) then
+         else if (components == 1) then
             dataset%shape = [size(items, kind=hsize_t)]
          else
-            dataset%shape = [int(dataset%components, hsize_t), size(items, kind=hsize_t)]
+            dataset%shape = [int(components, hsize_t), size(items, kind=hsize_t)]
          end if
          rows = block
          kind_of_number = h5t_ieee_f64le
@@ -282,7 +280,7 @@ contains
             "0 free, 1 contact, 2 film, 3 mixed, -1 not known", status)
          dimensions(1) = "time"
          dimensions(2) = scale_of(catalogue, room)
-         if (size(dataset%shape) == 2) call find_components(file, dataset%components, scales, dimensions(3), status)
+         if (size(dataset%shape) == 2) call find_components(file, components, scales, dimensions(3), status)
          call take_scales(scales, file, dataset%id, path, dimensions(:size(dataset%shape) + 1), status)
       end associate
    end subroutine make_quantity

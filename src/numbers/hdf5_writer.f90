@@ -146,18 +146,16 @@ contains
       type(event_list_t), intent(in) :: events           !! all events so far
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
 
-      integer :: at, i, k
+      integer :: i, k
 
       if (self%is_broken .or. .not. self%with_histories) return
       self%waiting = self%waiting + 1
       self%times(self%waiting) = t
       self%kinds%rows(1, self%waiting) = real(kind, wp)
       do k = 1, size(self%datasets)
-         associate (this => self%datasets(k), n => self%datasets(k)%components)
-            at = 0
-            do i = 1, size(this%items)
-               this%rows(at + 1:at + n, self%waiting) = catalogue%groups(this%group)%data(1:n, this%items(i))
-               at = at + n
+         associate (this => self%datasets(k))
+            do i = 1, size(this%place)
+               this%rows(i, self%waiting) = catalogue%values(this%place(i))
             end do
          end associate
       end do

@@ -120,7 +120,7 @@ contains
       self%rows(1, at) = t
       do k = 1, size(self%columns)
          associate (column => self%columns(k))
-            self%rows(k + 1, at) = catalogue%groups(column%group)%data(column%component, column%item)
+            self%rows(k + 1, at) = catalogue%values(catalogue%place(column%group, column%component, column%item))
          end associate
       end do
       if (self%with_kinds) self%rows(size(self%columns) + 2, at) = real(kind, wp)

@@ -30,7 +30,7 @@ contains
          if (any(self%figures%kind == figure_film)) self%wants_fields = film_requests(self%figures)
       end if
       if (.not. self%plan%with%histories) call self%selection%clear(catalogue)
-      call self%extremes%start(list_scalars(self%selection))
+      call self%extremes%start(catalogue, list_scalars(self%selection))
       if (self%plan%with%hdf5) call self%hdf5%start(self%plan, catalogue, self%selection, error)
       if (allocated(error)) return
       if (.not. self%plan%is_twin()) call self%keeper%start(self%plan%looks%frames, catalogue)

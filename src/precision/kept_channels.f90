@@ -218,11 +218,11 @@ contains
       do g = 1, size(self%kind_of)
          if (self%kind_of(g) == 0) cycle
          associate (magnitude => self%magnitude(self%kind_of(g)), group => catalogue%groups(g))
-            do j = 1, size(group%data, 2)
+            do j = 1, size(group%has)
                if (.not. catalogue%item_has(g, j)) cycle
-               do i = 1, size(group%data, 1)
-                  if (.not. ieee_is_finite(group%data(i, j))) cycle
-                  x = abs(group%data(i, j))
+               do i = 1, group%channel%components
+                  x = abs(catalogue%values(catalogue%place(g, i, j)))
+                  if (.not. ieee_is_finite(x)) cycle
                   if (x*factor_to(self, group, j) > magnitude) magnitude = x*factor_to(self, group, j)
                end do
             end do
@@ -236,7 +236,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue         !! values
       integer, intent(in) :: k                           !! number of the channel
 
-      value_of = catalogue%groups(self%asked(1, k))%data(self%asked(2, k), self%asked(3, k))
+      value_of = catalogue%values(catalogue%place(self%asked(1, k), self%asked(2, k), self%asked(3, k)))
    end function value_of
 
    !> Make columns for more instants.

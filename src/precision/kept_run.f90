@@ -165,10 +165,10 @@ contains
       do k = 1, size(self%sort)
          associate (group => catalogue%groups(self%group(k)), at => self%at(:, k))
             if (.not. is_orientation(group)) then
-               self%values(k, self%n) = self%factor(k)*group%data(at(1), at(2))
+               self%values(k, self%n) = self%factor(k)*catalogue%values(catalogue%place(self%group(k), at(1), at(2)))
             else if (at(1) == 1) then
                self%values(k:k + n_place - 1, self%n) = self%factor(k)* &
-                                                      reshape(rotation_of_parameters(group%data(:, at(2))), [n_place])
+                                              reshape(rotation_of_parameters(catalogue%value(self%group(k), at(2))), [n_place])
             end if
          end associate
       end do

@@ -87,17 +87,20 @@ module reduced_bodies
 
       !> Multipliers of the rows that fix the known bodies. Those of other rows with known bodies are there, and all these rows are
       !> evaluated.
-      subroutine known_multipliers_interface(held, carried, jac, mass, g, a, rest, lambda)
+      subroutine known_multipliers_interface(n_rate, n_body, n_row, held, carried, jac, mass, g, a, rest, lambda)
          import :: held_t, wp
          implicit none (type, external)
+         integer, intent(in) :: n_rate                         !! rates of a body
+         integer, intent(in) :: n_body                         !! number of bodies
+         integer, intent(in) :: n_row                          !! number of rows
          type(held_t), intent(in), contiguous :: held(:)       !! (n) how the bodies are held
          integer, intent(in), contiguous :: carried(:, :)      !! (3, sides) known bodies in other rows: row, place, body
-         real(wp), intent(in), contiguous :: jac(:, :)         !! (2 n_v, rows) Phi_q of all rows [1 or m]
-         real(wp), intent(in), contiguous :: mass(:, :)        !! (n_v, bodies) masses [kg or kg.m^2]
-         real(wp), intent(in), contiguous :: g(:, 0:)          !! (n_v, 0:bodies) applied loads [N or N.m]
-         real(wp), intent(in), contiguous :: a(:, 0:)          !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
-         real(wp), intent(inout), contiguous :: rest(:, 0:)    !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
-         real(wp), intent(inout), contiguous :: lambda(:)      !! (rows) multipliers; those of the fixing rows are set [N or N.m]
+         real(wp), intent(in) :: jac(2*n_rate, n_row)          !! (2 n_v, rows) Phi_q of all rows [1 or m]
+         real(wp), intent(in) :: mass(n_rate, n_body)          !! (n_v, bodies) masses [kg or kg.m^2]
+         real(wp), intent(in) :: g(n_rate, 0:n_body)           !! (n_v, 0:bodies) applied loads [N or N.m]
+         real(wp), intent(in) :: a(n_rate, 0:n_body)           !! (n_v, 0:bodies) accelerations of the rates [m/s^2 or rad/s^2]
+         real(wp), intent(inout) :: rest(n_rate, 0:n_body)     !! (n_v, 0:bodies) scratch: what the rows of a body carry [N or N.m]
+         real(wp), intent(inout) :: lambda(n_row)              !! (rows) multipliers; those of the fixing rows are set [N or N.m]
       end subroutine known_multipliers_interface
 
       !> Positions and velocities of the guided bodies; the motion of their bases is set, accelerations too. No allocation.

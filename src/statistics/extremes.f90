@@ -33,6 +33,7 @@ module extremes
    type :: extremes_t
       type(scalar_t), allocatable :: channels(:)       !! (n) the numbers
       type(extreme_t), allocatable :: of(:)            !! (n) what they went through
+      integer, allocatable, private :: place(:)        !! (n) where they stand in the values of the catalogue
       integer, private :: n_sample = 0                 !! output instants so far
       real(wp), private :: t_first = 0.0_wp            !! the first of them [s]
       real(wp), private :: t_last = 0.0_wp             !! the last of them [s]
@@ -69,11 +70,15 @@ module extremes
 contains
 
    !> Begin with some numbers.
-   subroutine start_extremes(self, channels)
-      class(extremes_t), intent(inout) :: self   !! what is gathered
-      type(scalar_t), intent(in) :: channels(:)  !! (n) the numbers
+   subroutine start_extremes(self, catalogue, channels)
+      class(extremes_t), intent(inout) :: self       !! what is gathered
+      type(catalogue_t), intent(in) :: catalogue     !! what can be recorded
+      type(scalar_t), intent(in) :: channels(:)      !! (n) the numbers
+
+      integer :: k
 
       self%channels = channels
+      self%place = [(catalogue%place(channels(k)%group, channels(k)%component, channels(k)%item), k=1, size(channels))]
       if (allocated(self%of)) deallocate (self%of)
       allocate (self%of(size(channels)))
       self%n_sample = 0
@@ -88,12 +93,12 @@ contains
       real(wp) :: half, x
       integer :: k
 
-      call self%note(t, catalogue)
       half = 0.0_wp
       if (self%n_sample > 0) half = 0.5_wp*(t - self%t_last)
       do k = 1, size(self%channels)
-         x = value_of(catalogue, self%channels(k))
+         x = counted(catalogue%values(self%place(k)))
          associate (one => self%of(k))
+            call note_one(x, t, one)
             one%integral = one%integral + half*(x + one%last)
             one%integral_2 = one%integral_2 + half*(x**2 + one%last**2)
             one%last = x
@@ -114,32 +119,34 @@ contains
       integer :: k
 
       do k = 1, size(self%channels)
-         x = value_of(catalogue, self%channels(k))
-         associate (one => self%of(k))
-            if (x < one%least) then
-               one%least = x
-               one%least_time = t
-            end if
-            if (x > one%greatest) then
-               one%greatest = x
-               one%greatest_time = t
-            end if
-         end associate
+         x = counted(catalogue%values(self%place(k)))
+         call note_one(x, t, self%of(k))
       end do
    end subroutine note_extremes
 
-   !> A value of the catalogue; of one that is no number, or has no square, nothing.
-   pure real(wp) function value_of(catalogue, scalar) result(x)
-      type(catalogue_t), intent(in) :: catalogue  !! current values
-      type(scalar_t), intent(in) :: scalar        !! which
+   !> Least and greatest values of a number.
+   pure subroutine note_one(x, t, one)
+      real(wp), intent(in) :: x               !! the value [any]
+      real(wp), intent(in) :: t               !! time [s]
+      type(extreme_t), intent(inout) :: one   !! what it went through
 
-      x = catalogue%groups(scalar%group)%data(scalar%component, scalar%item)
-      if (.not. ieee_is_finite(x)) then
-         x = 0.0_wp
-      else
-         x = min(max(x, -greatest_square), greatest_square)
+      if (x < one%least) then
+         one%least = x
+         one%least_time = t
       end if
-   end function value_of
+      if (x > one%greatest) then
+         one%greatest = x
+         one%greatest_time = t
+      end if
+   end subroutine note_one
+
+   !> A value that counts; of one that is no number, or has no square, nothing.
+   pure real(wp) function counted(value) result(x)
+      real(wp), intent(in) :: value   !! the value [any]
+
+      x = 0.0_wp
+      if (ieee_is_finite(value)) x = min(max(value, -greatest_square), greatest_square)
+   end function counted
 
    !> Whether there are two instants, so that something can pass: an equilibrium is one.
    pure logical function has_time(self)

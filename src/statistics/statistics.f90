@@ -239,7 +239,7 @@ contains
       type(catalogue_t), intent(in) :: catalogue  !! current values
       type(scalar_t), intent(in) :: scalar        !! which
 
-      value_of = catalogue%groups(scalar%group)%data(scalar%component, scalar%item)
+      value_of = catalogue%values(catalogue%place(scalar%group, scalar%component, scalar%item))
    end function value_of
 
    !> Make sure that an array has a column of a given number.

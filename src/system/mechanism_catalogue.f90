@@ -129,7 +129,7 @@ contains
       call catalogue%spread_wants()
       call bind_requests(catalogue)
       associate (plan => catalogue%readings, offer => catalogue%offer)
-         call catalogue%bind(offer%bodies, plan%bodies)
+         call catalogue%bind(offer%bodies, plan%bodies, [(k, k=1, system%linkage%bodies%n)])
          call catalogue%bind(offer%energy, plan%energy)
          if (allocated(plan%joints)) deallocate (plan%joints, plan%ideal, plan%loose, plan%forces)
          allocate (plan%joints(size(offer%joints)), plan%ideal(size(offer%ideal)))

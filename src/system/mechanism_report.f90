@@ -1,11 +1,13 @@
 !> What a system reports: the values of its channels at a state.
 module mechanism_report
-   use catalogue, only: catalogue_t, group_t
+   use catalogue, only: catalogue_t
+   use force_set, only: force_set_t
    use kinds, only: wp
    use mechanism_catalogue, only: of_dissipated_contact, of_dissipated_damper, of_dissipated_film, of_dissipated_friction, &
       of_drive_work, of_elastic, of_kinetic, of_load_work, of_potential, of_stabilisation_work
    use mechanism_energy, only: energy_of, energy_t
    use mechanism, only: mechanism_t
+   use motion, only: motion_t
    use point_contacts, only: of_force
    use readings, only: readings_t
    use request_report, only: report_requests
@@ -35,50 +37,52 @@ contains
       if (size(catalogue%readings%rows%sets) > 0) then
          call system%linkage%find_reactions(t, system%loading%g, catalogue%readings%rows)
       end if
-      call fill_catalogue(system, t, y, residual, catalogue)
+      call fill_catalogue(system, t, y, residual, .not. system%way%at_stages, catalogue)
    end subroutine report_state
 
    !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
    !> violations, multipliers, states of the contacts. Only what is bound is found; nothing is allocated.
-   subroutine fill_catalogue(system, t, y, residual, catalogue)
+   subroutine fill_catalogue(system, t, y, residual, is_evaluated, catalogue)
       class(mechanism_t), intent(in) :: system       !! the system at the state
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(:)                   !! (n) state; without a ledger positions and velocities suffice [any]
       real(wp), intent(in) :: residual               !! of the ledger at the last step [J]
+      logical, intent(in) :: is_evaluated            !! loads were evaluated at this motion last
       type(catalogue_t), intent(inout) :: catalogue  !! values
 
       type(energy_t) :: energy
       integer :: k, m
 
-      associate (linkage => system%linkage, plan => catalogue%readings, groups => catalogue%groups)
-         if (plan%bodies%n > 0) call linkage%coordinates%report(plan%bodies, linkage%motion, groups)
+      associate (linkage => system%linkage, plan => catalogue%readings, values => catalogue%values)
+         if (plan%bodies%n > 0) call linkage%coordinates%report(plan%bodies, linkage%motion, values)
          do k = 1, size(plan%joints)
             if (plan%joints(k)%n == 0) cycle
             call linkage%joints(k)%set%report(plan%joints(k), linkage%motion, linkage%coordinates, linkage%rows, &
-                                              linkage%solution%lambda, linkage%solution%phi_dot, groups)
+                                              linkage%solution%lambda, linkage%solution%phi_dot, values)
          end do
          do k = 1, size(plan%loose)
-            if (plan%loose(k)%n > 0) call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, groups)
+            if (plan%loose(k)%n == 0) cycle
+            call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, is_evaluated, values)
          end do
-         if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, groups)
-         if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, groups)
-         call report_requests(system, t, plan, groups)
+         if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, values)
+         if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, values)
+         call report_requests(system, t, plan, values)
          if (plan%energy%n > 0) energy = energy_of(system, y)
          do m = 1, plan%energy%n
-            groups(plan%energy%group(m))%data(1, 1) = energy_value(energy, plan%energy%code(m), residual)
+            values(plan%energy%place(m) + 1) = energy_value(energy, plan%energy%code(m), residual)
          end do
       end associate
       call catalogue%work_out(t)
    end subroutine fill_catalogue
 
    !> Values of the joints with clearance that are taken as ideal; they stand behind the loose ones.
-   subroutine report_ideal(system, readings, groups)
+   subroutine report_ideal(system, readings, values)
       class(mechanism_t), intent(in) :: system     !! the system
       type(readings_t), intent(in) :: readings(:)  !! (sets) what is read of them
-      type(group_t), intent(inout) :: groups(:)    !! (groups) values
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       real(wp) :: force(3), moment(3)
-      integer :: i, k, m, n
+      integer :: at, i, k, m, n
 
       n = system%loose%n
       associate (linkage => system%linkage)
@@ -86,13 +90,14 @@ contains
             do i = 1, linkage%ideal(k)%set%n
                n = n + 1
                do m = 1, readings(k)%n
-                  associate (values => groups(readings(k)%group(m))%data)
+                  associate (width => readings(k)%width(m))
+                     at = readings(k)%place(m) + width*(n - 1)
                      if (readings(k)%code(m) == of_force) then
                         call linkage%ideal(k)%set%reaction(i, linkage%motion, linkage%coordinates, linkage%rows, &
                                                            linkage%solution%lambda, force, moment)
-                        values(:, n) = -force(:size(values, 1))
+                        values(at + 1:at + width) = -force(:width)
                      else
-                        values(:, n) = 0.0_wp
+                        values(at + 1:at + width) = 0.0_wp
                      end if
                   end associate
                end do
@@ -102,27 +107,41 @@ contains
    end subroutine report_ideal
 
    !> Values of the force elements.
-   subroutine report_forces(system, t, readings, groups)
+   subroutine report_forces(system, t, readings, values)
       class(mechanism_t), intent(in) :: system     !! the system
       real(wp), intent(in) :: t                    !! time [s]
       type(readings_t), intent(in) :: readings(:)  !! (sets) what is read of them
-      type(group_t), intent(inout) :: groups(:)    !! (groups) values
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
-      integer :: column, k, m
+      integer :: at, column, k, m
 
       column = 0
       do k = 1, size(readings)
          associate (set => system%loading%forces(k)%set)
             do m = 1, readings(k)%n
-               associate (values => groups(readings(k)%group(m))%data)
-                  call set%report(readings(k)%code(m), system%linkage%piece%inside(t), system%linkage%motion, &
-                                  values(:, column + 1:column + set%n))
+               associate (width => readings(k)%width(m))
+                  at = readings(k)%place(m) + width*column
+                  call report_set(set, readings(k)%code(m), system%linkage%piece%inside(t), system%linkage%motion, width, set%n, &
+                                  values(at + 1:at + width*set%n))
                end associate
             end do
             column = column + set%n
          end associate
       end do
    end subroutine report_forces
+
+   !> A channel of all elements of a set.
+   subroutine report_set(set, code, t, motion, n, n_element, values)
+      class(force_set_t), intent(in) :: set                !! the set
+      integer, intent(in) :: code                          !! the channel
+      real(wp), intent(in) :: t                            !! time [s]
+      type(motion_t), intent(in) :: motion                 !! positions and velocities
+      integer, intent(in) :: n                             !! components of the channel
+      integer, intent(in) :: n_element                     !! elements of the set
+      real(wp), intent(inout) :: values(n, n_element)      !! (n, n_element) values [any]
+
+      call set%report(code, t, motion, values)
+   end subroutine report_set
 
    !> One term of the ledger.
    pure real(wp) function energy_value(energy, code, residual) result(value)

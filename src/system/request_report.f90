@@ -1,6 +1,6 @@
 !> What requests report: points, places, reactions at points, and expressions over channels.
 module request_report
-   use catalogue, only: bound_formula_t, catalogue_t, group_t, n_rooms, room_contacts, room_motions, room_points, room_reactions, &
+   use catalogue, only: bound_formula_t, catalogue_t, n_rooms, room_contacts, room_motions, room_points, room_reactions, &
       room_requests
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: wp
@@ -112,46 +112,46 @@ contains
    end subroutine bind_requests
 
    !> Values of all that is bound. No allocation.
-   subroutine report_requests(system, t, plan, groups)
+   subroutine report_requests(system, t, plan, values)
       type(mechanism_t), intent(in) :: system        !! the system at the state, with reactions where they are read
       real(wp), intent(in) :: t                      !! time [s]
       type(reading_plan_t), intent(in) :: plan       !! what is read
-      type(group_t), intent(inout) :: groups(:)      !! (groups) values
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       real(wp) :: force(3), moment(3)
       integer :: m
 
       do m = 1, plan%points%n
-         call report_place(system, system%requests%places(plan%points%item(m)), plan%points, m, groups)
+         call report_place(system, system%requests%places(plan%points%item(m)), plan%points, m, values)
       end do
       do m = 1, plan%motions%n
-         call report_place(system, system%requests%motions(plan%motions%item(m))%place, plan%motions, m, groups)
+         call report_place(system, system%requests%motions(plan%motions%item(m))%place, plan%motions, m, values)
       end do
       do m = 1, plan%reactions%n
-         associate (values => groups(plan%reactions%group(m))%data(:, plan%reactions%item(m)))
+         associate (at => plan%reactions%place(m), width => plan%reactions%width(m))
             call find_reaction(system, t, system%requests%reactions(plan%reactions%item(m)), force, moment)
             if (plan%reactions%code(m) == of_reaction_force) then
-               values = force(:size(values))
+               values(at + 1:at + width) = force(:width)
             else
-               values = moment(merge(3, 1, size(values) == 1):)
+               values(at + 1:at + width) = moment(merge(3, 1, width == 1):)
             end if
          end associate
       end do
    end subroutine report_requests
 
    !> Value of one quantity of a place.
-   subroutine report_place(system, place, readings, m, groups)
+   subroutine report_place(system, place, readings, m, values)
       type(mechanism_t), intent(in) :: system        !! the system at the state
       type(place_t), intent(in) :: place             !! the place
       type(readings_t), intent(in) :: readings       !! what is read
       integer, intent(in) :: m                       !! number of the reading
-      type(group_t), intent(inout) :: groups(:)      !! (groups) values
+      real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       real(wp) :: x(3)
 
       x = place_values(place, readings%code(m), system%linkage%motion)
-      associate (values => groups(readings%group(m))%data(:, readings%item(m)))
-         values = x(:size(values))
+      associate (at => readings%place(m), width => readings%width(m))
+         values(at + 1:at + width) = x(:width)
       end associate
    end subroutine report_place
 

@@ -32,6 +32,7 @@ contains
       call suite%test("force_rate", test_force_rate)
       call suite%test("free_items", test_free_items)
       call suite%test("centred_journal", test_centred_journal)
+      call suite%test("channels_of_an_evaluation", test_channels_of_an_evaluation)
       call suite%test("memory", test_memory)
    end subroutine run_test_clearances
 
@@ -364,6 +365,37 @@ contains
          bench%v = 0.0_wp
       end do
    end subroutine centred_journal
+
+   subroutine test_channels_of_an_evaluation(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      call claim_all(error, channels_of_an_evaluation)
+   end subroutine test_channels_of_an_evaluation
+
+   !> Channels that take over what the evaluation found are those that are found anew; without the evaluation they are others.
+   subroutine channels_of_an_evaluation(error, bench)
+      type(error_t), allocatable, intent(inout) :: error  !! what failed
+      type(bench_t), intent(inout) :: bench               !! the combination
+
+      type(kind_info_t) :: info
+      type(loads_t) :: loads
+      real(wp) :: anew(2, n_all), losses(2, n_all), taken(2, n_all)
+      integer :: k
+
+      info = bench%set%info()
+      call evaluate_loads(bench, loads, losses)
+      do k = 1, size(info%channels)
+         anew = 0.0_wp
+         taken = 0.0_wp
+         associate (n => info%channels(k)%components, name => info%channels(k)%name)
+            if (name == "p_v") cycle  ! of pins with a length
+            call read_loose(bench%set, name, bench%motion, anew(1:n, :))
+            call read_loose(bench%set, name, bench%motion, taken(1:n, :), is_evaluated=.true.)
+            call check_close(error, reshape(taken, [2*n_all]), reshape(anew, [2*n_all]), 1.0e-14_wp*maxval(abs(anew)), &
+                             bench%name//": "//name)
+         end associate
+      end do
+   end subroutine channels_of_an_evaluation
 
    !> Speed of the journal's centre against the bearing's when they coincide.
    function speed_of_journal(bench, item) result(speed)

@@ -161,7 +161,7 @@ contains
       type(bench_t), intent(inout) :: bench               !! the combination
 
       type(loads_t) :: loads
-      real(wp), allocatable :: values(:, :)
+      real(wp), allocatable :: taken(:, :), values(:, :)
       real(wp) :: losses(2, most_of_item), scale
       logical :: is_of_contact
       integer :: c
@@ -178,6 +178,10 @@ contains
                       source=not_a_number())
             call read_loose(bench%set, channel%name, bench%motion, values)
             call check_true(error, all(ieee_is_finite(values)), bench%name//": channel "//channel%name)
+            taken = values
+            call read_loose(bench%set, channel%name, bench%motion, taken, is_evaluated=.true.)
+            call check_close(error, reshape(taken, [size(taken)]), reshape(values, [size(values)]), &
+                             1.0e-14_wp*maxval(abs(values)), bench%name//": evaluated "//channel%name)
             if (channel%name == "force") then
                call check_close(error, values(:, 1)/scale, loads%force(:, 2)/scale, 1.0e-14_wp, bench%name//": force")
             end if

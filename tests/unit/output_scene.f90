@@ -87,14 +87,14 @@ contains
 
       do group = 1, size(scene%groups)
          associate (this => scene%groups(group))
-            n = size(this%data, 2)
+            n = size(this%has)
             do item = 1, n
                if (this%channel%name == "state") then
-                  if (item < n) this%data(1, item) = 1.0_wp
+                  if (item < n) scene%values(scene%place(group, 1, item)) = 1.0_wp
                   cycle
                end if
                do component = 1, this%channel%components
-                  this%data(component, item) = value_at(t, group, component, item)
+                  scene%values(scene%place(group, component, item)) = value_at(t, group, component, item)
                end do
             end do
          end associate
