@@ -21,8 +21,8 @@ module guards
    use text, only: real_text, text_t
    implicit none (type, external)
    private
-   public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
-      new_guards
+   public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, joint_words, &
+      n_contact_guard, new_guards
 
    integer, parameter :: guard_penetration = 1   !! a penetration, part of the size of the surfaces (radius; slider: length)
    integer, parameter :: guard_clearance = 2     !! a penetration, the clearance
