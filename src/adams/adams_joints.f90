@@ -8,7 +8,7 @@
 module adams_joints
    use adams_model, only: adams_model_t, argument_numbers, id_of, leave_out, mistake
    use adams_starts, only: add_start
-   use dataset, only: has_word, statement_t
+   use dataset, only: has_word, line_words, statement_t
    use deck_draft, only: body_axis, deck_draft_t, joint_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
@@ -51,7 +51,7 @@ contains
             if (i > size(adams)) then
                call leave_out(model, it, no_joint(first_word(it)))
             else if (trim(adams(i)) == "CYLINDRICAL" .and. is_of_screw(model, marker, mistakes)) then
-               call model%changed%add("line "//to_text(it%line)//": JOINT/"//to_text(it%id)// &
+               call model%changed%add(line_words(it%at)//"JOINT/"//to_text(it%id)// &
                                       " (cylindrical) and the screw on the same axis are one joint.screw")
             else
                call add_joint(model, draft, it, "joint."//trim(deck(i)), axes_of(trim(adams(i))), marker, "")
@@ -106,7 +106,7 @@ contains
       do k = 1, 2
          id = id_of(statement, names(k), mistakes)
          marker(k) = model%marker(id)
-         if (marker(k) == 0) call mistake(mistakes, statement%line, "marker "//names(k)//" = "//to_text(id)//" of "// &
+         if (marker(k) == 0) call mistake(mistakes, statement%at, "marker "//names(k)//" = "//to_text(id)//" of "// &
                                           statement%keyword//"/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
       end do
    end subroutine two_markers
@@ -138,7 +138,7 @@ contains
          continue
       case ("joint.rigid", "joint.orientation", "joint.translational")
          if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
-         if (maxval(abs(a - b)) > same) call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"// &
+         if (maxval(abs(a - b)) > same) call model%changed%add(line_words(statement%at)//statement%keyword//"/"// &
             to_text(statement%id)//" holds the orientation that the dataset begins with, in which I and J differ")
       case default
          axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
@@ -146,7 +146,7 @@ contains
          if (kind /= "joint.universal" .and. kind /= "joint.perpendicular" .and. &
              dot_product(a(:, axis(1)), b(:, axis(2))) < 0.0_wp) then
             x = -x
-            call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"//to_text(statement%id)// &
+            call model%changed%add(line_words(statement%at)//statement%keyword//"/"//to_text(statement%id)// &
                                    ": the axes z of I and J are opposed; that of I is turned over")
          end if
          axis_j = direction_cell(x)
@@ -179,11 +179,11 @@ contains
 
       call argument_numbers(statement, "PITCH", pitch, mistakes, 2)
       if (size(pitch) == 0) then
-         call mistake(mistakes, statement%line, "a screw has a PITCH", "")
+         call mistake(mistakes, statement%at, "a screw has a PITCH", "")
          return
       end if
       call add_joint(model, draft, statement, "joint.screw", [3, 3], marker, exact_text(pitch(1)*model%units%length)//"m")
-      if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
+      if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add(line_words(statement%at)//"JOINT/"// &
          to_text(statement%id)//" (screw) holds its axis too, as there is no cylindrical joint beside it")
       call add_start(model, draft, draft%joints(size(draft%joints)), statement, mistakes)
    end subroutine add_screw
