@@ -89,8 +89,7 @@ contains
       type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
       type(group_t), intent(inout) :: groups(:)             !! (groups) values of all items and contacts
 
-      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
-      real(wp), allocatable :: gap(:)
+      real(wp) :: depth, f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item), rate
       integer :: c, code, column, first, g, item, m
       logical :: is_found
 
@@ -111,8 +110,10 @@ contains
                   groups(g)%data(1, column + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
                                                                    contacts(c)%rate, f_n(c), f_t(c))
                   if (code /= of_penetration .or. self%contact(first + c)%is_touching .or. contacts(c)%delta <= 0.0_wp) cycle
-                  call find_gaps(self, motion, gap)  ! beyond its end a surface is not there
-                  groups(g)%data(1, column + c) = max(0.0_wp, min(contacts(c)%delta, gap(column + c)))
+                  depth = contacts(c)%delta
+                  rate = contacts(c)%rate
+                  call self%cut_at_ends(first + c, motion, contacts(c), depth, rate)  ! beyond its end a surface is not there
+                  groups(g)%data(1, column + c) = max(0.0_wp, depth)
                end do
             case (of_contact_point)
                call report_points(motion%r(:, self%items%body(2, item)), n, contacts, groups(g)%data(:, column + 1:column + n))
@@ -128,19 +129,6 @@ contains
          end do
       end do
    end subroutine report_items
-
-   !> Penetrations of all contacts with the ends of the surfaces, once.
-   subroutine find_gaps(self, motion, gap)
-      class(point_contacts_t), intent(in) :: self           !! the set
-      type(motion_t), intent(in) :: motion                  !! positions and velocities
-      real(wp), allocatable, intent(inout) :: gap(:)        !! (contacts up to those of the set) they; allocated: found before [m]
-
-      real(wp), allocatable :: rate(:)
-
-      if (allocated(gap)) return
-      allocate (gap(self%before%contacts + self%n_contact), rate(self%before%contacts + self%n_contact), source=0.0_wp)
-      call self%gaps(motion, gap, rate)
-   end subroutine find_gaps
 
    !> Force of the contacts of an item on its body j, and their moment about its centre of mass.
    module procedure point_load_on_j
