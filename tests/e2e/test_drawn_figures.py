@@ -252,3 +252,13 @@ def test_loose_slider_has_its_size(gudgeon, tmp_path):
     head, cells = row[1].split(), row[2].split()
     size = [float(cells[head.index(name)]) * 1e-3 for name in ("length[mm]", "height[mm]")]
     assert any(np.allclose(side, size, rtol=0.02) for side in sides), (sides, size)
+
+
+def test_loose_block_of_space_has_its_size(gudgeon, tmp_path):
+    """In space too: length along the guide, width along `width_axis`, height across both, in the side view and from above."""
+    text = (ROOT / "inputs" / "crosshead.deck").read_text().replace("20          20           40 ", "24          16           40 ")
+    text = changed(text, "analysis.dynamic", end="2 ms")
+    found = strokes(run(gudgeon, tmp_path, text, "mechanism(t=0ms)") / "mechanism.t.0ms.dat")
+    sides = [tuple(np.round(np.ptp(line, axis=0), 6)) for line in found[0]["body"]]
+    for want in ((0.040, 0.024), (0.040, 0.016), (0.024, 0.016)):  # the three pairs of sides, each seen square in one of the views
+        assert any(np.allclose(sorted(side), sorted(want), atol=2e-4) for side in sides), (want, sides)
