@@ -4,7 +4,7 @@
 !> Source: the public descriptions of the statements of Adams/Solver.
 module adams_arguments
    use adams_model, only: adams_model_t, leave_out
-   use dataset, only: statement_t, upper_case
+   use dataset, only: line_words, statement_t, upper_case
    use text, only: split_blank, text_t, to_text
    implicit none (type, external)
    private
@@ -26,7 +26,7 @@ contains
          associate (name => statement%arguments(k)%name)
             if (len(name) == 0) cycle
             if (any([(index(known(i)%s, name) == 1, i=1, size(known))])) cycle
-            call leave_out(model, statement, "its "//name//" has no place in a deck")
+            call leave_out(model, statement, "its "//name//" has no place in a deck", statement%arguments(k)%at)
          end associate
       end do
    end subroutine name_unknown_arguments
@@ -55,7 +55,7 @@ contains
                   if (verify(text(first - 1:first - 1), "ABCDEFGHIJKLMNOPQRSTUVWXYZ_") == 0) cycle
                end if
                last = at + 1 + verify(text(at + 2:)//" ", digits) - 1
-               call model%changed%add("line "//to_text(it%line)//": '"//it%values(1)%s(first:last)//"' is "//text(first:at - 1)// &
+               call model%changed%add(line_words(it%at)//"'"//it%values(1)%s(first:last)//"' is "//text(first:at - 1)// &
                      merge(" degrees plus", " degrees less", text(at + 1:at + 1) == "+")//" "//text(at + 2:last)// &
                      "; an exponent is written with E")
             end do

@@ -18,7 +18,7 @@ module adams_deck
    use adams_names, only: full_names, is_refused, is_setting, is_understood, reason_against
    use adams_splines, only: name_idle_splines
    use adams_starts, only: sliding_velocity
-   use dataset, only: has_word, read_statements, statement_t
+   use dataset, only: has_word, line_words, read_statements, statement_t
    use deck_draft, only: deck_draft_t, tab
    use deck_table, only: direction_cell, number_cell
    use diagnostics, only: diagnostics_t
@@ -75,7 +75,7 @@ contains
       do k = 1, size(model%statements)
          associate (it => model%statements(k))
             if (is_setting(it%keyword)) then
-               call settings%add("line "//to_text(it%line)//": "//it%keyword)
+               call settings%add(line_words(it%at)//it%keyword)
             else if (is_understood(it%keyword)) then
                call name_unknown_arguments(model, it)
                call name_small_degrees(model, it)
@@ -109,7 +109,7 @@ contains
       integer :: k
 
       do k = 1, size(statements)
-         if (is_refused(statements(k)%keyword)) call mistake(mistakes, statements(k)%line, statements(k)%keyword//"/"// &
+         if (is_refused(statements(k)%keyword)) call mistake(mistakes, statements(k)%at, statements(k)%keyword//"/"// &
             to_text(statements(k)%id)//" is an elastic body; gudgeon has rigid ones only", &
             "take it out of the dataset, or put a SPRINGDAMPER or a FIXED joint in its place")
       end do
@@ -129,8 +129,8 @@ contains
             if (.not. is_understood(it%keyword) .or. it%id < 0) cycle
             name = it%keyword//"/"//to_text(it%id)
             call seen%enter(name, k, first)
-            if (first > 0) call mistake(mistakes, it%line, name//" is there twice", "first in line "// &
-                                        to_text(statements(first)%line))
+            if (first > 0) call mistake(mistakes, it%at, name//" is there twice", "first in line "// &
+                                        to_text(statements(first)%at%line))
          end associate
       end do
    end subroutine name_doubles
@@ -281,7 +281,7 @@ contains
          call argument_numbers(it, "VM", id, mistakes)
          if (size(id) > 0) then
             marker = model%marker(nint(id(1)))
-            if (marker == 0) call mistake(mistakes, it%line, "the VM marker is not there", "")
+            if (marker == 0) call mistake(mistakes, it%at, "the VM marker is not there", "")
             if (marker > 0) a = model%axes(marker)
          end if
          call velocity_cells(it, ["VX", "VY", "VZ"], a, factor, velocity, mistakes)
@@ -294,11 +294,11 @@ contains
          if (size(id) == 0) call argument_numbers(it, "CM", id, mistakes)
          if (size(id) > 0) then
             marker = model%marker(nint(id(1)))
-            if (marker == 0) call mistake(mistakes, it%line, "the WM marker is not there", "")
+            if (marker == 0) call mistake(mistakes, it%at, "the WM marker is not there", "")
             if (marker > 0) a = model%axes(marker)
          end if
          call velocity_cells(it, ["WX", "WY", "WZ"], a, 1.0_wp/model%units%time, turn, mistakes)
-         if (has_word(it, "EXACT")) call model%changed%add("line "//to_text(it%line)//": EXACT of PART/"//to_text(part%id)// &
+         if (has_word(it, "EXACT")) call model%changed%add(line_words(it%at)//"EXACT of PART/"//to_text(part%id)// &
                                                             ": all bodies are moved as little as possible at the start")
       end associate
       do k = 1, 3

@@ -137,7 +137,7 @@ contains
 
       mark = model%marker(id_of(statement, "CV", mistakes))
       if (mark == 0) then
-         call mistake(mistakes, statement%line, "the CV of GEAR/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
+         call mistake(mistakes, statement%at, "the CV of GEAR/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
          return
       end if
       if (model%markers(mark)%part /= wheels(1)%carrier) then

@@ -12,7 +12,7 @@
 module adams_joints
    use adams_model, only: adams_model_t, argument_numbers, id_of, leave_out, mistake
    use adams_starts, only: add_start
-   use dataset, only: has_word, statement_t
+   use dataset, only: has_word, line_words, statement_t
    use deck_draft, only: body_axis, deck_draft_t, joint_t, tab
    use deck_table, only: direction_cell
    use diagnostics, only: diagnostics_t
@@ -60,7 +60,7 @@ contains
             if (i > size(adams)) then
                call leave_out(model, it, "a deck's space has no such joint ("//first_word(it)//")")
             else if (trim(adams(i)) == "CYLINDRICAL" .and. is_of_screw(model, marker, mistakes)) then
-               call model%changed%add("line "//to_text(it%line)//": JOINT/"//to_text(it%id)// &
+               call model%changed%add(line_words(it%at)//"JOINT/"//to_text(it%id)// &
                                       " (cylindrical) and the screw on the same axis are one joint.screw")
             else
                call add_joint(model, draft, it, "joint."//trim(deck(i)), axes_of(trim(adams(i))), marker, "")
@@ -105,7 +105,7 @@ contains
       do k = 1, 2
          id = id_of(statement, names(k), mistakes)
          marker(k) = model%marker(id)
-         if (marker(k) == 0) call mistake(mistakes, statement%line, "marker "//names(k)//" = "//to_text(id)//" of "// &
+         if (marker(k) == 0) call mistake(mistakes, statement%at, "marker "//names(k)//" = "//to_text(id)//" of "// &
                                           statement%keyword//"/"//to_text(statement%id)//" is no MARKER of a rigid part", "")
       end do
    end subroutine two_markers
@@ -137,7 +137,7 @@ contains
          continue
       case ("joint.rigid", "joint.orientation", "joint.translational")
          if (kind == "joint.translational") axis_i = direction_cell(body_axis(model, marker(2), axis(2)))
-         if (maxval(abs(a - b)) > same) call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"// &
+         if (maxval(abs(a - b)) > same) call model%changed%add(line_words(statement%at)//statement%keyword//"/"// &
             to_text(statement%id)//" holds the orientation that the dataset begins with, in which I and J differ")
       case ("joint.constant_velocity")
          axis_i = direction_cell(body_axis(model, marker(2), 3))
@@ -150,7 +150,7 @@ contains
          if (kind /= "joint.universal" .and. kind /= "joint.perpendicular" .and. &
              dot_product(a(:, axis(1)), b(:, axis(2))) < 0.0_wp) then
             x = -x
-            call model%changed%add("line "//to_text(statement%line)//": "//statement%keyword//"/"//to_text(statement%id)// &
+            call model%changed%add(line_words(statement%at)//statement%keyword//"/"//to_text(statement%id)// &
                                    ": the axes z of I and J are opposed; that of I is turned over")
          end if
          axis_j = direction_cell(x)
@@ -171,7 +171,7 @@ contains
 
       character(:), allocatable :: place
 
-      place = "line "//to_text(statement%line)//": JOINT/"//to_text(statement%id)//" (constant velocity)"
+      place = line_words(statement%at)//"JOINT/"//to_text(statement%id)//" (constant velocity)"
       if (dot_product(a(:, 3), b(:, 3)) >= 0.0_wp) then
          call model%changed%add(place//": the axes z of I and J do not point away from one another; they are taken as the shafts")
       else if (abs(dot_product(a(:, 1), b(:, 2)) + dot_product(a(:, 2), b(:, 1))) > same) then
@@ -195,7 +195,7 @@ contains
 
       call argument_numbers(statement, "PD", diameter, mistakes, 2)
       if (size(diameter) == 0) then
-         call mistake(mistakes, statement%line, "a rack and pinion have a pitch diameter PD", "")
+         call mistake(mistakes, statement%at, "a rack and pinion have a pitch diameter PD", "")
          return
       end if
       do k = 1, 2
@@ -213,7 +213,7 @@ contains
       rack = 3 - pinion
       radius = 0.5_wp*diameter(1)*model%units%length
       side = dot_product(model%place(marker(pinion)) - model%place(marker(rack)), cross(axes(:, 3, pinion), axes(:, 3, rack)))
-      if (abs(abs(side) - abs(radius)) > near*abs(radius)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
+      if (abs(abs(side) - abs(radius)) > near*abs(radius)) call model%changed%add(line_words(statement%at)//"JOINT/"// &
          to_text(statement%id)//" (rack and pinion): the axes are "//exact_text(abs(side))//" m apart; half of PD holds")
       call draft%new_name(named(statement), statement%id, name)
       call draft%point(model, marker(rack), point_i)
@@ -245,11 +245,11 @@ contains
 
       call argument_numbers(statement, "PITCH", pitch, mistakes, 2)
       if (size(pitch) == 0) then
-         call mistake(mistakes, statement%line, "a screw has a PITCH", "")
+         call mistake(mistakes, statement%at, "a screw has a PITCH", "")
          return
       end if
       call add_joint(model, draft, statement, "joint.screw", [3, 3], marker, exact_text(pitch(1)*model%units%length)//"m")
-      if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add("line "//to_text(statement%line)//": JOINT/"// &
+      if (.not. any_cylinder(model, marker, mistakes)) call model%changed%add(line_words(statement%at)//"JOINT/"// &
          to_text(statement%id)//" (screw) holds its axis too, as there is no cylindrical joint beside it")
       call add_start(model, draft, draft%joints(size(draft%joints)), statement, mistakes)
    end subroutine add_screw

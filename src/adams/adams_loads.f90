@@ -122,7 +122,7 @@ contains
       other = model%marker(id_of(statement, "JFLOAT", mistakes, 2))
       reference = model%marker(id_of(statement, "RM", mistakes))
       if (marker == 0 .or. reference == 0) then
-         call mistake(mistakes, statement%line, "I and RM of "//statement%keyword//"/"//to_text(statement%id)// &
+         call mistake(mistakes, statement%at, "I and RM of "//statement%keyword//"/"//to_text(statement%id)// &
                       " are no markers of rigid parts", "")
          return
       end if

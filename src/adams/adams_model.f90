@@ -11,7 +11,7 @@
 !> bodies.
 module adams_model
    use adams_units, only: adams_units_t, read_units
-   use dataset, only: find_argument, has_word, statement_t
+   use dataset, only: find_argument, has_word, line_words, statement_t
    use diagnostics, only: diagnostics_t
    use item, only: location_t
    use kinds, only: pi, wp
@@ -82,7 +82,7 @@ contains
       do k = 1, size(statements)
          if (statements(k)%keyword /= "UNITS") cycle
          call read_units(statements(k), model%units, message)
-         if (message /= "") call mistake(mistakes, statements(k)%line, message, "")
+         if (message /= "") call mistake(mistakes, statements(k)%at, message, "")
       end do
       if (.not. model%units%is_given) call model%changed%add("no UNITS: all numbers are taken in m, kg, N, s")
       call read_parts(model, mistakes)
@@ -93,22 +93,27 @@ contains
    end subroutine new_model
 
    !> A mistake of the dataset.
-   subroutine mistake(mistakes, line, message, help)
+   subroutine mistake(mistakes, at, message, help)
       type(diagnostics_t), intent(inout) :: mistakes   !! the collection
-      integer, intent(in) :: line                      !! where it is
+      type(location_t), intent(in) :: at               !! where it is
       character(*), intent(in) :: message              !! what is wrong
       character(*), intent(in) :: help                 !! what to do, or blank
 
-      call mistakes%add(location_t(1, line, 1, 1), message, "", help)
+      call mistakes%add(at, message, "", help)
    end subroutine mistake
 
    !> Say that something is not in the deck.
-   subroutine leave_out(model, statement, reason)
-      type(adams_model_t), intent(inout) :: model   !! the dataset
-      type(statement_t), intent(in) :: statement    !! what is left out
-      character(*), intent(in) :: reason            !! why
+   subroutine leave_out(model, statement, reason, at)
+      type(adams_model_t), intent(inout) :: model       !! the dataset
+      type(statement_t), intent(in) :: statement        !! what is left out
+      character(*), intent(in) :: reason                !! why
+      type(location_t), intent(in), optional :: at      !! where, if not all of it is meant
 
-      call model%left_out%add("line "//to_text(statement%line)//": "//title_of(statement)//": "//reason)
+      type(location_t) :: place
+
+      place = statement%at
+      if (present(at)) place = at
+      call model%left_out%add(line_words(place)//title_of(statement)//": "//reason)
    end subroutine leave_out
 
    !> A statement as people call it.
@@ -134,13 +139,15 @@ contains
    end function find_statement
 
    !> Numbers of an argument; angles in degrees become radians.
-   subroutine argument_numbers(statement, name, numbers, mistakes, least)
+   subroutine argument_numbers(statement, name, numbers, mistakes, least, wanted)
       type(statement_t), intent(in) :: statement            !! the statement
       character(*), intent(in) :: name                      !! of the argument
       real(wp), allocatable, intent(out) :: numbers(:)      !! (n) none: there is no such argument [any]
       type(diagnostics_t), intent(inout) :: mistakes        !! collects what is no number
       integer, intent(in), optional :: least                !! letters that do for the name
+      integer, intent(in), optional :: wanted               !! how many there must be; left out: any number
 
+      character(*), parameter :: counts(3) = [character(5) :: "one", "two", "three"]
       character(:), allocatable :: word
       real(wp) :: x
       integer :: i, k, length
@@ -159,12 +166,16 @@ contains
             is_finite = lower(word(length + 1:)) == "d"
             x = x*pi/180.0_wp
          end if
-         if (.not. is_finite) call mistake(mistakes, statement%arguments(k)%line, "'"//word//"' of "//name//" is no number", "")
+         if (.not. is_finite) call mistake(mistakes, statement%arguments(k)%at, "'"//word//"' of "//name//" is no number", "")
          numbers = [numbers, x]
       end do
+      if (.not. present(wanted)) return
+      if (size(numbers) /= wanted) call mistake(mistakes, statement%arguments(k)%at, name//" has "//to_text(size(numbers))// &
+                                    trim(merge(" number ", " numbers", size(numbers) == 1))//" where "// &
+                                    trim(counts(wanted))//trim(merge(" is needed ", " are needed", wanted == 1)), "")
    end subroutine argument_numbers
 
-   !> Three numbers of an argument, zeros for those left out.
+   !> Three numbers of an argument, zeros without it.
    subroutine vector_numbers(statement, name, vector, is_given, mistakes)
       type(statement_t), intent(in) :: statement            !! the statement
       character(*), intent(in) :: name                      !! of the argument
@@ -174,11 +185,10 @@ contains
 
       real(wp), allocatable :: numbers(:)
 
-      call argument_numbers(statement, name, numbers, mistakes)
+      call argument_numbers(statement, name, numbers, mistakes, wanted=3)
       vector = 0.0_wp
-      is_given = size(numbers) > 0
-      vector(:min(3, size(numbers))) = numbers(:min(3, size(numbers)))
-      if (size(numbers) > 3) call mistake(mistakes, statement%line, name//" has more than three numbers", "")
+      is_given = size(numbers) == 3
+      if (is_given) vector = numbers
    end subroutine vector_numbers
 
    !> The number of a statement that an argument names; 0: there is no such argument.
@@ -190,7 +200,7 @@ contains
 
       real(wp), allocatable :: numbers(:)
 
-      call argument_numbers(statement, name, numbers, mistakes, least)
+      call argument_numbers(statement, name, numbers, mistakes, least, wanted=1)
       id = 0
       if (size(numbers) > 0) id = nint(min(abs(numbers(1)), 1.0e9_wp))
    end function id_of
@@ -216,7 +226,8 @@ contains
             model%parts = [model%parts, new]
          end associate
       end do
-      if (size(model%parts) == 0) call mistake(mistakes, 1, "there is no PART in the dataset", "is it an Adams dataset (.adm)?")
+      if (size(model%parts) == 0) call mistake(mistakes, location_t(1, 1, 1, 1), "there is no PART in the dataset", &
+                                                     "is it an Adams dataset (.adm)?")
    end subroutine read_parts
 
    !> Origin and axes of a part or marker.
@@ -251,7 +262,7 @@ contains
             a = rotation_of_axes(y, z)
             a = reshape([cross(a(:, 1), a(:, 2)), a(:, 1), a(:, 2)], [3, 3])
          end if
-         if (.not. any(abs(a) > 0.0_wp)) call mistake(mistakes, statement%line, "the points "//on_z//" and "//on_x// &
+         if (.not. any(abs(a) > 0.0_wp)) call mistake(mistakes, statement%at, "the points "//on_z//" and "//on_x// &
                                                       " lie on one line, or at the origin", "")
       end if
       where (abs(a) < nothing) a = 0.0_wp
@@ -280,7 +291,7 @@ contains
             new = marker_t(id=it%id)
             new%part = findloc([(model%parts(i)%id, i=1, size(model%parts))], id, dim=1)
             if (new%part == 0) then
-               call mistake(mistakes, it%line, "MARKER/"//to_text(it%id)//" is on PART/"//to_text(id)//", which is not there", "")
+               call mistake(mistakes, it%at, "MARKER/"//to_text(it%id)//" is on PART/"//to_text(id)//", which is not there", "")
                cycle
             end if
             new%name = "MARKER_"//to_text(it%id)
@@ -305,16 +316,15 @@ contains
       associate (it => model%statements(part%statement), unit => model%units%mass*model%units%length**2)
          call argument_numbers(it, "MASS", mass, mistakes, 1)
          if (size(mass) > 0) part%mass = mass(1)*model%units%mass
-         cm = model%marker(id_of(it, "CM", mistakes))
-         im = model%marker(id_of(it, "IM", mistakes))
-         if (cm == 0 .and. find_argument(it, "CM") > 0) call mistake(mistakes, it%line, "the CM marker is not there", "")
-         if (im == 0 .and. find_argument(it, "IM") > 0) call mistake(mistakes, it%line, "the IM marker is not there", "")
+         cm = marker_of(model, it, "CM", mistakes)
+         im = marker_of(model, it, "IM", mistakes)
          if (cm > 0) part%centre = model%markers(cm)%r
          if (im == 0) im = cm
          call argument_numbers(it, "IP", ip, mistakes)
-         if (size(ip) > 0 .and. size(ip) /= 3 .and. size(ip) /= 6) call mistake(mistakes, it%line, &
-                                                                                 "IP has three numbers, or six", "")
-         if (min(part%mass, minval(ip(:min(3, size(ip))))) < 0.0_wp) call mistake(mistakes, it%line, "PART/"//to_text(part%id)// &
+         if (size(ip) > 0 .and. size(ip) /= 3 .and. size(ip) /= 6) call mistake(mistakes, &
+                                                             it%arguments(find_argument(it, "IP"))%at, &
+                                                             "IP has three numbers, or six", "")
+         if (min(part%mass, minval(ip(:min(3, size(ip))))) < 0.0_wp) call mistake(mistakes, it%at, "PART/"//to_text(part%id)// &
                                                                          " has a negative mass or moment of inertia", "")
          j = 0.0_wp
          if (size(ip) >= 3) then
@@ -340,18 +350,32 @@ contains
          words = "PART/"//to_text(part%id)//" ("//part%name//")"
          if (.not. part%mass > 0.0_wp) then
             part%mass = 1.0e-6_wp
-            call model%changed%add("line "//to_text(it%line)//": "//words//" has no mass: 1e-6 kg assumed")
+            call model%changed%add(line_words(it%at)//words//" has no mass: 1e-6 kg assumed")
          end if
          if (.not. (j(1, 1) > 0.0_wp .and. j(2, 2) > 0.0_wp .and. j(3, 3) > 0.0_wp)) then
             part%inertia = 0.0_wp
             do k = 1, 3
                part%inertia(k, k) = 1.0e-6_wp*part%mass
             end do
-            call model%changed%add("line "//to_text(it%line)//": "//words// &
+            call model%changed%add(line_words(it%at)//words// &
                   " has no moments of inertia: 1e-6 m^2 of its mass assumed")
          end if
       end associate
    end subroutine read_mass
+
+   !> The marker of an argument, by its place in the list; 0: there is no such argument, or no such marker.
+   integer function marker_of(model, statement, name, mistakes) result(marker)
+      type(adams_model_t), intent(in) :: model          !! the dataset, with its markers
+      type(statement_t), intent(in) :: statement        !! the statement
+      character(*), intent(in) :: name                  !! of the argument
+      type(diagnostics_t), intent(inout) :: mistakes    !! collects what is wrong
+
+      integer :: k
+
+      marker = model%marker(id_of(statement, name, mistakes))
+      k = find_argument(statement, name)
+      if (marker == 0 .and. k > 0) call mistake(mistakes, statement%arguments(k)%at, "the "//name//" marker is not there", "")
+   end function marker_of
 
    !> Number of a marker in the list; 0: there is none.
    pure integer function find_marker(self, id) result(k)

@@ -49,7 +49,7 @@ contains
             end do
             if (i > size(draft%joints)) then
                if (find_statement(model, "JOINT", j) == 0) then
-                  call mistake(mistakes, it%line, "MOTION/"//to_text(it%id)//" drives JOINT/"//to_text(j)// &
+                  call mistake(mistakes, it%at, "MOTION/"//to_text(it%id)//" drives JOINT/"//to_text(j)// &
                         ", which is not there", "")
                else
                   call leave_out(model, it, "its joint is not in the deck")

@@ -13,7 +13,7 @@ module adams_splines
    use adams_model, only: adams_model_t, argument_numbers, find_statement, leave_out
    use akima, only: new_akima
    use curve, only: beyond_error, beyond_linear
-   use dataset, only: has_word, statement_t
+   use dataset, only: has_word, line_words, statement_t
    use deck_draft, only: deck_draft_t, tab
    use diagnostics, only: diagnostics_t
    use expression_symbols, only: symbol_function, symbol_t
@@ -142,7 +142,7 @@ contains
 
       associate (it => model%statements(statement))
          goes_on = has_word(it, "LINEAR_EXTRAPOLATE", 1)
-         if (.not. goes_on) call model%changed%add("line "//to_text(it%line)//": SPLINE/"//to_text(it%id)//": "//name// &
+         if (.not. goes_on) call model%changed%add(line_words(it%at)//"SPLINE/"//to_text(it%id)//": "//name// &
                                                    " ends with its samples, where Adams goes on")
       end associate
       if (draft%functions%n == 0) then   ! at most one of each kind for a spline

@@ -7,19 +7,20 @@
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: no nested datasets, no commands.
 module dataset
    use dataset_lines, only: gathered_t, next_statement, reader_t, start_reader, upper_case
+   use item, only: location_t
    use numbers, only: number_length
    use source_text, only: source_t
-   use text, only: text_t
+   use text, only: text_t, to_text
    use text_list, only: text_list_t
    implicit none (type, external)
    private
-   public :: argument_t, expression_of, find_argument, has_word, read_statements, statement_t, upper_case
+   public :: argument_t, expression_of, find_argument, has_word, line_words, read_statements, statement_t, upper_case
 
    !> An argument: a word, or a name with its values.
    type :: argument_t
       character(:), allocatable :: name        !! in capitals, as written
       type(text_t), allocatable :: values(:)   !! (n) what stands behind the equals sign; none: a word
-      integer :: line = 0                      !! where it stands
+      type(location_t) :: at                   !! where its name stands
    end type argument_t
 
    !> A statement.
@@ -28,7 +29,7 @@ module dataset
       integer :: id = -1                            !! its number; -1: it has none
       type(argument_t), allocatable :: arguments(:) !! (n) in the order of the text
       character(:), allocatable :: view_name        !! name from the comment before it; blank: none
-      integer :: line = 0                           !! where it begins
+      type(location_t) :: at                        !! where its name stands
    end type statement_t
 
    !> Arguments while they are cut.
@@ -80,7 +81,7 @@ contains
       slash = scan(now%text(:now%n), "/,= ")
       if (slash == 0) slash = now%n + 1
       statement%keyword = upper_case(now%text(:slash - 1))
-      statement%line = now%line(1)
+      statement%at = now%place_of(1, len(statement%keyword))
       statement%view_name = now%view_name
       at = verify(now%text(slash:now%n), " ") + slash - 1
       if (at < slash) at = now%n + 1
@@ -116,7 +117,7 @@ contains
             if (depth > 0 .or. scan(now%text(at:at), ",\") == 0) cycle
          end if
          head = min(first + verify(now%text(first:at - 1)//"x", " ") - 1, n)
-         call take_piece(trim(adjustl(now%text(first:at - 1))), now%line_at(head), cutting)
+         call take_piece(trim(adjustl(now%text(first:at - 1))), now, head, cutting)
          first = at + 1
       end do
       call end_argument(cutting)
@@ -124,9 +125,10 @@ contains
    end subroutine cut_arguments
 
    !> What stands between two commas: a new argument, or one more value of the last.
-   subroutine take_piece(piece, line, cutting)
+   subroutine take_piece(piece, now, place, cutting)
       character(*), intent(in) :: piece              !! without blanks around it
-      integer, intent(in) :: line                    !! where it stands
+      type(gathered_t), intent(in) :: now            !! the statement
+      integer, intent(in) :: place                   !! where it begins in its text
       type(cutting_t), intent(inout) :: cutting      !! changed or appended to
 
       integer :: at
@@ -134,22 +136,23 @@ contains
       if (len(piece) == 0) return
       at = index(piece, "=")
       if (at > 0) then
-         call begin_argument(cutting, upper_case(trim(piece(:at - 1))), line)
+         call begin_argument(cutting, upper_case(trim(piece(:at - 1))), now, place)
          call cutting%values%add(trim(adjustl(piece(at + 1:))))
       else if (number_length(piece) == 0) then
-         call begin_argument(cutting, upper_case(piece), line)
+         call begin_argument(cutting, upper_case(piece), now, place)
       else if (cutting%values%n > 0) then
          call cutting%values%add(piece)
       else
-         call begin_argument(cutting, piece, line)
+         call begin_argument(cutting, piece, now, place)
       end if
    end subroutine take_piece
 
    !> Begin an argument.
-   subroutine begin_argument(cutting, name, line)
+   subroutine begin_argument(cutting, name, now, place)
       type(cutting_t), intent(inout) :: cutting      !! one more
       character(*), intent(in) :: name               !! of the argument
-      integer, intent(in) :: line                    !! where it stands
+      type(gathered_t), intent(in) :: now            !! the statement
+      integer, intent(in) :: place                   !! where the name begins in its text
 
       type(argument_t), allocatable :: more(:)
 
@@ -161,7 +164,7 @@ contains
       end if
       cutting%n = cutting%n + 1
       cutting%arguments(cutting%n)%name = name
-      cutting%arguments(cutting%n)%line = line
+      cutting%arguments(cutting%n)%at = now%place_of(place, len(name))
    end subroutine begin_argument
 
    !> Give the last argument its values.
@@ -214,5 +217,13 @@ contains
 
       has_word = find_argument(statement, name, least) > 0
    end function has_word
+
+   !> The beginning of what is said of a place.
+   pure function line_words(at) result(words)
+      type(location_t), intent(in) :: at        !! the place
+      character(:), allocatable :: words        !! line and column, and a colon
+
+      words = "line "//to_text(at%line)//", column "//to_text(at%first)//": "
+   end function line_words
 
 end module dataset

@@ -6,6 +6,7 @@
 !>
 !> Source: the public descriptions of the statements of Adams/Solver.
 module dataset_lines
+   use item, only: location_t
    use source_text, only: line_of, n_line_of, source_t
    use text, only: lower, piece
    implicit none (type, external)
@@ -20,17 +21,19 @@ module dataset_lines
       integer :: n = 0                         !! characters
       integer, allocatable :: first(:)         !! (at least n_line) where in it a line begins
       integer, allocatable :: line(:)          !! (at least n_line) number of that line
+      integer, allocatable :: column(:)        !! (at least n_line) column there of what begins in the text
       integer :: n_line = 0                    !! lines
       character(:), allocatable :: view_name   !! of the comment before it
       integer, private :: depth = 0            !! parentheses that are open at its end
       logical, private :: in_expression = .false.   !! the last argument that has a value is an expression
    contains
-      procedure :: line_at
+      procedure :: place_of
    end type gathered_t
 
    !> Where reading is.
    type :: reader_t
       integer, private :: line = 0                          !! last line that was taken
+      integer, private :: column = 1                        !! where the rest of it begins
       character(:), allocatable, private :: rest            !! of that line, behind a `;`
       character(:), allocatable, private :: view_name       !! name that the next statement has
    end type reader_t
@@ -61,7 +64,7 @@ contains
 
       character(:), allocatable :: line
       logical :: is_open, was_open
-      integer :: last
+      integer :: behind
 
       now%text = repeat(" ", 256)
       now%view_name = ""
@@ -70,9 +73,10 @@ contains
          if (len(reader%rest) > 0) then
             call move_alloc(reader%rest, line)
          else
-            last = reader%line
-            reader%line = last + 1
-            line = trim(adjustl(replaced_tabs(line_of(source, reader%line))))
+            reader%line = reader%line + 1
+            line = replaced_tabs(line_of(source, reader%line))
+            reader%column = verify(line//"x", " ")
+            line = trim(adjustl(line))
             call take_comment(line, reader%view_name)
          end if
          reader%rest = ""
@@ -89,8 +93,9 @@ contains
             if (is_open) reader%rest = line//" &"
             return
          end if
-         call split_at_end(line, reader%rest)
-         call add_line(now, line, reader%line)
+         call split_at_end(line, reader%rest, behind)
+         call add_line(now, line, reader%line, reader%column)
+         reader%column = reader%column + behind
          if (len(reader%rest) == 0) cycle
          if (is_open) reader%rest = reader%rest//" &"
          return
@@ -98,14 +103,16 @@ contains
    end subroutine next_statement
 
    !> Cut a line at the first `;` that a statement, or nothing, stands behind.
-   subroutine split_at_end(line, rest)
+   subroutine split_at_end(line, rest, behind)
       character(:), allocatable, intent(inout) :: line        !! cut
       character(:), allocatable, intent(out) :: rest          !! what stands behind
+      integer, intent(out) :: behind                          !! characters of the line before that
 
       character(:), allocatable :: first
       integer :: at, from
 
       rest = ""
+      behind = 0
       at = 0
       do
          from = at + 1
@@ -114,6 +121,7 @@ contains
          if (begins_statement(line(at + 1:))) exit
       end do
       rest = trim(adjustl(line(at + 1:)))
+      behind = at + verify(line(at + 1:)//"x", " ") - 1
       first = trim(line(:at - 1))
       call move_alloc(first, line)
    end subroutine split_at_end
@@ -185,15 +193,17 @@ contains
    end subroutine take_comment
 
    !> Add a line to a statement.
-   subroutine add_line(now, line, number)
+   subroutine add_line(now, line, number, column)
       type(gathered_t), intent(inout) :: now     !! the statement
       character(*), intent(in) :: line           !! without comment, and blanks around it
       integer, intent(in) :: number              !! of the line
+      integer, intent(in) :: column              !! where it begins there
 
       character(:), allocatable :: part
       integer, allocatable :: more(:)
+      integer :: from
 
-      if (.not. allocated(now%first)) allocate (now%first(4), now%line(4))
+      if (.not. allocated(now%first)) allocate (now%first(4), now%line(4), now%column(4))
       if (now%n_line == size(now%first)) then
          allocate (more(2*now%n_line))
          more(:now%n_line) = now%first
@@ -201,11 +211,16 @@ contains
          allocate (more(2*now%n_line))
          more(:now%n_line) = now%line
          call move_alloc(more, now%line)
+         allocate (more(2*now%n_line))
+         more(:now%n_line) = now%column
+         call move_alloc(more, now%column)
       end if
       part = line
+      from = column
       if (now%n_line > 0) then
          if (line(1:1) == ",") then
             part = trim(adjustl(line(2:)))
+            from = column + verify(line(2:)//"x", " ")
             call join(now, part)
          else
             call append(now, " ")
@@ -214,6 +229,7 @@ contains
       now%n_line = now%n_line + 1
       now%first(now%n_line) = now%n + 1
       now%line(now%n_line) = number
+      now%column(now%n_line) = from
       call append(now, part)
       now%depth = now%depth + depth_of(part)
       if (index(part, "=") > 0) now%in_expression = ends_in_expression(now%text(:now%n))
@@ -307,12 +323,13 @@ contains
       end do
    end function upper_case
 
-   !> The line in which a character of a statement stands.
-   pure integer function line_at(self, at)
+   !> Where a word of a statement stands in the dataset.
+   pure type(location_t) function place_of(self, at, length) result(place)
       class(gathered_t), intent(in) :: self   !! the statement
-      integer, intent(in) :: at               !! number of the character
+      integer, intent(in) :: at               !! number of its first character
+      integer, intent(in) :: length           !! characters
 
-      integer :: high, low, middle
+      integer :: column, high, low, middle
 
       low = 1
       high = self%n_line + 1
@@ -324,7 +341,8 @@ contains
             high = middle
          end if
       end do
-      line_at = self%line(low)
-   end function line_at
+      column = self%column(low) + at - self%first(low)
+      place = location_t(1, self%line(low), column, column + max(length, 1) - 1)
+   end function place_of
 
 end module dataset_lines

@@ -32,6 +32,7 @@ module contact_watch
       integer :: n_peak = 0                          !! how many
       logical, allocatable :: owes_row(:)            !! (contacts) the present force is the greatest so far, and no row tells it
       real(wp), allocatable :: told(:)               !! (contacts) the greatest force of the contact that a row tells [N]
+      real(wp) :: made = 0.0_wp                      !! energy that the contact of the last event began with, from nothing [J]
       real(wp) :: shift = 0.0_wp                     !! time from the last onset to where a force that jumps there is seen [s]
       type(trend_t), allocatable :: force(:)         !! (contacts) normal force
       type(trend_t), allocatable :: penetration(:)   !! (contacts) penetration
@@ -293,6 +294,7 @@ contains
       integer :: i, k, z
       type(trend_t) :: force, penetration
 
+      self%made = 0.0_wp
       call system%find_contact(number, k, i)
       if (system%loose%functions%kind_of(number) /= touch_function) then
          is_over = system%loose%functions%kind_of(number) == slip_function
@@ -306,7 +308,7 @@ contains
       end if
       call system%events(method%t, method%step%y1, self%g, self%g_rate)
       call look(system, k, i, force, penetration)
-      rate = penetration%rate  ! the normal one: at an end of a guide that of the event is axial
+      rate = penetration%rate  ! the normal one: at an end of a guide with faces that of the event is axial
       associate (set => system%loose%sets(k)%set)
          stored = 0.0_wp
          if (set%traits%energy_jumps) stored = set%elastic_energy(system%linkage%motion)
@@ -327,14 +329,23 @@ contains
             call set%note_swing(i, penetration%value)
             step_hint = step_in_contact()
          end if
-         if (.not. (set%traits%energy_jumps .and. system%ledger%is_kept)) return
-         lost = stored - set%elastic_energy(system%linkage%motion)
-         z = system%in_state(place_of_loss(number, loss_contact))
-         method%step%y1(z) = method%step%y1(z) + lost
-         if (is_over) row%energy_lost = row%energy_lost + lost
       end associate
+      if (system%loose%sets(k)%set%traits%energy_jumps .and. system%ledger%is_kept) call book_jump()
 
    contains
+
+      !> What the stored energy jumped by. A contact that begins where the surfaces overlap came over an end of its guide, and began
+      !> with an energy from nothing.
+      subroutine book_jump()
+         lost = stored - system%loose%sets(k)%set%elastic_energy(system%linkage%motion)
+         z = system%in_state(place_of_loss(number, loss_contact))
+         method%step%y1(z) = method%step%y1(z) + lost
+         if (is_over) then
+            row%energy_lost = row%energy_lost + lost
+         else if (method%controls%onset == onset_located .and. penetration%value > 2.0_wp*method%events%noise(number)) then
+            self%made = -lost
+         end if
+      end subroutine book_jump
 
       !> Step that suits the contact: a part of its swing; of that of the slowest impact if it has neither speed nor depth.
       real(wp) function step_in_contact() result(step)

@@ -21,8 +21,8 @@ module guards
    use text, only: real_text, text_t
    implicit none (type, external)
    private
-   public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, n_contact_guard, &
-      new_guards
+   public :: guards_t, guard_clearance, guard_impact_speed, guard_law_range, guard_penetration, guard_strength, joint_words, &
+      n_contact_guard, new_guards
 
    integer, parameter :: guard_penetration = 1   !! a penetration, part of the size of the surfaces (radius; slider: length)
    integer, parameter :: guard_clearance = 2     !! a penetration, the clearance
@@ -67,6 +67,7 @@ module guards
       procedure :: begin => guards_begin
       procedure :: look => guards_look
       procedure :: look_at_energy => guards_look_at_energy
+      procedure :: look_at_made => guards_look_at_made
       procedure :: warn => guards_warn
       procedure :: save => guards_save
       procedure :: load => guards_load
@@ -278,6 +279,18 @@ contains
       call end_run(self, "the motion is not that of the mechanism: "//real_text(residual, 3)//" J were made of nothing, "// &
                    real_text(abs(residual)/largest, 3)//" of the largest energy (guard 'energy')")
    end subroutine guards_look_at_energy
+
+   !> What a contact made of nothing that began where its surfaces overlapped. It is booked as its loss, so that no residual has it.
+   subroutine guards_look_at_made(self, made, largest)
+      class(guards_t), intent(inout) :: self      !! the guards
+      real(wp), intent(in) :: made                !! by the contact that began just now [J]
+      real(wp), intent(in) :: largest             !! largest energy before [J]
+
+      if (.not. self%energy > 0.0_wp .or. made <= self%energy*(largest + made)) return
+      call end_run(self, "the motion is not that of the mechanism: a contact that began overlapping made "// &
+                   real_text(made, 3)//" J of nothing, "//real_text(made/(largest + made), 3)// &
+                   " of the largest energy (guard 'energy')")
+   end subroutine guards_look_at_made
 
    !> The first reason stands.
    subroutine end_run(self, reason)

@@ -174,6 +174,7 @@ contains
          end do
          do k = 1, method%events%n_happened
             call part%watch%handle_event(system, method, method%events%happened(k), is_over, row, hint)
+            call part%guards%look_at_made(part%watch%made, tally%energy_max)
             if (hint > 0.0_wp) step_hint = merge(hint, min(hint, step_hint), step_hint <= 0.0_wp)
             tally%events = tally%events + 1
             if (is_over) then

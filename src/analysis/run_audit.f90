@@ -47,8 +47,8 @@ contains
          end associate
          if (lost < -careful_energy*summary%quality%energy_max) then
             call append_text(summary%warnings, "contacts made up to "//real_text(-lost, 3)//" J out of nothing: a law "// &
-                             "without a potential, as faces = blend and book are (foundation has one), or a corner that "// &
-                             "overlapped as it came over an end of its guide")
+                             "without a potential, as faces = blend and book are (foundation has one), or, with faces, a "// &
+                             "corner that overlapped as it came over an end of its guide")
          end if
       end if
       if (worst > careful_violation) then

@@ -6,6 +6,7 @@ module run_summary
    use kind_info, only: kind_info_t
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
+   use passed_contacts, only: warn_of_passed
    use recorder, only: status_complete, status_failed, summary_t
    use run_audit, only: audit, limits_t, warn_of_errors
    use run_tally, only: run_tally_t
@@ -67,9 +68,7 @@ contains
       worst = maxloc(whole%parts%worst, dim=1)
       call warn_of_errors(whole%parts(worst)%system, whole%parts(worst)%worst, whole%parts(worst)%worst_row, &
                           tally%least_lost, tally%magnitude, summary)
-      do p = 1, size(whole%parts)
-         call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
-      end do
+      call warn_by_parts(whole, summary)
       guards = limits%guards
       call whole%seen(guards)
       call warn_by_guards(guards, whole%system, method, summary)
@@ -81,6 +80,19 @@ contains
          summary%message = error%message
       end if
    end subroutine sum_up
+
+   !> What the parts of the motion have noted.
+   subroutine warn_by_parts(whole, summary)
+      type(whole_motion_t), intent(in) :: whole      !! the motion
+      type(summary_t), intent(inout) :: summary      !! its warnings grow
+
+      integer :: p
+
+      do p = 1, size(whole%parts)
+         call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
+         call warn_of_passed(whole%parts(p)%system, whole%parts(p)%method, summary%warnings)
+      end do
+   end subroutine warn_by_parts
 
    !> What the guards have seen.
    subroutine warn_by_guards(guards, system, method, summary)

@@ -4,13 +4,12 @@
 !> block's width (x) and height (y) plus the gap. The block has the same axes in body j where the deck puts the bodies, and is
 !> `length` long. Its corners are A, B, C, D, counter-clockwise about z from the one at -x, -y, at the end of -z, and E, F, G, H at
 !> the other. Each may touch the surface on its side along x and along y: contacts A_x, A_y ... H_y, with n = +-x or +-y and
-!> h = half + gap in `plane_contacts`. A contact lasts while its corner is between the ends of the guide, `guide_start` and
-!> `guide_end` along z.
+!> h = half + gap in `plane_contacts`. A guide that ends, at `guide_start` and `guide_end` along z, has a front there, which a
+!> corner that comes at it touches.
 !>
 !> Signs: the reported force is that on the block, world frame; the moment is that of the contact forces on it about its point.
-!> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits:
-!> those of `plane_contacts` for the ends, so that a guide is not shorter than its block; faces and edges that lie flat touch with
-!> their corners.
+!> Source: Flores et al. (2008), section 4.3, with the surfaces of space; stiffness that of a rounded corner on a plane. Limits: a
+!> guide is not shorter than its block; faces and edges that lie flat touch with their corners.
 module clearance_block
    use clearance_translational, only: add_guide_ends, describe_corner, find_end_mistake
    use item, only: item_t
@@ -114,7 +113,6 @@ contains
             self%axes(k)%across = item%direction("width_axis")
             half = 0.5_wp*[item%number("width"), item%number("height"), item%number("length")]
             if (has_ends(item)) self%axes(k)%ends = [item%number("guide_start"), item%number("guide_end")]
-            self%traits%energy_jumps = self%traits%energy_jumps .or. has_ends(item)
          end associate
          do corner = 1, n_corner
             do across = 1, 2

@@ -5,7 +5,8 @@
 !> (n = -R90 s). The slider is a rectangle, length along its own axis, height across, about its centre. Its corners are A, B, C, D,
 !> counter-clockwise from the one behind and below. Each corner may touch each surface: contacts A_upper ... D_lower, with
 !> delta = n . (r_A - r_P) - (height/2 + gap), rates as in `flat_contacts`, forces as in `point_contacts`, at the corner.
-!> A contact lasts while the corner is between the ends of the guide, guide_start <= s . (r_A - r_P) <= guide_end.
+!> Guides that end, at guide_start and guide_end along s, have a front there, which a corner that comes at it touches
+!> (`flat_contacts`); with faces a contact lasts while guide_start <= s . (r_A - r_P) <= guide_end.
 !>
 !> Faces, where both corners of a long side are at one surface (column `faces`): see `slider_contacts`.
 !>
@@ -15,8 +16,7 @@
 !> Signs: the reported force is that on the slider, world frame; the eccentricity is the slider's centre from the guide's line,
 !> perpendicular to it, world frame; the moment is that of the contact forces on the slider about its centre.
 !> Source: Flores et al. (2008), section 4.3, (4.14)-(4.27), corrected: see `flat_contacts`; (4.26) with the stiffness of a
-!> rectangle. Limits: short sides have corners only; the ends of the guide cut corners, not the part of a face; a corner that
-!> enters between the surfaces from beyond an end begins its contact there.
+!> rectangle. Limits: short sides have corners only; see `slider_contacts` for the ends of guides with faces.
 module clearance_translational
    use bodies, only: material_t
    use clearance_set, only: clearance_fit_law
@@ -147,10 +147,17 @@ contains
             case ("blend"); self%guide%faces(k) = faces_blend
             case ("foundation"); self%guide%faces(k) = faces_foundation
             end select
+            if (self%guide%faces(k) /= faces_corners) cycle
+            do m = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
+               self%plane%axis_i(:, m) = self%guide%axis(:, k)
+               self%plane%ends(:, m) = self%guide%ends(:, k)
+            end do
          end associate
       end do
       self%traits%has_faces = any(self%guide%faces /= faces_corners)
-      self%traits%energy_jumps = any(self%guide%faces == faces_book) .or. any(self%guide%ends(2, :) < huge(1.0_wp))
+      self%plane%has_ends = any(self%plane%ends(2, :) < huge(1.0_wp))
+      self%traits%energy_jumps = any(self%guide%faces == faces_book) .or. &
+                                 any(self%guide%faces /= faces_corners .and. self%guide%ends(2, :) < huge(1.0_wp))
    end subroutine translational_prepare
 
    !> Unit vector at an angle from an axis of a body.

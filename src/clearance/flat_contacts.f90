@@ -5,10 +5,15 @@
 !> d = r_A - r_P,   delta = n . d - h   (h less R of a circle),   rate = n . (v_A - v_i(A)) = d(delta)/dt
 !> delta'' = n . (a_A - a_P) + 2 w_i t . (v_A - v_P) + d . (alpha_i t - w_i^2 n),   t = R90 n
 !>
+!> Planes may begin and end along an axis s of i, from P (`ends`). The material behind such a plane has a front at each end, with
+!> the normal s at the first and -s at the second, and a point in it is pressed out by the shortest way: n and delta are those of
+!> the nearest of the plane and both fronts. So delta, and what is stored, is continuous all around, and nothing is made of
+!> nothing where a point comes over an end.
+!>
 !> C is the point A itself, or, of a circle, the middle between the two surfaces, A + (R - delta/2) n. Forces: see `point_contacts`.
 !>
 !> Source: Flores et al. (2008), section 4.3, corrected: signed penetration instead of (4.20), velocities of material points
-!> instead of (4.21), one common point of application instead of two. Limits: planes without ends, unless the geometry says.
+!> instead of (4.21), one common point of application instead of two. Limits: points have ends, circles have none.
 module flat_contacts
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
@@ -28,6 +33,9 @@ module flat_contacts
       real(wp), allocatable :: point_j(:, :)    !! (2, n_contact) the point A, frame of j [m]
       real(wp), allocatable :: height(:)        !! (n_contact) h: plane from P along the normal, less the radius [m]
       real(wp), allocatable :: radius(:)        !! (n_contact) radius of the circle, 0: a point [m]
+      logical :: has_ends = .false.             !! some planes end
+      real(wp), allocatable :: axis_i(:, :)     !! (2, n_contact) s along the plane, frame of i [1]
+      real(wp), allocatable :: ends(:, :)       !! (2, n_contact) where it begins and ends along s, from P; huge: nowhere [m]
    end type plane_surfaces_t
 
    !> Points or circles against planes. `prepare` of a geometry calls `make_planes` and fills the parameters.
@@ -53,6 +61,9 @@ contains
       m = self%n_contact
       call self%make_room()
       allocate (self%plane%normal_i(2, m), self%plane%point_j(2, m), self%plane%height(m), self%plane%radius(m), source=0.0_wp)
+      allocate (self%plane%axis_i(2, m), source=0.0_wp)
+      allocate (self%plane%ends(2, m), source=huge(1.0_wp))
+      self%plane%ends(1, :) = -huge(1.0_wp)
    end subroutine make_planes
 
    !> Add the contact forces of the touching contacts.
@@ -91,7 +102,7 @@ contains
       type(motion_t), intent(in) :: motion             !! positions and velocities
       type(point_contact_t), intent(inout) :: contact  !! kinematics
 
-      real(wp) :: arm_i(2), arm_j(2), n(2), reach, s_i(2), s_j(2), v(2)
+      real(wp) :: along(2), arm_i(2), arm_j(2), d(2), n(2), reach, s_i(2), s_j(2), v(2)
       integer :: i, item, j
 
       item = self%item_of(k)
@@ -100,7 +111,12 @@ contains
       s_i = motion%rot(1:2, 1, i)*self%items%s_i(1, item) + motion%rot(1:2, 2, i)*self%items%s_i(2, item)
       s_j = motion%rot(1:2, 1, j)*self%plane%point_j(1, k) + motion%rot(1:2, 2, j)*self%plane%point_j(2, k)
       n = motion%rot(1:2, 1, i)*self%plane%normal_i(1, k) + motion%rot(1:2, 2, i)*self%plane%normal_i(2, k)
-      contact%delta = dot_product(n, motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i) - self%plane%height(k)
+      d = motion%r(1:2, j) + s_j - motion%r(1:2, i) - s_i
+      contact%delta = dot_product(n, d) - self%plane%height(k)
+      if (self%plane%has_ends) then
+         along = motion%rot(1:2, 1, i)*self%plane%axis_i(1, k) + motion%rot(1:2, 2, i)*self%plane%axis_i(2, k)
+         call find_nearest(along, dot_product(along, d), self%plane%ends(:, k), n, contact%delta)
+      end if
       reach = 0.0_wp
       if (self%plane%radius(k) > 0.0_wp) reach = self%plane%radius(k) - 0.5_wp*contact%delta
       arm_j = s_j + reach*n
@@ -114,6 +130,24 @@ contains
       contact%arm_i(1:2) = arm_i
       contact%arm_j(1:2) = arm_j
    end subroutine measure_one
+
+   !> The nearest of a plane and of the fronts at its ends.
+   pure subroutine find_nearest(along, place, ends, n, delta)
+      real(wp), intent(in) :: along(2)      !! (2) s, world frame [1]
+      real(wp), intent(in) :: place         !! of the point along it [m]
+      real(wp), intent(in) :: ends(2)       !! (2) where the plane begins and ends [m]
+      real(wp), intent(inout) :: n(2)       !! (2) normal of the plane; of what is nearest, world frame [1]
+      real(wp), intent(inout) :: delta      !! penetration of the plane; of what is nearest [m]
+
+      if (place - ends(1) < delta) then
+         n = along
+         delta = place - ends(1)
+      end if
+      if (ends(2) - place < delta) then
+         n = -along
+         delta = ends(2) - place
+      end if
+   end subroutine find_nearest
 
    !> Second derivative of a penetration by time.
    pure real(wp) function flat_penetration_acceleration(self, k, motion, contact) result(acceleration)

@@ -8,11 +8,11 @@
 !> forces as in `point_contacts`, at C: the point p, or, of a ball, p + (R - delta/2) n, the middle between the surfaces. A geometry
 !> gives normals and points along the axes of its item, x, y, z, in `prepare`; the axes are found in `set_start` (`find_axes`).
 !>
-!> Planes may begin and end along z of their item (`ends`): a contact lasts while p is between the ends. Beyond one `gaps` says how
-!> far p is beyond it, negative, if that is less.
+!> Planes may begin and end along z of their item (`ends`), with a front there, whose normal is z at the first end and -z at the
+!> second: n and delta are those of the nearest of plane and fronts, as in `flat_contacts`.
 !>
-!> Signs: see `point_contact`. Source: Flores et al. (2008), section 4.3, with the surfaces of space. Limits: ends cut points, not
-!> the part of a face; a point that enters between the surfaces from beyond an end begins its contact there.
+!> Signs: see `point_contact`. Source: Flores et al. (2008), section 4.3, with the surfaces of space. Limits: points have
+!> ends, balls have none.
 module plane_contacts
    use contact_grip, only: tangent_t
    use item, only: find_place, item_t
@@ -20,7 +20,7 @@ module plane_contacts
    use kinds, only: wp
    use motion, only: motion_t
    use point_contact, only: point_contact_t
-   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt, point_gaps
+   use point_contacts, only: of_axial_displacement, of_eccentricity, of_moment, of_tilt
    use space_tangents, only: lie_in_space, set_sliding
    use spatial_contacts, only: spatial_contacts_t
    use spatial_rows, only: axis_of
@@ -61,7 +61,6 @@ module plane_contacts
       procedure :: span_of => plane_span_of
       procedure :: measure_acting => plane_measure_acting
       procedure :: measure => measure_one
-      procedure :: gaps => plane_gaps
       procedure :: penetration_acceleration => plane_penetration_acceleration
       procedure :: lie => plane_lie
       procedure :: report_item => plane_report_item
@@ -165,6 +164,9 @@ contains
          contact%arm_i = motion%r(:, j) + contact%arm_j - motion%r(:, i)
          d = contact%arm_i - axis_of(motion, i, self%items%s_i(:, item))
          contact%delta = dot_product(contact%normal, d) - self%planes%height(k)
+         if (self%axes(item)%ends(2) < endless) then
+            call find_nearest(axis_of(motion, i, self%axes(item)%frame_i(:, 3)), d, self%axes(item)%ends, contact)
+         end if
          if (self%planes%radius(k) > 0.0_wp) then
             d = (self%planes%radius(k) - 0.5_wp*contact%delta)*contact%normal
             contact%arm_j = contact%arm_j + d
@@ -175,6 +177,26 @@ contains
          if (with_sliding) call set_sliding(motion, i, j, contact)
       end associate
    end subroutine measure_one
+
+   !> The nearest of a plane and of the fronts at its ends.
+   pure subroutine find_nearest(along, d, ends, contact)
+      real(wp), intent(in) :: along(3)                 !! (3) z of the item, world frame [1]
+      real(wp), intent(in) :: d(3)                     !! (3) from the point of the item in i to p, world frame [m]
+      real(wp), intent(in) :: ends(2)                  !! (2) where the plane begins and ends along it [m]
+      type(point_contact_t), intent(inout) :: contact  !! normal and penetration of the plane; of what is nearest
+
+      real(wp) :: place
+
+      place = dot_product(along, d)
+      if (place - ends(1) < contact%delta) then
+         contact%normal = along
+         contact%delta = place - ends(1)
+      end if
+      if (ends(2) - place < contact%delta) then
+         contact%normal = -along
+         contact%delta = ends(2) - place
+      end if
+   end subroutine find_nearest
 
    !> Second derivative of a penetration by time.
    pure real(wp) function plane_penetration_acceleration(self, k, motion, contact) result(acceleration)
@@ -209,37 +231,6 @@ contains
       reach = 0.0_wp
       if (self%planes%radius(k) > 0.0_wp) reach = self%planes%radius(k) - 0.5_wp*contact%delta
    end function reach_of
-
-   !> Penetrations and rates; of a point beyond an end of its plane how far it is beyond, negative, if that is less.
-   subroutine plane_gaps(self, motion, delta, rate)
-      class(plane_contacts_t), intent(in) :: self  !! the set
-      type(motion_t), intent(in) :: motion         !! positions and velocities
-      real(wp), intent(inout) :: delta(:)          !! (all contacts) penetration [m]
-      real(wp), intent(inout) :: rate(:)           !! (all contacts) its rate [m/s]
-
-      real(wp) :: along(3), arm_i(3), arm_j(3), inside(2), place, speed
-      integer :: c, k, m
-
-      call point_gaps(self, motion, delta, rate)
-      do k = 1, self%n
-         if (self%axes(k)%ends(2) >= endless) cycle
-         associate (i => self%items%body(1, k), j => self%items%body(2, k))
-            along = axis_of(motion, i, self%axes(k)%frame_i(:, 3))
-            do c = (k - 1)*self%n_contact_item + 1, k*self%n_contact_item
-               arm_j = axis_of(motion, j, self%planes%point_j(:, c))
-               arm_i = motion%r(:, j) + arm_j - motion%r(:, i)
-               place = dot_product(along, arm_i - axis_of(motion, i, self%items%s_i(:, k)))
-               speed = dot_product(along, motion%v(:, j) + across(motion%omega(:, j), arm_j) - motion%v(:, i) &
-                                   - across(motion%omega(:, i), arm_i))
-               inside = [place - self%axes(k)%ends(1), self%axes(k)%ends(2) - place]
-               m = self%before%contacts + c
-               if (minval(inside) >= delta(m)) cycle
-               delta(m) = minval(inside)
-               rate(m) = merge(speed, -speed, inside(1) < inside(2))
-            end do
-         end associate
-      end do
-   end subroutine plane_gaps
 
    !> How a contact lies: the normal turns with body i, p stays in body j.
    subroutine plane_lie(self, k, motion, tangent)

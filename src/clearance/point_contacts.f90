@@ -62,6 +62,7 @@ module point_contacts
       procedure, non_overridable :: press => point_press
       procedure, non_overridable :: rub => point_rub
       procedure :: gaps => point_gaps
+      procedure :: cut_at_ends => point_cut_at_ends
       procedure :: watch => point_watch
       procedure(point_force_interface), nopass, deferred :: force_on_j
       procedure :: report => point_report
@@ -236,6 +237,16 @@ contains
       contact%tangent = matmul(tangent%t, tangent%f_t/f_t)
       contact%v_t_work = dot_product(tangent%v, tangent%f_t/f_t)
    end subroutine take_friction
+
+   !> Cut a penetration where the surface ends: a geometry whose measure does not know of ends does it here.
+   pure subroutine point_cut_at_ends(self, k, motion, contact, delta, rate)
+      class(point_contacts_t), intent(in) :: self     !! the set
+      integer, intent(in) :: k                        !! contact
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+      type(point_contact_t), intent(in) :: contact    !! its kinematics
+      real(wp), intent(inout) :: delta                !! penetration [m]
+      real(wp), intent(inout) :: rate                 !! its rate [m/s]
+   end subroutine point_cut_at_ends
 
    !> A channel of a geometry's own; there is none here, and the value is left alone.
    subroutine point_report_item(self, code, item, motion, contacts, f_n, f_t, value)

@@ -91,8 +91,7 @@ contains
       type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
       real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
-      real(wp) :: f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item)
-      real(wp), allocatable :: gap(:)
+      real(wp) :: depth, f_elastic(most_of_item), f_n(most_of_item), f_t(most_of_item), rate
       integer :: at, c, code, column, first, item, m, width
       logical :: is_found, takes_over, with_sliding
 
@@ -121,8 +120,10 @@ contains
                   values(at + c) = value_of_contact(code, self%contact(first + c)%is_touching, contacts(c)%delta, &
                                                     contacts(c)%rate, f_n(c), f_t(c))
                   if (code /= of_penetration .or. self%contact(first + c)%is_touching .or. contacts(c)%delta <= 0.0_wp) cycle
-                  call find_gaps(self, motion, gap)  ! beyond its end a surface is not there
-                  values(at + c) = max(0.0_wp, min(contacts(c)%delta, gap(column + c)))
+                  depth = contacts(c)%delta
+                  rate = contacts(c)%rate
+                  call self%cut_at_ends(first + c, motion, contacts(c), depth, rate)  ! beyond its end a surface is not there
+                  values(at + c) = max(0.0_wp, depth)
                end do
             else if (code == of_contact_point .or. code >= of_contact_angle) then
                width = readings%width(m)
@@ -165,19 +166,6 @@ contains
                              self%items%pairs(item), motion%rot(:, :, self%items%body(1, item)), values)
       end if
    end subroutine report_course
-
-   !> Penetrations of all contacts with the ends of the surfaces, once.
-   subroutine find_gaps(self, motion, gap)
-      class(point_contacts_t), intent(in) :: self           !! the set
-      type(motion_t), intent(in) :: motion                  !! positions and velocities
-      real(wp), allocatable, intent(inout) :: gap(:)        !! (contacts up to those of the set) they; allocated: found before [m]
-
-      real(wp), allocatable :: rate(:)
-
-      if (allocated(gap)) return
-      allocate (gap(self%before%contacts + self%n_contact), rate(self%before%contacts + self%n_contact), source=0.0_wp)
-      call self%gaps(motion, gap, rate)
-   end subroutine find_gaps
 
    !> Force of the contacts of an item on its body j, and their moment about its centre of mass.
    module procedure point_load_on_j

@@ -1,7 +1,8 @@
 !> Planar: a slider between two straight surfaces: its corners, ends of the guide, and how long sides share their forces.
 !>
 !> Corners A, B, C, D of a rectangle of body j, counter-clockwise from the one behind and below, at the upper, then at the lower
-!> surface of body i (`flat_contacts`). A contact lasts while the corner is between the ends of the guide.
+!> surface of body i (`flat_contacts`). The guide has a front at each end, which corners that come over it touch; where faces share,
+!> a contact lasts while the corner is between the ends.
 !>
 !> Faces, where both corners of a long side are at one surface, penetrating by d_1 and d_2, L the length, K_f that of `face_law`:
 !> corners     each corner for itself, with the normal law
@@ -15,9 +16,9 @@
 !> corners with the same resultant. What blend gives beyond the gradient of its own energy (1 - w) U_corners + w U_face is
 !> counted as lost in contact (it may be negative: weights that depend on the position have no potential).
 !>
-!> Source: Flores et al. (2008), section 4.3, (4.26) with the stiffness of a rectangle. Limits: short sides have corners only; the
-!> ends of the guide cut corners, not the part of a face; a corner that enters between the surfaces from beyond an end begins its
-!> contact there.
+!> Source: Flores et al. (2008), section 4.3, (4.26) with the stiffness of a rectangle. Limits: short sides have corners only; with
+!> faces the ends of the guide have no front and cut corners, not the part of a face: a corner that enters between the surfaces from
+!> beyond an end begins its contact there, with energy that nothing gave.
 module slider_contacts
    use faced_contacts, only: faced_contacts_t
    use kinds, only: wp
@@ -56,6 +57,7 @@ module slider_contacts
    contains
       procedure, nopass :: contact_labels => slider_contact_labels
       procedure :: gaps => slider_gaps
+      procedure :: cut_at_ends => slider_cut_at_ends
       procedure :: report_item => slider_report_item
       procedure :: share_item => slider_share_item
       procedure :: face_energy => slider_face_energy
@@ -76,7 +78,7 @@ contains
       end do
    end function slider_contact_labels
 
-   !> Penetrations and rates; of a corner beyond an end of the guide how far it is beyond, negative, if that is less.
+   !> Penetrations and rates, those of guides with faces cut at their ends.
    subroutine slider_gaps(self, motion, delta, rate)
       class(slider_contacts_t), intent(in) :: self  !! the set
       type(motion_t), intent(in) :: motion                  !! positions and velocities
@@ -84,31 +86,45 @@ contains
       real(wp), intent(inout) :: rate(:)                    !! (all contacts) its rate [m/s]
 
       type(point_contact_t) :: contact
-      real(wp) :: arm_i(2), arm_j(2), d(2), inside(2), s(2), speed, v(2)
-      integer :: c, i, j, k, m
+      integer :: k, m
 
       call point_gaps(self, motion, delta, rate)
-      do k = 1, self%n
-         if (self%guide%ends(2, k) >= huge(1.0_wp)) cycle
-         i = self%items%body(1, k)
-         j = self%items%body(2, k)
-         s = motion%rot(1:2, 1, i)*self%guide%axis(1, k) + motion%rot(1:2, 2, i)*self%guide%axis(2, k)
-         do c = 1, self%n_contact_item
-            m = (k - 1)*self%n_contact_item + c
-            call self%measure(m, .false., motion, contact)
-            arm_i = contact%arm_i(1:2)
-            arm_j = contact%arm_j(1:2)
-            d = arm_i - motion%rot(1:2, 1, i)*self%items%s_i(1, k) - motion%rot(1:2, 2, i)*self%items%s_i(2, k)
-            v = motion%v(1:2, j) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
-                - motion%v(1:2, i) - motion%omega(3, i)*[-arm_i(2), arm_i(1)]
-            speed = dot_product(s, v)
-            inside = [dot_product(s, d) - self%guide%ends(1, k), self%guide%ends(2, k) - dot_product(s, d)]
-            if (minval(inside) >= delta(self%before%contacts + m)) cycle
-            delta(self%before%contacts + m) = minval(inside)
-            rate(self%before%contacts + m) = merge(speed, -speed, inside(1) < inside(2))
-         end do
+      if (.not. self%traits%has_faces) return
+      do k = 1, self%n_contact
+         m = self%before%contacts + k
+         call self%measure(k, .false., motion, contact)
+         call slider_cut_at_ends(self, k, motion, contact, delta(m), rate(m))
       end do
    end subroutine slider_gaps
+
+   !> Of a corner beyond an end of a guide with faces how far it is beyond, negative, if that is less than its penetration.
+   pure subroutine slider_cut_at_ends(self, k, motion, contact, delta, rate)
+      class(slider_contacts_t), intent(in) :: self    !! the set
+      integer, intent(in) :: k                        !! contact
+      type(motion_t), intent(in) :: motion            !! positions and velocities
+      type(point_contact_t), intent(in) :: contact    !! its kinematics
+      real(wp), intent(inout) :: delta                !! penetration [m]
+      real(wp), intent(inout) :: rate                 !! its rate [m/s]
+
+      real(wp) :: d(2), inside(2), s(2), speed, v(2)
+      integer :: i, item, j
+
+      item = self%item_of(k)
+      if (self%guide%faces(item) == faces_corners .or. self%guide%ends(2, item) >= huge(1.0_wp)) return
+      i = self%items%body(1, item)
+      j = self%items%body(2, item)
+      s = motion%rot(1:2, 1, i)*self%guide%axis(1, item) + motion%rot(1:2, 2, i)*self%guide%axis(2, item)
+      associate (arm_i => contact%arm_i, arm_j => contact%arm_j)
+         d = arm_i(1:2) - motion%rot(1:2, 1, i)*self%items%s_i(1, item) - motion%rot(1:2, 2, i)*self%items%s_i(2, item)
+         v = motion%v(1:2, j) + motion%omega(3, j)*[-arm_j(2), arm_j(1)] &
+             - motion%v(1:2, i) - motion%omega(3, i)*[-arm_i(2), arm_i(1)]
+      end associate
+      speed = dot_product(s, v)
+      inside = [dot_product(s, d) - self%guide%ends(1, item), self%guide%ends(2, item) - dot_product(s, d)]
+      if (minval(inside) >= delta) return
+      delta = minval(inside)
+      rate = merge(speed, -speed, inside(1) < inside(2))
+   end subroutine slider_cut_at_ends
 
    !> The eccentricity, of the slider's centre from the guide's line, and the moment of the contact forces about that centre.
    subroutine slider_report_item(self, code, item, motion, contacts, f_n, f_t, value)

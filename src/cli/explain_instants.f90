@@ -67,7 +67,7 @@ contains
          call say("contacts are looked for at 8 places of a step, and at least once in an output interval", 2)
       else
          call say("contacts are looked for at the ends of steps only (contact_onset = "//onset//"): one that begins and ends "// &
-                  "within a step is passed over; a maximum_step makes steps shorter", 2)
+                  "within a step is passed over, and the run warns of it; a maximum_step makes steps shorter", 2)
       end if
    end subroutine explain_instants_of
 

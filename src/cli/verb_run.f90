@@ -8,6 +8,7 @@ module verb_run
    use errors, only: error_t, exit_file, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t
    use exponent_runs, only: find_horizon, plan_horizon
+   use horizon_memory, only: load_horizon
    use integrator, only: integrator_t
    use integrator_controls, only: read_controls
    use integrator_registry, only: find_integrator
@@ -36,6 +37,7 @@ module verb_run
    use setting_run, only: first_line, job_t
    use start_state, only: find_start, ideal_start_t
    use subsystems, only: new_subsystems, subsystem_t
+   use tape, only: tape_t
    use text, only: starts_with, to_text
    implicit none (type, external)
    private
@@ -81,6 +83,8 @@ contains
       type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
       type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
 
+      type(horizon_t) :: horizon
+
       call check_accuracy(options, loaded, error)
       if (.not. allocated(error)) call check_restart(options, loaded, error)
       if (.not. allocated(error) .and. options%write /= "nothing") then
@@ -97,16 +101,19 @@ contains
       case (analysis_static)
          call run_equilibrium(options, loaded, error)
       case default
-         call run_motion(options, loaded, huge(1.0_wp), error, member)
-         if (options%restart%is_verified .and. .not. allocated(error)) call verify_restart(options, loaded%plan%end, error)
+         call run_motion(options, loaded, huge(1.0_wp), horizon, error, member)
+         if (options%restart%is_verified .and. .not. allocated(error)) then
+            call verify_restart(options, loaded%plan%end, horizon, error)
+         end if
       end select
    end subroutine run_loaded
 
    !> Motion in time under forces.
-   subroutine run_motion(options, loaded, stop_at, error, member)
+   subroutine run_motion(options, loaded, stop_at, horizon, error, member)
       type(options_t), intent(in) :: options                       !! the command line
       type(loaded_t), intent(inout) :: loaded                      !! the deck
       real(wp), intent(in) :: stop_at                              !! time of the motion after which it is saved and ends [s]
+      type(horizon_t), intent(inout) :: horizon                    !! what is known of it; what is asked for and not known is found
       type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
       type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
 
@@ -128,10 +135,7 @@ contains
       call open_place(options, loaded, directory, goes_on, is_complete, error)
       if (allocated(error) .or. is_complete) return
       call make_plan(options, loaded, directory, assembly, plan)
-      plan%life%is_saved = options%write /= "nothing"
-      plan%life%is_concluded_later = .true.
-      plan%life%goes_on = goes_on
-      plan%life%stop_at = stop_at
+      call set_life(options, goes_on, stop_at, plan%life)
       if (options%digits%accuracy > 0.0_wp) then
          call choose_tolerance(options, loaded, plan, error)
          if (.not. allocated(error)) then
@@ -144,16 +148,17 @@ contains
       end if
       call new_method(loaded%scene, method)
       call limits_of(loaded%scene, loaded%system, loaded%catalogue, limits, plan%warnings)
-      if (options%digits%with_horizon) call look_ahead(options, loaded, plan%horizon)
-      keeper%plan = plan
       call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")
       call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
       call check_schedule(options, loaded, method, size(subsystems), error)
-      if (goes_on .and. .not. allocated(error)) call take_up(keeper%plan, saved, error)
+      if (goes_on .and. .not. allocated(error)) call take_up(plan, saved, horizon, error)
       if (allocated(error)) then
          call directory%close()
          return
       end if
+      if (options%digits%with_horizon .and. .not. allocated(horizon%t)) call look_ahead(options, loaded, horizon)
+      plan%horizon = horizon
+      keeper%plan = plan
       call listen(.true.)
       call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error, saved)
       call listen(.false.)
@@ -164,15 +169,34 @@ contains
       call end_as_asked(summary, error)
    end subroutine run_motion
 
-   !> What an earlier run has saved.
-   subroutine take_up(plan, saved, error)
+   !> When a run begins and ends, and that it is saved.
+   subroutine set_life(options, goes_on, stop_at, life)
+      type(options_t), intent(in) :: options        !! the command line
+      logical, intent(in) :: goes_on                !! an earlier run is gone on with
+      real(wp), intent(in) :: stop_at               !! time of the motion after which it is saved and ends [s]
+      type(lifetime_t), intent(inout) :: life       !! these are set
+
+      life%is_saved = options%write /= "nothing"
+      life%is_concluded_later = .true.
+      life%goes_on = goes_on
+      life%stop_at = stop_at
+   end subroutine set_life
+
+   !> What an earlier run has saved, and what it knew of its horizon.
+   subroutine take_up(plan, saved, horizon, error)
       type(output_plan_t), intent(inout) :: plan                   !! of the run; learns where it goes on
       type(saved_run_t), allocatable, intent(out) :: saved         !! what was saved
+      type(horizon_t), intent(out) :: horizon                      !! what was known of it; no instants: nothing
       type(error_t), allocatable, intent(out) :: error             !! it cannot be read, or is of another run
+
+      type(tape_t) :: tape
 
       allocate (saved)
       call read_checkpoint(plan, saved, error)
-      if (.not. allocated(error)) plan%life%resumed_from = saved%t
+      if (allocated(error)) return
+      plan%life%resumed_from = saved%t
+      tape = saved%output  ! which the recorder reads from its beginning
+      call load_horizon(tape, horizon)
    end subroutine take_up
 
    !> After the motion: that of the ideal twin for the figures, the figures, the summary.
@@ -210,10 +234,12 @@ contains
       call end_by(asked_by())
    end subroutine end_as_asked
 
-   !> The run once more, stopped and resumed several times: it must be the same.
-   subroutine verify_restart(options, end, error)
+   !> The run once more, stopped and resumed several times: it must be the same. Its horizon is that of the first one, as where the
+   !> search ends is a matter of the clock.
+   subroutine verify_restart(options, end, horizon, error)
       type(options_t), intent(in) :: options               !! the command line
       real(wp), intent(in) :: end                          !! of the motion [s]
+      type(horizon_t), intent(inout) :: horizon            !! of the run
       type(error_t), allocatable, intent(out) :: error     !! it is another one
 
       integer, parameter :: n_restart = 3
@@ -233,7 +259,7 @@ contains
          if (allocated(error)) return
          if (k == 1) directory = directory_of(options, loaded)
          other%directory = directory//".restart"
-         call run_motion(other, loaded, merge(end*k/(n_restart + 1), huge(1.0_wp), k <= n_restart), error)
+         call run_motion(other, loaded, merge(end*k/(n_restart + 1), huge(1.0_wp), k <= n_restart), horizon, error)
          deallocate (loaded)
          if (.not. allocated(error)) exit
          if (error%code /= exit_stopped .or. asked_by() /= 0) return

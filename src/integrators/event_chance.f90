@@ -5,7 +5,7 @@ module event_chance
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: is_long, is_worth_a_search, may_any_happen
+   public :: is_long, is_worth_a_search, may_any_happen, may_happen
 
 contains
 

@@ -30,7 +30,7 @@ module integrator
    integer, parameter :: steps_fixed = 1      !! fixed steps only
    integer, parameter :: steps_variable = 2   !! variable steps only
 
-   integer, parameter :: base_version = 1     !! of the form of what every integrator saves
+   integer, parameter :: base_version = 2     !! of the form of what every integrator saves
 
    !> Event functions along a step.
    type :: event_values_t
@@ -45,12 +45,25 @@ module integrator
       integer :: n_happened = 0                 !! how many
    end type event_values_t
 
+   !> Contacts that began and ended within a step and were passed over.
+   type :: passed_onsets_t
+      integer, allocatable :: n(:)              !! (n_event) how many
+      real(wp), allocatable :: first(:)         !! (n_event) when the first of them was deepest [s]
+      real(wp), allocatable :: deepest(:)       !! (n_event) greatest value that the event function had in one [any]
+      real(wp), allocatable :: at(:)            !! (n_event) when it had that [s]
+      real(wp), allocatable :: gap(:), rate(:)  !! (n_event) scratch: event functions and rates at a place of a step [any]
+      real(wp), allocatable :: rate_before(:)   !! (n_event) scratch: rates at the place before [any]
+      real(wp), allocatable :: top(:), top_at(:)  !! (n_event) scratch: greatest value since it is positive, and when [any, s]
+   end type passed_onsets_t
+
    !> Event functions of onsets that are not located.
    type :: onset_values_t
       real(wp), allocatable :: gap(:)           !! (n_event) event functions, none hidden [any]
+      real(wp), allocatable :: rate(:)          !! (n_event) their rates [any]
       real(wp), allocatable :: end_gap(:)       !! (n_event) at the end of the step in hand [any]
       real(wp), allocatable :: end_rate(:)      !! (n_event) their rates there [any]
       logical, allocatable :: is_waiting(:)     !! (n_event) began above zero, no event before below
+      type(passed_onsets_t) :: passed           !! contacts that were passed over
    end type onset_values_t
 
    !> What an integration took.
@@ -304,9 +317,14 @@ contains
       allocate (self%trial(n), self%scale(n), self%scratch(n), source=0.0_wp)
       associate (events => self%events, onset => self%onset)
          allocate (events%g0(m), events%rate0(m), events%g1(m), events%rate1(m), events%g(m), events%rate(m), source=0.0_wp)
-         allocate (events%noise(m), events%threshold(m), onset%gap(m), onset%end_gap(m), onset%end_rate(m), source=0.0_wp)
+         allocate (events%noise(m), events%threshold(m), source=0.0_wp)
+         allocate (onset%gap(m), onset%rate(m), onset%end_gap(m), onset%end_rate(m), source=0.0_wp)
          allocate (events%is_hidden(m), onset%is_waiting(m), source=.false.)
-         allocate (events%happened(m), source=0)
+         allocate (events%happened(m), onset%passed%n(m), source=0)
+      end associate
+      associate (passed => self%onset%passed)
+         allocate (passed%first(m), passed%deepest(m), passed%at(m), source=0.0_wp)
+         allocate (passed%gap(m), passed%rate(m), passed%rate_before(m), passed%top(m), passed%top_at(m), source=0.0_wp)
       end associate
    end subroutine make_room
 

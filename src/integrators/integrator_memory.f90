@@ -30,9 +30,9 @@ contains
       call self%load_base(row, place)
    end procedure integrator_load
 
-   !> Numbers that every integrator keeps: time, state, derivative, event functions and counters.
+   !> Numbers that every integrator keeps: time, state, derivative, event functions, contacts passed over and counters.
    module procedure base_memory_size
-      n = 5 + 2*size(self%step%y1) + 5*size(self%events%g1)
+      n = 5 + 2*size(self%step%y1) + 10*size(self%events%g1)
    end procedure base_memory_size
 
    !> Write what every integrator keeps.
@@ -49,7 +49,12 @@ contains
       call put(row, place, self%events%g1)
       call put(row, place, self%events%rate1)
       call put(row, place, self%onset%gap)
+      call put(row, place, self%onset%rate)
+      call put(row, place, self%onset%passed%first)
+      call put(row, place, self%onset%passed%deepest)
+      call put(row, place, self%onset%passed%at)
       do k = 1, size(self%events%g1)
+         call put(row, place, self%onset%passed%n(k))
          call put(row, place, self%events%is_hidden(k))
          call put(row, place, self%onset%is_waiting(k))
       end do
@@ -69,7 +74,12 @@ contains
       call get(row, place, self%events%g1)
       call get(row, place, self%events%rate1)
       call get(row, place, self%onset%gap)
+      call get(row, place, self%onset%rate)
+      call get(row, place, self%onset%passed%first)
+      call get(row, place, self%onset%passed%deepest)
+      call get(row, place, self%onset%passed%at)
       do k = 1, size(self%events%g1)
+         call get(row, place, self%onset%passed%n(k))
          call get(row, place, self%events%is_hidden(k))
          call get(row, place, self%onset%is_waiting(k))
       end do

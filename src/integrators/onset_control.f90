@@ -10,7 +10,8 @@
 !>
 !> and the impact speed is the rate of penetration where the contact begins. A contact that begins at a penetration
 !> gets the energy of its spring for nothing: the residual of the energy ledger shows it. Ends of contacts and all other
-!> events are located in every way. A contact that begins and ends within a step is not seen.
+!> events are located in every way. A contact that begins and ends within a step does not come about; that there was one is noted
+!> (`passed_onsets`).
 !>
 !> Signs: event functions of onsets are penetrations. Source: Flores et al. (2008), section 3.5, procedures 1 and 2, eqs.
 !> (3.18)-(3.24), corrected: the printed (3.20) has the wrong sign before the fraction, (3.22) and (3.23) the wrong one in the
@@ -20,6 +21,7 @@ module onset_control
    use integrator_controls, only: onset_interpolate
    use kinds, only: wp
    use ode_system, only: contact_onset, ode_system_t
+   use passed_onsets, only: note_passed
    implicit none (type, external)
    private
    public :: begin_control, end_controlled_step, is_too_deep, meet_onsets
@@ -34,6 +36,7 @@ contains
       class(integrator_t), intent(inout) :: method   !! the integrator
 
       method%onset%gap = method%events%g1
+      method%onset%rate = method%events%rate1
       method%onset%is_waiting = method%events%g1 > 0.0_wp .and. method%events%rate1 < 0.0_wp
       call hide(system, method)
    end subroutine begin_control
@@ -93,8 +96,10 @@ contains
                         .and. .not. method%onset%is_waiting(k)
       end do
       if (.not. any(has_begun)) then
+         call note_passed(system, method, 1.0_wp)
          if (status == advance_event) return  ! the integrator begins anew
          method%onset%gap = method%onset%end_gap
+         method%onset%rate = method%onset%end_rate
          method%onset%is_waiting = method%onset%is_waiting .and. method%onset%end_gap > 0.0_wp .and. method%onset%end_rate < 0.0_wp
          method%events%g1 = method%onset%end_gap
          method%events%rate1 = method%onset%end_rate
@@ -102,7 +107,11 @@ contains
          return
       end if
       status = advance_event
-      if (method%controls%onset == onset_interpolate) call go_back(system, method, has_begun, status)
+      if (method%controls%onset == onset_interpolate) then
+         call go_back(system, method, has_begun, status)
+      else
+         call note_passed(system, method, 1.0_wp)
+      end if
       do k = 1, system%n_event
          if (.not. has_begun(k)) cycle
          method%events%n_happened = method%events%n_happened + 1
@@ -123,6 +132,7 @@ contains
       where (has_begun) place = max(-method%onset%gap, 0.0_wp)/(method%onset%end_gap - min(method%onset%gap, 0.0_wp))
       first = minval(place)
       has_begun = place <= first + near
+      call note_passed(system, method, first)
       method%events%n_happened = 0  ! a located event at the end of the step comes again, after the onset
       associate (step => method%step)
          step%h = first*step%h

@@ -2,7 +2,9 @@
 submodule(run_recorder) run_recorder_memory
    use checkpoint_file, only: checkpoint_name, write_checkpoint
    use errors, only: exit_usage
+   use exponent, only: horizon_t
    use film_fields, only: load_fields, save_fields
+   use horizon_memory, only: load_horizon, save_horizon
    use posix, only: remove_file
    use processes, only: asked_by, clock_ms
    use saved_run, only: wish_checkpoint, wish_nothing, wish_stop
@@ -59,6 +61,7 @@ contains
       self%is_broken = self%is_broken .or. allocated(error)
       if (allocated(error)) return
       associate (tape => saved%output)
+         call save_horizon(self%plan%horizon, tape)  ! the first: it is wanted before the recorder begins
          call tape%put(self%last_time)
          call self%events%save(tape)
          call self%statistics%save(tape)
@@ -76,11 +79,13 @@ contains
 
    !> Take back what was remembered, and take over the files.
    module procedure go_on_with_run
+      type(horizon_t) :: before   ! in the plan by now
       integer :: ignored
 
       ignored = remove_file(self%plan%directory//"/summary.json")  ! whose presence means that the run has ended
       ignored = remove_file(self%plan%directory//"/summary.txt")
       associate (tape => saved%output)
+         call load_horizon(tape, before)
          call tape%get(self%last_time)
          call self%events%load(tape)
          call self%statistics%load(tape)

@@ -7,7 +7,7 @@ module plot_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use plot_text, only: quoted
-   use script_parts, only: colours, key_below, preamble, with_unit
+   use script_parts, only: colours, key_below, long_tics, preamble, with_unit
    use text, only: real_text, text_t, to_text
    use text_buffer, only: buffer_t
    use text_file, only: write_file
@@ -128,6 +128,9 @@ contains
          end do
          call lines%line("set xtics ("//tics//") noenhanced rotate by -20")
       end if
+      if (any_points(table%panels(1)) .and. size(table%categories) == 0 .and. .not. table%is_log_x) then
+         call add_line(lines, long_tics("x", x%factor*range_of(table, table%panels(1)%curves%x)))
+      end if
       if (n == 1) then
          call lines%line("set title "//quoted(title)//" font ',17'")
       else
@@ -141,6 +144,21 @@ contains
       call lines%line("unset output")
       script = lines%get()
    end function script_of
+
+   !> Whether a panel has points, whose axes scale themselves.
+   pure logical function any_points(panel)
+      type(panel_t), intent(in) :: panel  !! the panel
+
+      any_points = any(panel%curves%style == draw_points)
+   end function any_points
+
+   !> A line, unless it is blank.
+   subroutine add_line(lines, words)
+      type(buffer_t), intent(inout) :: lines      !! the script
+      character(*), intent(in) :: words           !! the line
+
+      if (len(words) > 0) call lines%line(words)
+   end subroutine add_line
 
    !> Whether a panel has a legend.
    pure logical function has_titles(panel)
@@ -167,6 +185,9 @@ contains
       y = choose_unit(panel%y_unit, largest(table, panel%curves%y))
       call lines%line("set ylabel "//quoted(with_unit(panel%y_name, y)))
       call lines%line(merge("set logscale y; set format y '%g'  ", "unset logscale y; set format y '%h'", panel%is_log_y))
+      if (any_points(panel) .and. .not. panel%is_log_y) then
+         call add_line(lines, long_tics("y", y%factor*range_of(table, panel%curves%y)))
+      end if
       if (any(panel%curves%style == draw_lines)) call lines%line("set autoscale xfix; unset offsets")
       if (any(panel%curves%style == draw_boxes)) then
          call lines%line("set style fill solid 0.5; set offsets 0, 0, graph 0.06, 0; set xrange [0:*]; set yrange [0:*]")
@@ -223,6 +244,24 @@ contains
 
       s = "($"//to_text(column)//"*"//real_text(unit%factor, 9)//")"
    end function scaled
+
+   !> Least and greatest value in some columns.
+   pure function range_of(table, columns) result(range)
+      type(plot_table_t), intent(in) :: table  !! the table
+      integer, intent(in) :: columns(:)        !! (any) columns
+      real(wp) :: range(2)                     !! (2) they; zeros: there is none [any]
+
+      integer :: i, k
+
+      range = [huge(1.0_wp), -huge(1.0_wp)]
+      do k = 1, size(table%values, 2)
+         do i = 1, size(columns)
+            if (.not. ieee_is_finite(table%values(columns(i), k))) cycle
+            range = [min(range(1), table%values(columns(i), k)), max(range(2), table%values(columns(i), k))]
+         end do
+      end do
+      if (range(1) > range(2)) range = 0.0_wp
+   end function range_of
 
    !> Greatest magnitude in some columns.
    pure real(wp) function largest(table, columns)

@@ -7,8 +7,8 @@ module script_parts
    use text_buffer, only: buffer_t
    implicit none (type, external)
    private
-   public :: angle_tics, axes_t, hangs_from_zero, largest, largest_y, open_range, preamble, scaled, source, stands_on_zero
-   public :: with_unit
+   public :: angle_tics, axes_t, hangs_from_zero, largest, largest_y, long_tics, open_range, scaled, source, stands_on_zero
+   public :: preamble, with_unit
    public :: colours, key_below
 
    character(*), parameter :: colours(12) = &
@@ -125,6 +125,32 @@ contains
       end do
       step = 0
    end function angle_tics
+
+   !> Few ticks, with all their digits, for an axis whose numbers differ late: gnuplot's own have six digits, so that they touch, or
+   !> read the same. Blank: gnuplot's own are as good.
+   function long_tics(axis, range) result(words)
+      character(1), intent(in) :: axis            !! x or y
+      real(wp), intent(in) :: range(2)            !! (2) least and greatest value [the unit shown]
+      character(:), allocatable :: words          !! commands
+
+      integer, parameter :: short = 6             ! characters of numbers that are short
+      real(wp), parameter :: most = 4.0_wp        ! ticks apart, over the range
+      real(wp), parameter :: constant = 1.0e-13_wp  ! span of what does not change, of its magnitude [1]
+      real(wp) :: step
+      integer :: before, behind, power
+
+      words = ""
+      if (.not. range(2) - range(1) > constant*largest(range)) return
+      power = floor(log10((range(2) - range(1))/most))
+      step = 10.0_wp**power
+      if (most*step < range(2) - range(1)) step = 2.0_wp*step
+      if (most*step < range(2) - range(1)) step = 2.5_wp*step
+      if (most*step < range(2) - range(1)) step = 2.0_wp*step
+      behind = max(0, -floor(log10(1.001_wp*step)))
+      before = max(1, floor(log10(largest(range))) + 1)
+      if (before + behind < short .or. before > 2*short) return
+      words = "set "//axis//"tics "//real_text(step, 3)//"; set format "//axis//" '%."//to_text(behind)//"f'"
+   end function long_tics
 
    !> File and columns of a curve, with the numbers scaled.
    function source(curve, axes) result(s)

@@ -27,8 +27,8 @@ contains
                     default="warn", choices=actions)
       call add_word(info, "strength", "a contact pressure beyond the strength that a row of [material] gives", default="warn", &
                     choices=actions)
-      call add_number(info, "energy", dim_none, "energy made of nothing, the residual of the ledger over the largest energy: " &
-                      //"beyond it the run ends; 0: no limit", default="0.5", lower=0.0_wp)
+      call add_number(info, "energy", dim_none, "energy made of nothing, the residual of the ledger or of a contact that begins " &
+                      //"overlapping, over the largest energy: beyond it the run ends; 0: no limit", default="0.5", lower=0.0_wp)
       call add_number(info, "speed", dim_speed, "greatest speed of a body: beyond it the run ends; 0: no limit", &
                       default="10 km/s", lower=0.0_wp)
       call add_number(info, "travel", dim_none, "way of a body from its start, in sizes of the whole scene, that is worth a " &

@@ -144,11 +144,11 @@ contains
       logical, intent(in) :: has_part(0:)           !! (0:bodies) whether a body has one
 
       type(part_t) :: part
-      real(wp) :: along(3, scene%bodies%n), half(2, scene%bodies%n)
+      real(wp) :: frames(3, 3, scene%bodies%n), half(3, scene%bodies%n)
       integer, allocatable :: first(:), next(:)
       integer :: body, k
 
-      call find_ways(scene, along, half)
+      call find_ways(scene, frames, half)
       allocate (first(0:scene%bodies%n), next(scene%points%n), source=0)
       do k = scene%points%n, 1, -1  ! lists of the points of each body, in the order of the deck
          next(k) = first(scene%points%body(k))
@@ -156,18 +156,19 @@ contains
       end do
       do body = 1, scene%bodies%n
          if (has_part(body)) cycle
-         call outline(drawing, body, distinct_points(drawing, first(body), next), along(:, body), half(:, body), part)
+         call outline(drawing, body, distinct_points(drawing, first(body), next), frames(:, :, body), half(:, body), part)
          call add_part(drawing, part)
       end do
    end subroutine add_outlines
 
-   !> Directions in which bodies slide, in their own frames, and half the sides of sliders of the plane; zero of those that do not.
-   subroutine find_ways(scene, along, half)
-      type(scene_t), intent(in) :: scene     !! the scene
-      real(wp), intent(out) :: along(:, :)   !! (3, bodies) directions [1]
-      real(wp), intent(out) :: half(:, :)    !! (2, bodies) half of length and height, as loose guides have them [m]
+   !> Axes of bodies that slide, in their own frames, the first in which they do, and half the sides of loose ones along them; zero
+   !> of those that do not.
+   subroutine find_ways(scene, frames, half)
+      type(scene_t), intent(in) :: scene         !! the scene
+      real(wp), intent(out) :: frames(:, :, :)   !! (3, 3, bodies) axes [1]
+      real(wp), intent(out) :: half(:, :)        !! (3, bodies) half the sides, as loose guides have them [m]
 
-      along = 0.0_wp
+      frames = 0.0_wp
       half = 0.0_wp
       call look(scene%joints)
       call look(scene%clearances)
@@ -188,16 +189,48 @@ contains
                tie = tie_of(scene, tables(k)%info, tables(k)%items(i))
                if (.not. norm2(axis) > 0.0_wp .or. tie%n < 2 .or. tie%by_joint .or. tie%body(2) == 0) cycle
                if (tables(k)%info%leaves /= leaves_way .and. find_place(tables(k)%items(i), "slider") == 0) cycle
-               along(:, tie%body(2)) = matmul(matmul(start_frame(scene, tie%body(1)), axis), start_frame(scene, tie%body(2)))
-               if (find_place(tables(k)%items(i), "slider_axis") == 0) cycle
-               along(:, tie%body(2)) = direction_in_plane(tables(k)%items(i)%word("slider_axis"), &
-                                                          tables(k)%items(i)%number("slider_angle"))
-               half(:, tie%body(2)) = 0.5_wp*[tables(k)%items(i)%number("length"), tables(k)%items(i)%number("height")]
+               associate (item => tables(k)%items(i), frame => frames(:, :, tie%body(2)), sides => half(:, tie%body(2)))
+                  call find_frame(scene, item, tie, axis, frame)
+                  if (find_place(item, "slider") == 0) cycle
+                  sides = 0.5_wp*[item%number("length"), item%number("height"), 0.0_wp]
+                  if (find_place(item, "width_axis") > 0) sides(2:3) = 0.5_wp*[item%number("width"), item%number("height")]
+               end associate
             end do
          end do
       end subroutine look
 
    end subroutine find_ways
+
+   !> The axes of what slides in body j, own frame: along the guide, across it in the direction of the width of a block, and across
+   !> both. In space they are those of the guide where the deck puts the bodies, but for an axis of its own.
+   subroutine find_frame(scene, item, tie, axis, frame)
+      type(scene_t), intent(in) :: scene      !! the scene
+      type(item_t), intent(in) :: item        !! the row
+      type(tie_t), intent(in) :: tie          !! what it ties
+      real(wp), intent(in) :: axis(3)         !! (3) of the guide, own frame of body i [1]
+      real(wp), intent(out) :: frame(3, 3)    !! (3, 3) axes as columns [1]
+
+      real(wp) :: to_j(3, 3), x(3), z(3)
+
+      to_j = matmul(transpose(start_frame(scene, tie%body(2))), start_frame(scene, tie%body(1)))
+      z = matmul(to_j, axis)
+      if (find_place(item, "slider_axis") > 0) z = direction_in_plane(item%word("slider_axis"), item%number("slider_angle"))
+      if (.not. scene%settings%is_spatial) then
+         frame = reshape([z, -z(2), z(1), 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+         return
+      end if
+      frame = axes_across(axis)
+      x = frame(:, 1)
+      if (find_place(item, "width_axis") > 0) then
+         if (norm2(item%direction("axis_j")) > 0.0_wp) z = item%direction("axis_j")/norm2(item%direction("axis_j"))
+         if (norm2(item%direction("width_axis")) > 0.0_wp) x = item%direction("width_axis")
+      end if
+      x = matmul(to_j, x)
+      x = x - dot_product(x, z)*z
+      if (.not. norm2(x) > same_place) x = matmul(to_j, frame(:, 2)) - dot_product(matmul(to_j, frame(:, 2)), z)*z
+      x = x/norm2(x)
+      frame = reshape([z, x, z(2)*x(3) - z(3)*x(2), z(3)*x(1) - z(1)*x(3), z(1)*x(2) - z(2)*x(1)], [3, 3])
+   end subroutine find_frame
 
    !> The direction that a row names in the own frame of body i: its columns `axis_i`, or `axis` and `axis_angle`; else zero.
    pure function axis_of(item) result(axis)

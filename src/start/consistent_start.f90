@@ -75,7 +75,7 @@ contains
       call linkage%coordinates%difference(linkage%bodies%n, q_given, q, correction)
       report%moved = maxval(abs(correction)*coordinate_scale(linkage))
       if (.not. worst_violation(linkage) <= closed) then
-         call position_error(linkage, error)
+         call position_error(linkage, q_given, v, error)
          return
       end if
       call check_branches(linkage, error)
@@ -330,26 +330,58 @@ contains
       report%shared = pack([(k, k=1, m)], is_shared)
    end subroutine choose_dependent
 
-   !> The mechanism does not close: say where and by how much.
-   subroutine position_error(linkage, error)
-      type(linkage_t), intent(in) :: linkage     !! the system, rows evaluated
+   !> The mechanism does not close: say where and by how much. A joint whose axes no small turn brings nearer where the deck puts
+   !> the bodies is to blame, whichever joint is torn where the search ended: from there on the corrections are as good as chance.
+   subroutine position_error(linkage, q, v, error)
+      type(linkage_t), intent(inout) :: linkage          !! the system, rows evaluated where the search ended
+      real(wp), intent(in) :: q(:)                       !! (n_q bodies) coordinates of the deck [any]
+      real(wp), intent(in) :: v(:)                       !! (n_v bodies) rates [m/s or rad/s]
       type(error_t), allocatable, intent(out) :: error   !! the message
 
-      real(wp), parameter :: dead = 1.0e-6_wp  ! greatest entry of a row that no small change helps [1]
-      character(:), allocatable :: hint
-      integer :: row
+      character(:), allocatable :: hint, place
+      real(wp) :: open
+      integer :: dead, row
 
       row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
-      hint = "the bodies were moved as little as possible from where the deck puts them, without success"//new_line("a")// &
-             "  = check the points of this joint, the lengths of the loop, and the start positions"
-      if (linkage%rows%is_angle(row) .and. maxval(abs(linkage%rows%jac(:, row))) < dead) then
+      open = abs(linkage%rows%phi(row))
+      place = "stays open"
+      call evaluate_rows(linkage, 0.0_wp, q, v)
+      dead = dead_row(linkage)
+      if (dead > 0) then
+         row = dead
+         open = abs(linkage%rows%phi(row))
+         place = "is open where the deck puts its bodies,"
          hint = "its axes stand at right angles where they should be parallel, or the other way round, and nothing tells "// &
                 "which way to turn"//new_line("a")//"  = give other axes, or turn one of its bodies in the deck"
+      else
+         hint = "the bodies were moved as little as possible from where the deck puts them, without success"//new_line("a")// &
+                "  = check the points of this joint, the lengths of the loop, and the start positions"
       end if
       call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
-                     "' stays open by "//real_text(abs(linkage%rows%phi(row)), 4)// &
+                     "' "//place//" by "//real_text(open, 4)// &
                      trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
    end subroutine position_error
+
+   !> The row between axes, far from zero, that small turns help least; 0: they help all. Of axes with an angle theta between them
+   !> it is cos(theta), which changes by sin(theta) with it.
+   pure integer function dead_row(linkage) result(row)
+      type(linkage_t), intent(in) :: linkage     !! the system, rows evaluated
+
+      real(wp), parameter :: far = 0.5_wp        ! least violation of such a row [1]
+      real(wp), parameter :: dead = 0.05_wp      ! greatest entry, of the violation, of a row that small turns hardly help [1]
+      real(wp) :: help, least
+      integer :: k
+
+      row = 0
+      least = dead
+      do k = 1, linkage%rows%n
+         if (.not. (linkage%rows%is_angle(k) .and. abs(linkage%rows%phi(k)) > far)) cycle
+         help = maxval(abs(linkage%rows%jac(:, k)))/abs(linkage%rows%phi(k))
+         if (help >= least) cycle
+         row = k
+         least = help
+      end do
+   end function dead_row
 
    !> A driver that has no value or no rate at the start.
    subroutine check_finite(linkage, values, error)

@@ -75,3 +75,44 @@ def test_spring_through_its_own_end(gudgeon_debug):
                    "[force.spring]\nname i j stiffness[N/m] damping[N.s/m] free_length[m]\ncoil wall near 100 5 0.2\n")
     assert np.all(np.isfinite(found.read("forces/force")))
     assert found.summary["energy_residual_max"] < 1e-5 * found.summary["energy_max"]
+
+
+SHAFTS = """deck = 1
+[scene]
+space = spatial
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2] x[m]
+one  1        0.1         0.2         0.15        0.5
+two  1        0.1         0.2         0.15        1.5
+[points]
+name  body    xi[m]
+wall  ground  0
+near  one     -0.5
+far   one     0.5
+here  two     -0.5
+there two     0.5
+end   ground  {end}
+[joint.revolute]
+name i j axis_i
+bearing wall near "1 0 0"
+[joint.universal]
+name i j axis_i axis_j
+hook far here "{arm_i}" "{arm_j}"
+{outlet}
+[analysis.dynamic]
+end = 0.2 s
+"""
+
+
+@pytest.mark.parametrize("arm_i, arm_j, end, outlet", [
+    ("0 0 1", "0.01 0 1", 2, '[joint.cylindrical]\nname i j axis_i\noutlet end there "1 0 0"'),
+    ("1 0 0", "1 1e-4 0", 2, '[joint.cylindrical]\nname i j axis_i\noutlet end there "1 0 0"'),
+    ("0 0 1", "0 0 1", 2, "[joint.distance]\nname i j length[m]\noutlet end there 2.1"),
+    ("0 0 1", "0 0 1", 1.9, "[joint.spherical]\nname i j\noutlet end there"),
+])
+def test_parallel_arms_are_told_of_the_joint_that_has_them(gudgeon, arm_i, arm_j, end, outlet):
+    """The search for a position tears the bearing, or the outlet, far off; to blame is the universal joint between them."""
+    deck = written(scratch(), SHAFTS.format(arm_i=arm_i, arm_j=arm_j, end=end, outlet=outlet))
+    said = call(gudgeon, "check", deck, expect=4).stderr
+    assert "joint 'hook' is open where the deck puts its bodies, by 1 rad" in said
+    assert "at right angles where they should be parallel, or the other way round" in said

@@ -252,3 +252,39 @@ def test_loose_slider_has_its_size(gudgeon, tmp_path):
     head, cells = row[1].split(), row[2].split()
     size = [float(cells[head.index(name)]) * 1e-3 for name in ("length[mm]", "height[mm]")]
     assert any(np.allclose(side, size, rtol=0.02) for side in sides), (sides, size)
+
+
+def test_loose_block_of_space_has_its_size(gudgeon, tmp_path):
+    """In space too: length along the guide, width along `width_axis`, height across both, in the side view and from above."""
+    text = (ROOT / "inputs" / "crosshead.deck").read_text().replace("20          20           40 ", "24          16           40 ")
+    text = changed(text, "analysis.dynamic", end="2 ms")
+    found = strokes(run(gudgeon, tmp_path, text, "mechanism(t=0ms)") / "mechanism.t.0ms.dat")
+    sides = [tuple(np.round(np.ptp(line, axis=0), 6)) for line in found[0]["body"]]
+    for want in ((0.040, 0.024), (0.040, 0.016), (0.024, 0.016)):  # the three pairs of sides, each seen square in one of the views
+        assert any(np.allclose(sorted(side), sorted(want), atol=2e-4) for side in sides), (want, sides)
+
+
+def test_ticks_of_a_section_are_apart(gudgeon, tmp_path):
+    """A quick return with a loose bearing repeats itself to micrometres: few ticks, that differ, and none that touches the next."""
+    text = (ROOT / "inputs" / "quick_return.deck").read_text().replace("stand   foot    heel\n", "")
+    text = text.replace("[joint.distance]", "[material]\nname young[GPa] poisson\nsteel 207 0.3\n[clearance.revolute]\nname bearing journal "
+                        "bearing_radius[mm] clearance[mm] material law\nstand foot heel 20 0.1 steel ln\n[contact.lankarani_nikravesh]\n"
+                        "name restitution\nln 0.9\n[statistics]\nperiod = 1 turn of motor\nafter = 3 turns of motor\n[joint.distance]")
+    text = changed(changed(text, "analysis.dynamic", end="6 turns of motor", tolerance="1e-6"), "output", report="off")
+    figures = "section(arm.angle,arm.angular_velocity) section(ram.position.x,ram.velocity.x) section(arm.position.x,arm.position.y)"
+    folder = run(gudgeon, tmp_path, text, figures)
+    scripts = sorted(folder.glob("section.*.gp"))
+    assert len(scripts) == 3
+    for script in scripts:
+        words = script.read_text(encoding="utf-8")
+        for axis, column, room in (("x", 1, 1000), ("y", 2, 10000)):
+            values = np.loadtxt(script.with_suffix(".dat"))[:, column]
+            factor = float(re.search(r"using \(\$2\*([0-9.eE+-]+)\):\(\$3\*([0-9.eE+-]+)\)", words).group(column))
+            low, high = factor * values.min(), factor * values.max()
+            found = re.search(rf"set {axis}tics ([0-9.eE+-]+); set format {axis} '(%.[0-9]+f)'", words)
+            assert found, (script.name, axis)
+            step = float(found.group(1))
+            ticks = step * np.arange(np.floor(low / step) - 1, np.ceil(high / step) + 2)
+            labels = [found.group(2) % tick for tick in ticks]
+            assert len(set(labels)) == len(labels) <= 9 and (high - low) / step <= 4.0 + 1e-9
+            assert sum(10 * len(label) + 15 for label in labels) <= room, labels

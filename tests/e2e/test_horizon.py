@@ -443,3 +443,24 @@ def test_the_horizon_keeps_its_budget(gudgeon, key):
     assert "(--budget)" in (summary["directory"] / "summary.txt").read_text()
     short = run_with_horizon(gudgeon, text, "--write", "numbers", "--budget", "1 ms")
     assert "time was up" in short["exponent_reason"]
+
+
+def test_a_run_that_goes_on_has_the_horizon_of_its_beginning(gudgeon):
+    """Where the search ends is a matter of the clock: restarts take what the first run found, and a resumed run too."""
+    text = changed(changed(plain_deck([]), "analysis.dynamic", end="60 ms"), "output", every="1 ms", figures=None)
+    text += "\n[precision]\nexponent_instants = 4000\n"
+    directory = scratch()
+    deck = written(directory, text)
+    options = ("--horizon", "--budget", "300 ms", "--write", "numbers")
+    done = call(gudgeon, "run", deck, "--out", directory / "out", "--verify-restart", *options)
+    assert "equal bit for bit after 3 restarts" in done.stdout
+    summary = json.loads((directory / "out/summary.json").read_text())
+    assert summary["exponent_cut"] is True or "its time was up" in summary["exponent_reason"]
+    # the search of a run that goes on would have eight times the time
+    long = written(directory, changed(text, "analysis.dynamic", end="100 s", checkpoint="1 ms"), "long.deck")
+    seen = []
+    for more in (("--budget", "300 ms"), ("--budget", "2400 ms", "--resume")):
+        call(gudgeon, "run", long, "--out", directory / "parts", "--horizon", "--walltime", "3 s", "--quiet", "--write", "numbers", *more, expect=7)
+        with h5py.File(directory / "parts/run.h5") as file:
+            seen.append((file["horizon/time"][-1], file["horizon/growth"][:].tobytes(), file["horizon"].attrs["exponent_reason"]))
+    assert seen[0] == seen[1]

@@ -171,7 +171,7 @@ def test_shafts_and_racks(gudgeon):
     fall = -9.81 * 3 / (3 + 0.002 / 0.08**2)
     assert np.abs(column(run, "bodies", "position", "PART_5") - np.stack([1.9 + fall * t**2 / 2, 0 * t - 0.08, 0 * t], 1)).max() < 1e-8
     assert np.abs(column(run, "bodies", "spin", "PART_4")[:, 2] - fall * t / 0.08).max() < 1e-7
-    assert "line 35: JOINT/7: which marker is the pinion's" in said and "(1 item)" in said
+    assert "line 35, column 1: JOINT/7: which marker is the pinion's" in said and "(1 item)" in said
 
 
 def test_twist_of_a_constant_velocity_joint_is_told(gudgeon):
@@ -396,7 +396,7 @@ def test_what_is_left_out_is_named_with_its_line(gudgeon):
     text = (MODELS / "drives.adm").read_text().splitlines()
     for statement in ("JOINT/11", "FRICTION/1", "CONTACT/1", "ARRAY/1", "SFORCE/7", "SFORCE/8", "MOTION/9", "INTEGRATOR"):
         line = next(k for k, words in enumerate(text, 1) if words.startswith(statement))
-        assert f"line {line}: {statement}" in said, statement
+        assert f"line {line}, column {len(text[line - 1]) - len(text[line - 1].lstrip()) + 1}: {statement}" in said, statement
     for reason in ("IMPACT with a damping that is there at once", "VM has no words in a deck", "follows from its x, along z of the rack; here neither is so", "its law is none of a deck's"):
         assert reason in said, reason
 
@@ -499,6 +499,31 @@ def test_degrees_that_look_like_exponents_are_told(gudgeon):
     text = "d\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1D-3, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
     (folder / "d.adm").write_text(text + "SFORCE/1, I = 2, J = 1, ACTIONONLY, TRANSLATION, FUNCTION = 1d-3*TIME + 1D3 + 1E-3 + 30D\n")
     said = call(gudgeon, "import", "d.adm", cwd=folder).stdout
-    assert "line 7: '1d-3' is 1 degrees less 3; an exponent is written with E" in said
+    assert "line 7, column 50: '1d-3' is 1 degrees less 3; an exponent is written with E" in said
     assert said.count("an exponent is written with E") == 1
     assert "1e-3" in (folder / "d.deck").read_text().lower()
+
+
+@pytest.mark.parametrize("line, column, words", [
+    ("MARKER/3, PART = 2, QP = 1, 2", 21, "QP has 2 numbers where three are needed"),
+    ("MARKER/3, PART = 2\n, QP = 1", 3, "QP has 1 number where three are needed"),
+    ("MARKER/3, PART = 2, QP", 21, "QP has 0 numbers where three are needed"),
+    ("MARKER/3, PART = 2, REULER = 90D, 0, 0, 0", 21, "REULER has 4 numbers where three are needed"),
+    ("MARKER/3, PART = 2, ZP = 0, 1", 21, "ZP has 2 numbers where three are needed"),
+    ("MARKER/3, PART = 2, &\n  XP = 0, 1", 3, "XP has 2 numbers where three are needed"),
+    ("MARKER/3, PART = 2; PART/3, MASS = 1, QG = 0, 1", 39, "QG has 2 numbers where three are needed"),
+    ("PART/3, MASS = 1,\tZG = 1", 19, "ZG has 1 number where three are needed"),
+    ("PART/3, MASS = 1, XG = 1, 0", 19, "XG has 2 numbers where three are needed"),
+    ("PART/3, MASS = 1, CM = 2, IP = 1, 1", 27, "IP has three numbers, or six"),
+    ("MARKER/3, PART = 2, 1", 11, "PART has 2 numbers where one is needed"),
+    ("  MARKER/3, PART = 7", 3, "MARKER/3 is on PART/7, which is not there"),
+])
+def test_numbers_that_are_not_as_many_as_needed(gudgeon, line, column, words):
+    """A vector with two numbers is no vector with a zero: a mistake, and the caret stands under the argument."""
+    folder = scratch()
+    text = "d\nUNITS/SYSTEM = MKS\nPART/1, GROUND\nMARKER/1, PART = 1\nPART/2, MASS = 1, CM = 2, IP = 1, 1, 1\nMARKER/2, PART = 2\n"
+    (folder / "d.adm").write_text(text + line + "\n")
+    done = call(gudgeon, "import", "d.adm", cwd=folder, expect=3)
+    assert words in done.stderr
+    assert f"d.adm:{text.count(chr(10)) + len(line.splitlines())}:{column}" in done.stderr
+    assert not (folder / "d.deck").exists()
