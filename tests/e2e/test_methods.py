@@ -51,6 +51,18 @@ def test_loose_tolerances(gudgeon, method, tolerance):
     assert len(run.contacts["time"]) <= 14
 
 
+@pytest.mark.parametrize("method", ["adams", "bdf"])
+@pytest.mark.parametrize("tolerance", ["1e-3", "1e-4"])
+def test_free_surfaces_do_not_overlap(gudgeon, method, tolerance):
+    """A contact that parts slowly does not go on, free, inside the other surface: a step that says so is repeated, shorter."""
+    changes = (("output", "every", "2 us"), ("output", "channels", "gudgeon.*"))
+    run = finished(gudgeon, "--method", method, "--tolerance", tolerance, changes=changes)
+    free = run.rows("clearances/contacts/state")[:, 0] == 0
+    assert free.sum() > 1000
+    assert run.rows("clearances/contacts/penetration")[free, 0].max() < 1e-9
+    assert run.summary["energy_residual_max"] < 0.01 * run.summary["energy_max"]
+
+
 def test_ida_begins_after_every_event(gudgeon):
     """The state of an event is on the constraints to much less than the error allowed, so that a short step from it passes."""
     run = finished(gudgeon, "--method", "ida", "--tolerance", "1e-10", changes=(("analysis.dynamic", "end", "12 ms"),))
