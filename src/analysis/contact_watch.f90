@@ -9,7 +9,7 @@ module contact_watch
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
-   use force_jumps, only: law_jumps, time_to_see
+   use force_jumps, only: find_derivative_behind, law_jumps, time_to_see
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use integrator, only: integrator_t
    use integrator_controls, only: onset_located
@@ -243,20 +243,18 @@ contains
       end do
    end subroutine foresee
 
-   !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after.
+   !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after, and
+   !> so is the derivative that the next step begins with: at the onset itself the surfaces just meet, and round-off decides whether
+   !> there is a force. It is extrapolated back from two such moments.
    subroutine after_restart(self, system, method)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(mechanism_t), intent(inout) :: system    !! the system, at the present state
-      class(integrator_t), intent(in) :: method         !! the integrator, begun again
+      class(integrator_t), intent(inout) :: method      !! the integrator, begun again; its derivative may change
 
       integer :: i, k, number, status
 
       status = 1
-      if (self%shift > 0.0_wp) then
-         self%y = method%step%y1 + self%shift*method%step%f1
-         call system%evaluate(method%t + self%shift, self%y, self%ydot, status)
-         if (status == 0) call system%linkage%set_state(method%t + self%shift, self%y, self%ydot)
-      end if
+      if (self%shift > 0.0_wp) call find_derivative_behind(system, method, self%shift, self%y, self%ydot, status)
       if (status /= 0) then
          self%shift = 0.0_wp
          call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
