@@ -55,10 +55,11 @@ contains
    end subroutine look
 
    !> Maximum of the penetration within the last step, on its interpolant. What is still missing to the maximum of the parabola
-   !> through the place is added.
+   !> through the place is added. Where it is far above the ends the step is long for the contact, as steps of stiff methods are at
+   !> rest, and the interpolant may be poor: then the penetration is that of a state that the method itself reaches there.
    subroutine find_penetration_peak(system, method, slot, item, left, right, y, greatest, t)
       type(mechanism_t), intent(inout) :: system    !! the system
-      class(integrator_t), intent(in) :: method         !! the integrator, after a step
+      class(integrator_t), intent(inout) :: method      !! the integrator, after a step
       integer, intent(in) :: slot                       !! set of the contact
       integer, intent(in) :: item                       !! contact of the set
       type(trend_t), intent(in) :: left                 !! penetration at the start of the step
@@ -70,7 +71,7 @@ contains
       type(bracket_t) :: bracket
       type(trend_t) :: force, here
       real(wp) :: place
-      integer :: k
+      integer :: k, status
 
       greatest = 0.0_wp
       t = method%step%t0
@@ -87,6 +88,13 @@ contains
          if (missing(here, bracket) <= near_depth*abs(here%value)) exit
          call narrow(place, here, bracket)
       end do
+      if (greatest <= (1.0_wp + close_by)*max(left%value, right%value)) return
+      call method%refine(system, (t - method%step%t0)/method%step%h, y, status)
+      greatest = max(left%value, right%value)
+      if (status /= 0) return
+      call system%linkage%set_motion(t, y)
+      call look(system, slot, item, force, here)
+      greatest = max(greatest, here%value)
    end subroutine find_penetration_peak
 
    !> Whether a force has a maximum within a step that may be greater than a value. Where a contact ends its force may have no rate.

@@ -5,12 +5,12 @@
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
    use clearance_set, only: loss_contact, loss_friction
+   use contact_impulse, only: find_impulse
    use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, peak_t, trend_t
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
    use cut_off, only: follow_cut_off, lost_by_damping
    use floors, only: at_rest
-   use force_jumps, only: law_jumps, time_to_see
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use force_jumps, only: find_derivative_behind, law_jumps, time_to_see
    use integrator, only: integrator_t
    use integrator_controls, only: onset_located
    use kinds, only: not_a_number, pi, wp
@@ -100,9 +100,9 @@ contains
 
       type(trend_t) :: force, penetration
       type(peak_t) :: peak
-      real(wp) :: deepest, deepest_at
+      real(wp) :: deepest, deepest_at, impulse
       integer :: i, k, number
-      logical :: has_force_peak, has_peak
+      logical :: has_force_peak, has_moved, has_peak
 
       self%n_peak = 0
       do k = 1, size(system%loose%sets)
@@ -124,10 +124,13 @@ contains
             if (has_force_peak) then
                call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
             end if
-            if (has_peak .or. has_force_peak) call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
+            call find_impulse(system, method, k, i, self%force(number), force, self%y, has_moved, impulse)
+            call system%loose%sets(k)%set%add_impulse(i, impulse)
+            if (has_moved .or. has_peak .or. has_force_peak) then
+               call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
+            end if
             if (penetration%value > deepest) deepest_at = method%t
             call system%loose%sets(k)%set%note_depth(i, max(deepest, penetration%value), deepest_at)
-            call system%loose%sets(k)%set%add_impulse(i, integral_of(self%force(number), force, method%step%h))
             call keep_force(self, system, method, k, i, peak, force%value)
             if (system%ledger%is_kept) then
                call follow_cut_off(system%loose%sets(k)%set, i, penetration%value, force%value, &
@@ -176,16 +179,6 @@ contains
       end subroutine tell
 
    end subroutine keep_force
-
-   !> Integral of a force over a step, from the cubic through values and rates at its ends; without rates, from the values.
-   pure real(wp) function integral_of(a, b, h) result(impulse)
-      type(trend_t), intent(in) :: a  !! force where the step begins
-      type(trend_t), intent(in) :: b  !! force where it ends
-      real(wp), intent(in) :: h       !! length of the step [s]
-
-      impulse = 0.5_wp*h*(a%value + b%value)
-      if (ieee_is_finite(a%rate) .and. ieee_is_finite(b%rate)) impulse = impulse + h**2/12.0_wp*(a%rate - b%rate)
-   end function integral_of
 
    !> Peaks up to a time are told.
    subroutine watch_drop_peaks(self, t)
@@ -244,20 +237,18 @@ contains
       end do
    end subroutine foresee
 
-   !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after.
+   !> After a start or events: forces begin anew, and count at once. A force that jumps at an onset is that of the moment after, and
+   !> so is the derivative that the next step begins with: at the onset itself the surfaces just meet, and round-off decides whether
+   !> there is a force. It is extrapolated back from two such moments.
    subroutine after_restart(self, system, method)
       class(contact_watch_t), intent(inout) :: self     !! the watch
       type(mechanism_t), intent(inout) :: system    !! the system, at the present state
-      class(integrator_t), intent(in) :: method         !! the integrator, begun again
+      class(integrator_t), intent(inout) :: method      !! the integrator, begun again; its derivative may change
 
       integer :: i, k, number, status
 
       status = 1
-      if (self%shift > 0.0_wp) then
-         self%y = method%step%y1 + self%shift*method%step%f1
-         call system%evaluate(method%t + self%shift, self%y, self%ydot, status)
-         if (status == 0) call system%linkage%set_state(method%t + self%shift, self%y, self%ydot)
-      end if
+      if (self%shift > 0.0_wp) call find_derivative_behind(system, method, self%shift, self%y, self%ydot, status)
       if (status /= 0) then
          self%shift = 0.0_wp
          call system%linkage%set_state(method%t, method%step%y1, method%step%f1)

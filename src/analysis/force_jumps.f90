@@ -6,7 +6,7 @@ module force_jumps
    use mechanism, only: mechanism_t
    implicit none (type, external)
    private
-   public :: law_jumps, time_to_see
+   public :: find_derivative_behind, law_jumps, time_to_see
 
 contains
 
@@ -42,5 +42,28 @@ contains
       time = (abs(delta) + spacings*eps*max(system%linkage%scales%length, &
                                             maxval(abs(method%step%y1(:system%n_position)), dim=1)))/rate
    end function time_to_see
+
+   !> The derivative behind an onset at which a force jumps, f = 2 f(t + s) - f(t + 2 s), with s the time after which it is seen.
+   !> The motion is left at t + s.
+   subroutine find_derivative_behind(system, method, shift, y, ydot, status)
+      type(mechanism_t), intent(inout) :: system         !! the system
+      class(integrator_t), intent(inout) :: method       !! the integrator, begun again; its derivative is set
+      real(wp), intent(in) :: shift                      !! s [s]
+      real(wp), intent(inout), contiguous :: y(:)        !! (n) scratch state [any]
+      real(wp), intent(inout), contiguous :: ydot(:)     !! (n) scratch derivative [any]
+      integer, intent(out) :: status                     !! 0, or the equations cannot be solved there
+
+      method%count%n_evaluations = method%count%n_evaluations + 2
+      y = method%step%y1 + shift*method%step%f1
+      call system%evaluate(method%t + shift, y, ydot, status)
+      if (status /= 0) return
+      y = method%step%y1 + 2.0_wp*shift*method%step%f1
+      method%step%f1 = ydot
+      call system%evaluate(method%t + 2.0_wp*shift, y, ydot, status)
+      if (status /= 0) return
+      method%step%f1 = 2.0_wp*method%step%f1 - ydot
+      y = method%step%y1 + shift*method%step%f1
+      call system%linkage%set_state(method%t + shift, y, method%step%f1)
+   end subroutine find_derivative_behind
 
 end module force_jumps

@@ -233,6 +233,7 @@ contains
             call describe_failure(system, method, constraints_lost, error)
             return
          end if
+         part%watch%shift = 0.0_wp  ! no contact began here
          call part%watch%after_restart(system, method)
          call note_jumps(system, method)
       end associate

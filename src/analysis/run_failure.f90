@@ -189,8 +189,10 @@ contains
          words = "allow more, or a larger tolerance"
       case (advance_no_memory)
          words = "try method = verner or adams, which have no matrices"
-      case (constraints_lost, events_without_end)
+      case (constraints_lost)
          words = "try a smaller tolerance"
+      case (events_without_end)
+         words = "try a smaller tolerance; where friction sticks and slips, method = radau, or a law that does not stick"
       case (guard_reached)
          words = "look for loads, drivers or clearances that no mechanism has, or set the guard otherwise in section [guards]"
       case (film_ended)

@@ -10,10 +10,15 @@
 !> round-off. So an event function is zero to round-off at its event, and the time of the event is as
 !> accurate as the polynomial. The step ends there; the library begins anew with order 1.
 !>
+!> A step that contradicts itself is not taken: if an event function becomes positive in it while its own rate says that it falls,
+!> the error of the step is more than what the event function has to go. So it is after the end of a contact that parts slowly,
+!> where the tolerance allows the first steps, of order 1, an error beyond the depth of the next contact. The step is repeated, a
+!> tenth as long, until it is too short to tell.
+!>
 !> Checkpoints: the history is not saved. A run that is loaded begins anew at order 1 at the saved
 !> state, so it agrees with the uninterrupted one to the tolerance, not to the last bit.
 module multistep
-   use event_location, only: dismiss_event, find_first_event, note_events
+   use event_location, only: find_first_event
    use integrator, only: advance_event, advance_failed_evaluation, advance_no_memory, advance_step, advance_too_many_evaluations, &
       advance_too_many_steps, advance_too_small, integrator_t, steps_variable
    use interpolation, only: interpolate
@@ -24,12 +29,13 @@ module multistep
    private
    public :: multistep_t
 
-   integer, parameter :: n_halving = 60           !! halvings of the bracket of an event
    real(wp), parameter :: tiny_step = 200.0_wp    !! of the spacing of time: too short a stretch for a library to begin on [1]
+   real(wp), parameter :: shorter = 0.1_wp        !! length of a step that is repeated, of the one before [1]
 
    !> The last step that a library made.
    type :: library_step_t
       logical :: has_polynomial = .false.   !! whether it is the last step of all, so that its polynomial is one of that
+      logical :: is_doubtful = .false.      !! an event function becomes positive in it and falls there, by its rate
       real(wp) :: h_whole = 0.0_wp          !! its length, before an event cut it short [s]
       real(wp), allocatable :: gap_0(:)     !! (n) state given out less polynomial, at its start [any]
       real(wp), allocatable :: gap_1(:)     !! (n) the same at its end [any]
@@ -53,6 +59,8 @@ module multistep
       procedure :: prepare_output => multistep_prepare_output
       procedure :: within => multistep_within
       procedure :: load => multistep_load
+      procedure :: evaluate_end
+      procedure :: held_state
       procedure, nopass :: begins_anew => multistep_begins_anew
    end type multistep_t
 
@@ -63,6 +71,20 @@ module multistep
          implicit none (type, external)
          class(multistep_t), intent(inout) :: self  !! the integrator
       end subroutine make_library_interface
+   end interface
+
+   interface
+      !> Shorten the step so that it ends at an event; one that is none after all is dismissed for the first of the others, or makes
+      !> the step doubtful.
+      module subroutine go_to_event(self, system, low, high, event, status)
+         implicit none (type, external)
+         class(multistep_t), intent(inout) :: self     !! the integrator
+         class(ode_system_t), intent(inout) :: system  !! the system
+         real(wp), intent(inout) :: low                !! place before the event [1]
+         real(wp), intent(inout) :: high               !! place after it [1]
+         integer, intent(inout) :: event               !! the event function, then the one that was met
+         integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
+      end subroutine go_to_event
    end interface
 
 contains
@@ -110,7 +132,7 @@ contains
 
       self%is_fresh = .true.
       self%first_step = step_hint*sqrt(self%controls%tolerance)
-      call evaluate_end(self, system, status)
+      call self%evaluate_end(system, status)
       status = merge(advance_step, advance_failed_evaluation, status == 0)
    end subroutine multistep_restart
 
@@ -132,9 +154,25 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
+      do
+         call try_step(self, system, t_stop, status)
+         if (.not. (self%last%is_doubtful .and. status == advance_step)) return
+         call repeat_shorter(self, system, status)
+         if (status /= advance_step) return
+      end do
+   end subroutine multistep_advance
+
+   !> A step, to an event if there is one on the way.
+   subroutine try_step(self, system, t_stop, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
       real(wp) :: t
 
       call self%begin_step()
+      self%last%is_doubtful = .false.
       status = advance_step
       associate (controls => self%controls)
          if (controls%maximum_steps > 0 .and. self%count%n_steps >= controls%maximum_steps) status = advance_too_many_steps
@@ -160,7 +198,23 @@ contains
          end if
       end if
       call accept(self, system, t, status)
-   end subroutine multistep_advance
+   end subroutine try_step
+
+   !> Give up the last step: the library begins anew where it began, with a shorter one.
+   subroutine repeat_shorter(self, system, status)
+      class(multistep_t), intent(inout) :: self     !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      integer, intent(out) :: status                !! advance_step, or a failure
+
+      self%count%n_steps = self%count%n_steps - 1
+      self%count%n_rejected = self%count%n_rejected + 1
+      self%t = self%step%t0
+      self%step%y1 = self%step%y0
+      self%first_step = shorter*self%last%h_whole
+      self%is_fresh = .true.
+      call self%evaluate_end(system, status)
+      status = merge(advance_step, advance_failed_evaluation, status == 0)
+   end subroutine repeat_shorter
 
    !> One step of the library; the system and the integrator are its problem while it lasts.
    subroutine step_by_library(self, system, t_stop, t, status)
@@ -215,7 +269,7 @@ contains
          self%last%gap_1 = self%step%y1 - self%last%gap_1
       end if
       self%count%n_steps = self%count%n_steps + 1
-      call evaluate_end(self, system, status)
+      call self%evaluate_end(system, status)
       if (status /= 0) then
          ! the last good state stands
          self%t = self%step%t0
@@ -228,91 +282,6 @@ contains
       call find_first_event(system, self, event, low, high)
       if (event > 0) call go_to_event(self, system, low, high, event, status)
    end subroutine accept
-
-   !> Shorten the step so that it ends at an event: halve between "none positive" and "one positive". A function that falls
-   !> there is at no event: the first step after one has an error that may be more than the way from it, and the function is
-   !> above zero where it should be below. It is dismissed for the first of the others.
-   subroutine go_to_event(self, system, low, high, event, status)
-      class(multistep_t), intent(inout) :: self     !! the integrator
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(inout) :: low                !! place before the event [1]
-      real(wp), intent(inout) :: high               !! place after it [1]
-      integer, intent(inout) :: event               !! the event function, then the one that was met
-      integer, intent(out) :: status                !! advance_event, advance_step if there is none after all, or a failure
-
-      logical :: is_found
-
-      do while (event > 0)
-         call halve(self, system, low, high, event, is_found, status)
-         if (status /= 0 .or. is_found) exit
-         call dismiss_event(system, self, event, low, high)
-      end do
-      if (status == 0 .and. is_found) then
-         self%step%h = high*self%last%h_whole
-         self%t = self%step%t0 + self%step%h
-         self%step%y1 = self%trial
-         call note_events(self, event, self%last%h_whole)
-      end if
-      if (status == 0) call evaluate_end(self, system, status)  ! without an event the whole step stands
-      status = merge(merge(advance_event, advance_step, is_found), advance_failed_evaluation, status == 0)
-   end subroutine go_to_event
-
-   !> Halve the bracket of an event down to the spacing of time.
-   subroutine halve(self, system, low, high, event, is_found, status)
-      class(multistep_t), intent(inout) :: self     !! the integrator; `trial`, `g` and `rate` are those at the upper end
-      class(ode_system_t), intent(inout) :: system  !! the system
-      real(wp), intent(inout) :: low                !! place before the event [1]
-      real(wp), intent(inout) :: high               !! place after it [1]
-      integer, intent(inout) :: event               !! by the search; then the first event function, or one that is at none
-      logical, intent(out) :: is_found              !! whether it rises there
-      integer, intent(out) :: status                !! of holding the states
-
-      real(wp) :: middle
-      integer :: i
-
-      is_found = .false.
-      call look(high)
-      if (status == 0 .and. all(self%events%g <= 0.0_wp)) then
-         ! on held states it is not there, or later
-         low = high
-         high = 1.0_wp
-         if (all(self%events%g1 <= self%events%threshold)) return
-      else if (status == 0 .and. system%holds) then
-         ! nor earlier
-         call look(low)
-         if (any(self%events%g > 0.0_wp)) then
-            high = low
-            low = 0.0_wp
-         end if
-      end if
-      do i = 1, n_halving
-         if (status /= 0 .or. (high - low)*self%last%h_whole <= eps*abs(self%step%t0 + high*self%last%h_whole)) exit
-         middle = 0.5_wp*(low + high)
-         call look(middle)
-         if (any(self%events%g > 0.0_wp)) then
-            high = middle
-         else
-            low = middle
-         end if
-      end do
-      if (status == 0) call look(high)
-      if (status /= 0) return
-      event = maxloc(self%events%g, dim=1, mask=self%events%rate > 0.0_wp .and. self%events%g > 0.0_wp)
-      is_found = event > 0
-      if (.not. is_found) event = maxloc(self%events%g, dim=1)
-
-   contains
-
-      !> The state at a place of the step, held, into `trial`, and its event functions.
-      subroutine look(s)
-         real(wp), intent(in) :: s  !! place in the whole step [1]
-
-         call held_state(self, system, s, self%trial, status)
-         if (status /= 0) return
-         call self%look_at_events(system, self%step%t0 + s*self%last%h_whole, self%trial, self%events%g, self%events%rate)
-      end subroutine look
-
-   end subroutine halve
 
    !> State at a place of the last step, held or mended.
    subroutine held_state(self, system, s, y, status)
@@ -366,7 +335,7 @@ contains
       real(wp), intent(out) :: y(:)                 !! (n) state [any]
       integer, intent(out) :: status                !! advance_step, or a failure
 
-      call held_state(self, system, s, y, status)
+      call self%held_state(system, s, y, status)
       status = merge(advance_step, advance_failed_evaluation, status == 0)
    end subroutine multistep_refine
 

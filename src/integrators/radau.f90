@@ -29,7 +29,7 @@
 !> directions, and `bdf` is cheaper.
 module radau
    use anderson, only: anderson_t
-   use integrator, only: advance_no_memory, advance_step
+   use integrator, only: advance_failed_evaluation, advance_no_memory, advance_step
    use kind_info, only: kind_info_t
    use kinds, only: eps, wp
    use krylov_solver, only: krylov_solver_t
@@ -233,13 +233,23 @@ contains
       status = merge(advance_step, advance_no_memory, status == 0)
    end subroutine radau_restart
 
-   !> One step, by GMRES where it may be much longer than with the matrix.
+   !> One step, by GMRES where it may be much longer than with the matrix. After a restart it begins with the derivative at the
+   !> state itself, not that behind a force that jumps there: the matrix is made of differences from it, and the estimate must see
+   !> the jump, for a matrix of differences across one lets Newton's iteration seem to converge.
    subroutine radau_advance(self, system, t_stop, status)
       class(radau_t), intent(inout) :: self         !! the integrator
       class(ode_system_t), intent(inout) :: system  !! the system
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
+      if (self%now%h <= 0.0_wp) then
+         call system%evaluate(self%t, self%step%y1, self%step%f1, status)
+         self%count%n_evaluations = self%count%n_evaluations + 1
+         if (status /= 0) then
+            status = advance_failed_evaluation
+            return
+         end if
+      end if
       self%is_wide = self%pace%h_next/wide > self%h_matrix
       if (self%is_wide) self%h_matrix = forgets*self%h_matrix
       self%pace%h_most = merge(self%h_gmres, self%h_matrix, self%is_wide .or. .not. self%matrix%is_known)

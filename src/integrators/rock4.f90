@@ -9,19 +9,23 @@
 !> The fastest decay is the spectral radius of the Jacobian, found anew after every event, every 25 steps and after a step that
 !> was rejected (`spectral_radius`). Parts of a step, in search of an event, have the degree of the whole.
 !>
-!> Error: the combination of the last five derivatives that vanishes up to order 3. Between the ends of a step: the quintic of
-!> `interpolation`, without evaluations within the step, which stiff forces would make worse.
+!> Error: the combination of the last five derivatives that vanishes up to order 3. That says little of what is over early in a
+!> step: one that begins in a contact and goes on far beyond its end has all five behind it. So the part of a step that ends at an
+!> event is tested as well, and the step is repeated, shorter, if that has too great an error.
+!> Between the ends of a step: the quintic of `interpolation`, without evaluations within the step, which stiff forces would make
+!> worse.
 !>
 !> Source: A. Abdulle, Fourth order Chebyshev methods with recurrence relation, SIAM J. Sci. Comput. 23 (2002) 2041-2054, with
 !> coefficients of our own. Limits: stiff springs that no damper goes with are followed, not damped: their steps are those of
 !> other explicit methods.
 module rock4
-   use integrator_controls, only: norm_euclidean
+   use integrator, only: advance_event
+   use integrator_controls, only: norm_euclidean, onset_located
    use kind_info, only: kind_info_t
-   use kinds, only: wp
+   use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
    use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, &
       n_recurrence, recurrence
    use spectral_radius, only: find_radius, most_iterations
@@ -49,6 +53,7 @@ module rock4
       procedure, nopass :: is_explicit => rock4_is_explicit
       procedure :: prepare => rock4_prepare
       procedure :: restart => rock4_restart
+      procedure :: advance => rock4_advance
       procedure :: make_stages => rock4_make_stages
       procedure :: error_norm => rock4_error_norm
       procedure :: prepare_output => rock4_prepare_output
@@ -80,7 +85,7 @@ contains
       integer, intent(in) :: n               !! entries of the state
 
       self%order = 4
-      self%n_new_stage = most_stages + most_iterations
+      self%n_new_stage = most_stages + most_iterations + 1
       if (.not. allocated(self%g)) allocate (self%g(n, 2), self%k(n, 0:4), self%y(n), self%direction(n), source=0.0_wp)
    end subroutine rock4_prepare
 
@@ -94,6 +99,33 @@ contains
       self%age = n_step_radius
       call one_step_restart(self, system, step_hint, status)
    end subroutine rock4_restart
+
+   !> One accepted step, to an event if there is one on the way: the part up to it is within the tolerance too.
+   subroutine rock4_advance(self, system, t_stop, status)
+      class(rock4_t), intent(inout) :: self         !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, advance_event or a failure
+
+      real(wp) :: h_event, norm
+
+      h_event = self%pace%h_event
+      do
+         call one_step_advance(self, system, t_stop, status)
+         if (status /= advance_event .or. self%controls%fixed_step > 0.0_wp .or. self%controls%onset /= onset_located) return
+         norm = self%error_norm(system, self%step%h)
+         if (norm <= 1.0_wp .or. self%step%h <= max(self%controls%minimum_step, 4.0_wp*eps*abs(self%step%t0))) return
+         self%count%n_steps = self%count%n_steps - 1
+         self%count%n_rejected = self%count%n_rejected + 1
+         call self%pace%reject(self%step%h, min(norm, huge(1.0_wp)))
+         self%pace%h_event = h_event
+         self%t = self%step%t0
+         self%step%y1 = self%step%y0
+         self%step%f1 = self%step%f0
+         self%events%g1 = self%events%g0
+         self%events%rate1 = self%events%rate0
+      end do
+   end subroutine rock4_advance
 
    !> Stages of a step of length h from the start of the present step; the end state into `trial`.
    subroutine rock4_make_stages(self, system, h, status)
@@ -189,8 +221,12 @@ contains
          end if
          if (self%age >= n_step_radius) then
             call self%set_scales(system, step%y0)
-            call find_radius(system, step%t0, step%y0, step%f0, self%scale, self%direction, self%y, self%k(:, 1), self%radius, &
-                             n_evaluation, status)
+            ! differences from the state itself: behind a force that jumps there the derivative is another
+            call system%evaluate(step%t0, step%y0, self%k(:, 2), status)
+            self%count%n_evaluations = self%count%n_evaluations + 1
+            if (status /= 0) return
+            call find_radius(system, step%t0, step%y0, self%k(:, 2), self%scale, self%direction, self%y, self%k(:, 1), &
+                             self%radius, n_evaluation, status)
             self%count%n_evaluations = self%count%n_evaluations + n_evaluation
             if (status /= 0) return
             self%age = 0

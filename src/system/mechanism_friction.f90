@@ -28,9 +28,11 @@ contains
 
    !> Forces of the contacts that stick, and the accelerations with them.
    module procedure mechanism_stick
+      real(wp) :: nothing  ! sliding acceleration that is none [m/s^2]
       integer :: axis, c, d, k, m
 
       status = 0
+      nothing = 0.0_wp
       m = 0
       do d = 1, size(self%loose%sets)
          associate (set => self%loose%sets(d)%set)
@@ -52,8 +54,10 @@ contains
                grips%force(c) = -(sliding_acceleration(self, c, .true.) + tangent%drift(grips%at(c)%axis) &
                                   + 2.0_wp*settling*self%linkage%scales%pace*tangent%v(grips%at(c)%axis))
                grips%mobility(c) = mobility_of(self, c)
+               nothing = max(nothing, 2.0_wp*settling*self%linkage%scales%pace*abs(tangent%v(grips%at(c)%axis)))
             end associate
          end do
+         nothing = nothing + sqrt(least_mobility)*maxval(abs(grips%force(:m)))
          grips%load%b(:n) = self%linkage%solution%b(:n)
          self%linkage%solution%b(:n) = 0.0_wp
          do d = 1, m
@@ -72,17 +76,20 @@ contains
                           grips%force(:m), grips%left(:m), grips%eigenvalue(:m), grips%work)
          do c = 1, m
             call add_pair(self, c, grips%force(c), self%loading%g)
-            call keep_force(self, c)
+            call keep_force(self, c, nothing)
          end do
       end associate
       call self%linkage%find_accelerations(self%loading%g, .true., .true., status)
    end procedure mechanism_stick
 
    !> Keep the force that was found along a tangent on the list with its contact. Drivers prescribe how it slides where no force
-   !> moves it along any tangent, or where they accelerate it along one.
-   subroutine keep_force(self, c)
+   !> moves it along any tangent, or where they accelerate it along one. Where contacts hold the same two bodies, as both ends of a
+   !> pin do, a combination of their tangents is hardly moved by any force either: what is left of it is the sliding that has
+   !> gathered, and the root of the mobility that counts as none, of the acceleration asked for; that is no driver's doing.
+   subroutine keep_force(self, c, nothing)
       class(mechanism_t), intent(inout) :: self    !! the system, forces found
       integer, intent(in) :: c                     !! place on the list of contacts that stick
+      real(wp), intent(in) :: nothing              !! what may be left without a driver [m/s^2]
 
       real(wp) :: force(2)
       logical :: is_driven
@@ -93,7 +100,7 @@ contains
          associate (tangent => set%grip%tangent(k))
             first = c - grips%at(c)%axis + 1
             is_driven = all(grips%is_fixed(first:first + set%grip%n_tangent - 1)) &
-                        .or. any(abs(grips%left(first:c)) > no_acceleration*grips%mobility(first:c)*grips%root(c)**2)
+                        .or. any(abs(grips%left(first:c)) > nothing + no_acceleration*grips%mobility(first:c)*grips%root(c)**2)
             force = tangent%f_t
             force(grips%at(c)%axis) = force(grips%at(c)%axis) + grips%force(c)
             call set%stick_with(k, force, is_driven)

@@ -3,8 +3,9 @@
 !> Events: slip s = +-1 ends where s v_T falls to zero (to round-off, so that it also ends where drivers bring it to rest);
 !> sticking ends where |x| = c_s F_N, its rate by a difference along the motion, or where the contact moves all the same. A slip
 !> that ends at once again and again ends at a small speed the wrong way, which doubles each time up to a limit: so a contact that
-!> can neither slip nor stick costs a bounded number of steps. In space speeds and forces are those of both tangents; a slip that
-!> has turned by a right angle within a step ends too, and goes on along its new way.
+!> can neither slip nor stick costs a bounded number of steps. Of what it can hold it is asked for less by as many parts, so that
+!> contacts that share a load do not give way one after the other, each to be held by the others again. In space speeds and forces
+!> are those of both tangents; a slip that has turned by a right angle within a step ends too, and goes on along its new way.
 !>
 !> Speeds that are small are parts of the mechanism's own, its pace times its size (`mechanism_scales`); times, of the
 !> contact's own.
@@ -111,7 +112,7 @@ contains
    !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
    !> that sticks until now. One that drivers move goes with them.
    module procedure mechanism_decide_slip
-      real(wp) :: band, delta(self%loose%n_contact), rate(self%loose%n_contact), speed
+      real(wp) :: band, delta(self%loose%n_contact), limit, rate(self%loose%n_contact), speed
       integer :: before, status
 
       speed = own_speed(self)
@@ -136,13 +137,16 @@ contains
             if (tangent%is_driven) then
                call set%note_decision(k, t, 0.0_wp, at_rest*speed)
                call go_with_drivers(self, t, y, slot, k, at_rest*speed)
+               if (before == sticks .and. set%grip%slip(k) == sticks .and. &
+                   size_of(tangent%f_t) > set%laws%friction%stick_limit(tangent%f_n)) call set%slip_toward(k, -tangent%f_t)
                return
             end if
             if (size_of(tangent%v) > 0.5_wp*torn*speed) then
                call set%slip_toward(k, tangent%v)
                return
             end if
-            if (before /= sticks .and. size_of(tangent%f_t) <= set%laws%friction%stick_limit(tangent%f_n)) return
+            limit = (1.0_wp - band/max(speed, tiny(1.0_wp)))*set%laws%friction%stick_limit(tangent%f_n)
+            if (before /= sticks .and. size_of(tangent%f_t) <= limit) return
             call set%slip_toward(k, -tangent%f_t)
          end associate
       end associate

@@ -172,3 +172,19 @@ def test_slider_crank_as_in_the_plane(gudgeon, kind, columns, cells):
         onsets.append(sorted({round(row["time"], 12) for row in run.contacts}))
     assert len(onsets[0]) >= 6 and len(onsets[1]) == len(onsets[0])
     assert max(abs(a - b) for a, b in zip(*onsets)) < 1e-8
+
+
+@pytest.mark.parametrize("coefficient, methods", [("0.05", ("verner", "dop853", "radau")), ("0.2", ("dop853", "rock4"))])
+def test_both_ends_of_a_pin_that_stick(gudgeon, coefficient, methods):
+    """They hold the same two bodies: that drives neither, and at their limit they give way together. The ledger closes to the end."""
+    text = (ROOT / "inputs" / "slider_crank_6_6_bushing.deck").read_text()
+    text = text.replace("journal   axis_i    bearing_radius", "journal   friction   axis_i    bearing_radius")
+    text = text.replace('pin       "0 1 0"   10', 'pin       rub   "0 1 0"   10')
+    text = text.replace("[analysis.dynamic]", f"[friction.coulomb]\nname coefficient\nrub {coefficient}\n\n[analysis.dynamic]")
+    text = changed(changed(text, "output", figures=None, every="0.1 ms"), "analysis.dynamic", tolerance="1e-6")
+    for method in methods:
+        directory = scratch()
+        call(gudgeon, "run", written(directory, text), "--method", method, "--write", "numbers", "--out", directory / "out", "--quiet")
+        run = Run(directory / "out")
+        assert run.summary["status"] == "complete", method
+        assert run.summary["energy_residual_max"] < 1e-5 * run.summary["energy_max"], method

@@ -1,9 +1,14 @@
 """The dry slider-crank by every method: first impacts against the independent solution, to the accuracy of docs/accuracy.md."""
 
+import sys
+
 import numpy as np
 import pytest
 from reference_values import IMPACT_FIELDS, IMPACTS
-from support import assert_close, finished
+from support import ROOT, Run, assert_close, call, finished, scratch, written
+
+sys.path.insert(0, str(ROOT / "tests" / "stability"))
+from random_scenes import draw  # noqa: E402
 
 REFERENCE = {field: np.array(column) for field, column in zip(IMPACT_FIELDS, zip(*IMPACTS))}
 SHORT = ("analysis.dynamic", "end", "3.4 ms")  # ten impacts
@@ -49,6 +54,40 @@ def test_loose_tolerances(gudgeon, method, tolerance):
     assert_close(run.contacts["time"][0], REFERENCE["time"][0], absolute=1e-6, what="first onset")
     assert_close(run.contacts["impact_speed"][:2], REFERENCE["impact_speed"][:2], relative=0.05, what="impact speeds")
     assert len(run.contacts["time"]) <= 14
+
+
+@pytest.mark.parametrize("method", ["adams", "bdf"])
+@pytest.mark.parametrize("tolerance", ["1e-3", "1e-4"])
+def test_free_surfaces_do_not_overlap(gudgeon, method, tolerance):
+    """A contact that parts slowly does not go on, free, inside the other surface: a step that says so is repeated, shorter."""
+    changes = (("output", "every", "2 us"), ("output", "channels", "gudgeon.*"))
+    run = finished(gudgeon, "--method", method, "--tolerance", tolerance, changes=changes)
+    free = run.rows("clearances/contacts/state")[:, 0] == 0
+    assert free.sum() > 1000
+    assert run.rows("clearances/contacts/penetration")[free, 0].max() < 1e-9
+    assert run.summary["energy_residual_max"] < 0.01 * run.summary["energy_max"]
+
+
+def test_force_that_jumps_at_an_onset_by_rock4(gudgeon):
+    """The first step of a contact begins with the force of the dashpot. The reference: Verner's method at a tolerance of 1e-11."""
+    peaks = []
+    for method, tolerance in (("rock4", "1e-7"), ("verner", "1e-11")):
+        directory = scratch()
+        call(gudgeon, "run", ROOT / "inputs" / "hard" / "wedged_slider.deck", "--method", method, "--tolerance", tolerance, "--write", "numbers",
+             "--out", directory / "out", "--quiet")
+        peaks.append(Run(directory / "out").contacts["peak_force"])
+    assert len(peaks[0]) == 2
+    assert_close(peaks[0], peaks[1], relative=2e-6, what="peak forces")
+
+
+def test_end_of_a_contact_early_in_a_step_of_rock4(gudgeon):
+    """A ball in a corner: one contact ends while the other goes on, and the step before the first of them began is far longer."""
+    directory = scratch()
+    call(gudgeon, "run", written(directory, draw("corner", 1013).text), "--method", "rock4", "--tolerance", "1e-7", "--write", "numbers",
+         "--out", directory / "out", "--quiet")
+    run = Run(directory / "out")
+    assert len(run.contacts) == 17
+    assert run.summary["energy_residual_max"] < 1e-5 * run.summary["energy_max"]
 
 
 def test_ida_begins_after_every_event(gudgeon):
