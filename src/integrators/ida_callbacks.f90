@@ -67,9 +67,9 @@ contains
       status = int(outcome, c_int)
    end function residual
 
-   !> Whether Newton's iteration has converged: what is left after a correction is the correction times rate/(1 - rate), with the rate
-   !> of the last iteration that took several. IDA's own test believes a rate of next to nothing, which the equations, linear in the
-   !> multipliers, have behind each new matrix; it then takes what a matrix of many steps ago makes of any prediction.
+   !> Whether Newton's iteration has converged: what is left after a correction is the correction times rate/(1 - rate), with the
+   !> rate of the last iteration that took several. IDA's own test believes a rate of next to nothing, which the equations, linear
+   !> in the multipliers, have behind each new matrix; it then takes what a matrix of many steps ago makes of any prediction.
    integer(c_int) function test_convergence(newton, u, correction, tolerance, weight, user_data) bind(c, name="") result(answer)
       type(sunnonlinearsolver), intent(inout) :: newton   !! the iteration
       type(n_vector), intent(inout) :: u                  !! sum of the corrections, not used

@@ -2,13 +2,13 @@
 !>
 !> Phi = [ P_i - P_j,  x_i . y_j - y_i . x_j ]                              (4 rows)
 !>
-!> z_i and z_j are along the shafts, in the same sense. Where the deck puts the bodies the frame of j is that of i, turned from z_i
-!> to z_j about their common perpendicular. The last row keeps it so: with Euler parameters of j against i it is -4 e_0 e_3, so that
-!> j is turned against i about an axis across z alone, which is the homokinetic condition: the plane that halves the angle of the shafts
-!> is a plane of symmetry. If one shaft turns by an angle about its axis, the other turns by the same.
+!> z_i and z_j are along the shafts, in the same sense. Where the deck puts the bodies the frame of j is that of i, turned from
+!> z_i to z_j about their common perpendicular. The last row keeps it so: with Euler parameters of j against i it is -4 e_0 e_3, so
+!> that j is turned against i about an axis across z alone, which is the homokinetic condition: the plane that halves the angle of
+!> the shafts is a plane of symmetry. If one shaft turns by an angle about its axis, the other turns by the same.
 !>
-!> Signs, frames: `spatial_joint`. Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), sections 6.1 and 7.2,
-!> for the parts of the rows. Limits: axes less than half a turn from one another; the joint's own bodies are left out.
+!> Signs, frames: `spatial_joint`. Source: P. E. Nikravesh, Computer-Aided Analysis of Mechanical Systems (1988), sections 6.1 and
+!> 7.2, for the parts of the rows. Limits: axes less than half a turn from one another; the joint's own bodies are left out.
 module spatial_constant_velocity
    use coordinates, only: coordinates_t
    use item, only: item_t
