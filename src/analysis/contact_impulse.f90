@@ -53,6 +53,9 @@ contains
       real(wp) :: by_ends, expected, greater, h, rates, swing
 
       h = method%step%h
+      impulse = 0.0_wp
+      has_moved = .false.
+      if (.not. h > 0.0_wp) return
       swing = system%loose%sets(slot)%set%contact(item)%swing
       greater = max(left%value, right%value)
       has_moved = h*swing < pi .or. greater <= 0.0_wp

@@ -27,7 +27,7 @@ module dae_system
       procedure(pattern_interface), deferred :: dae_pattern
       procedure(spread_interface), deferred :: dae_spread
       procedure(multipliers_interface), deferred :: multipliers
-      procedure(weigh_interface), deferred :: weigh_multipliers
+      procedure(effect_interface), deferred :: effect_of
    end type dae_system_t
 
    abstract interface
@@ -88,17 +88,15 @@ module dae_system
          real(wp), intent(out) :: lambda(:)        !! (m) multipliers [N or N.m]
       end subroutine multipliers_interface
 
-      !> What a multiplier of one does to the state within a time, at the motion of the last residual: lambda to v, mu to q, the
-      !> greatest part of an error scale.
-      pure subroutine weigh_interface(self, scale, time, on_rates, on_positions)
+      !> How fast a change of the multipliers changes the velocities, M^{-1} Phi_q^T of it at the motion of the last residual: the
+      !> norm over the error scales.
+      real(wp) function effect_interface(self, change, scale) result(effect)
          import :: dae_system_t, wp
          implicit none (type, external)
-         class(dae_system_t), intent(in) :: self      !! the system
+         class(dae_system_t), intent(inout) :: self   !! the system
+         real(wp), intent(in) :: change(:)            !! (m) of lambda [N or N.m]
          real(wp), intent(in) :: scale(:)             !! (n) error scales of the state [any]
-         real(wp), intent(in) :: time                 !! the time [s]
-         real(wp), intent(out) :: on_rates(:)         !! (m) of lambda [1/N or 1/(N.m)]
-         real(wp), intent(out) :: on_positions(:)     !! (m) of mu [1/(N.s) or 1/(N.m.s)]
-      end subroutine weigh_interface
+      end function effect_interface
    end interface
 
 end module dae_system

@@ -67,9 +67,11 @@ contains
       status = int(outcome, c_int)
    end function residual
 
-   !> Whether Newton's iteration has converged: what is left after a correction is the correction times rate/(1 - rate), with the
-   !> rate of the last iteration that took several. IDA's own test believes a rate of next to nothing, which the equations, linear
-   !> in the multipliers, have behind each new matrix; it then takes what a matrix of many steps ago makes of any prediction.
+   !> Whether Newton's iteration has converged. Multipliers have no weight among the unknowns; they count by what they do to the
+   !> velocities in a step, so that the iteration does not end before they are found. What is left after a correction is the
+   !> correction times rate/(1 - rate), with the rate of the last iteration that took several. IDA's own test believes a rate of
+   !> next to nothing, which the equations, linear in the multipliers, have behind each new matrix; it then takes what a matrix of
+   !> many steps ago makes of any prediction.
    integer(c_int) function test_convergence(newton, u, correction, tolerance, weight, user_data) bind(c, name="") result(answer)
       type(sunnonlinearsolver), intent(inout) :: newton   !! the iteration
       type(n_vector), intent(inout) :: u                  !! sum of the corrections, not used
@@ -88,7 +90,7 @@ contains
       call c_f_pointer(user_data, problem)
       changes => fn_vgetarraypointer(correction)
       weights => fn_vgetarraypointer(weight)
-      norm = norm2(changes*weights)/sqrt(real(size(changes), wp))
+      norm = hypot(norm2(changes*weights)/sqrt(real(size(changes), wp)), effect_of_multipliers(problem, changes))
       answer = fsunnonlinsolgetcuriter(newton, m)
       if (answer /= 0) return
       if (m(1) == 0) then
@@ -101,6 +103,25 @@ contains
       end if
       answer = merge(0_c_int, newton_goes_on, problem%newton_rest*norm <= tolerance)
    end function test_convergence
+
+   !> What corrections of the multipliers do to the velocities in a step, over tolerance and scales.
+   real(wp) function effect_of_multipliers(problem, changes) result(effect)
+      type(problem_t), intent(inout) :: problem        !! the problem
+      real(wp), intent(in) :: changes(:)               !! (N) corrections [any]
+
+      integer :: m, n
+
+      effect = 0.0_wp
+      n = problem%system%n
+      m = (size(changes) - n)/2
+      if (m == 0) return
+      associate (system => problem%system, method => problem%method)
+         select type (system)
+         class is (dae_system_t)
+            effect = problem%reach/method%controls%tolerance*system%effect_of(changes(n + 1:n + m), method%scale)
+         end select
+      end associate
+   end function effect_of_multipliers
 
    !> Jacobian dF/du + c dF/du' by forward differences.
    integer(c_int) function differentiate(t, c, u, rate, left, matrix, user_data, scratch_1, scratch_2, scratch_3) bind(c, name="") &

@@ -22,9 +22,9 @@ module ida_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_funloc, c_int, c_loc, c_long, c_null_ptr
    use dae_system, only: dae_system_t
    use fida_mod, only: fidafree, fidagetcurrentstep, fidagetdky, fidagetnumerrtestfails, fidagetnumnonlinsolvconvfails, &
-      fidainit, fidareinit, fidasetid, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxconvfails, &
+      fidainit, fidareinit, fidasetinitstep, fidasetjacfn, fidasetlinearsolver, fidasetmaxconvfails, &
       fidasetmaxerrtestfails, fidasetmaxstep, fidasetminstep, fidasetnonlinearsolver, fidasetstoptime, &
-      fidasetsuppressalg, fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
+      fidasetuserdata, fidasolve, fidawftolerances, ida_one_step
    use fnvector_serial_mod, only: fn_vnew_serial
    use fsunlinsol_dense_mod, only: fsunlinsol_dense
    use fsunlinsol_klu_mod, only: fsunlinsol_klu
@@ -45,7 +45,7 @@ module ida_library
    !> IDA with its objects.
    type, extends(library_t) :: ida_library_t
       type(n_vector), pointer :: rate => null()        !! its derivative
-      type(sunnonlinearsolver), pointer :: newton => null()  !! Newton's iteration
+      type(sunnonlinearsolver), pointer :: newton => null()  !! Newton's iteration, with a test of its own; of a system with rows
    contains
       procedure :: begin => ida_begin
       procedure :: step => ida_step
@@ -152,7 +152,6 @@ contains
       call note(fidainit(self%memory, c_funloc(residual), self%problem%method%t, self%state, self%rate), status)
       call note(fidasetuserdata(self%memory, c_loc(self%problem)), status)
       call note(fidawftolerances(self%memory, c_funloc(weigh)), status)
-      call leave_multipliers(self, status)
       if (self%problem%is_large()) then
          call self%problem%start_newton()
          self%jacobian => fsunsparsematrix(n, n, int(size(self%problem%newton%row), sunindextype), by_columns, self%context)
@@ -166,6 +165,7 @@ contains
       if (status /= 0) return
       call note(fidasetlinearsolver(self%memory, self%linear, self%jacobian), status)
       call note(fidasetjacfn(self%memory, c_funloc(differentiate)), status)
+      if (status /= 0 .or. rows_of(self%problem%system) == 0) return
       self%newton => fsunnonlinsol_newton(self%state, self%context)
       self%problem%lacks_memory = .not. associated(self%newton)
       if (self%problem%lacks_memory) status = -1
@@ -173,21 +173,6 @@ contains
       call note(fidasetnonlinearsolver(self%memory, self%newton), status)
       call note(fsunnonlinsolsetconvtestfn(self%newton, c_funloc(test_convergence), c_loc(self%problem)), status)
    end subroutine create
-
-   !> Multipliers are not integrated: they are left out of the test of errors.
-   subroutine leave_multipliers(self, status)
-      class(ida_library_t), intent(inout) :: self   !! the library
-      integer, intent(inout) :: status              !! 0: done
-
-      real(c_double), pointer :: kind(:)
-
-      if (rows_of(self%problem%system) == 0) return
-      kind => fn_vgetarraypointer(self%look)
-      kind = 0.0_c_double
-      kind(:self%problem%system%n) = 1.0_c_double
-      call note(fidasetid(self%memory, self%look), status)
-      call note(fidasetsuppressalg(self%memory, 1_c_int), status)
-   end subroutine leave_multipliers
 
    !> One step, not beyond t_stop.
    subroutine ida_step(self, t_stop, t, y, status)

@@ -202,32 +202,19 @@ contains
       end associate
    end subroutine fill_newton
 
-   !> Error weights: sqrt(N) over tolerance and scale for N entries in all, next to nothing for quadratures. Multipliers that follow
-   !> the state count by what they do to it in a step, so that Newton's iteration does not end before they are found; the test of
-   !> errors leaves them out.
+   !> Error weights: sqrt(N) over tolerance and scale for N entries in all, next to nothing for
+   !> quadratures and for what follows the state.
    subroutine set_weights(self, y, weight)
       class(problem_t), intent(inout) :: self  !! the problem
       real(wp), intent(in) :: y(:)             !! (n) state [any]
       real(wp), intent(out) :: weight(:)       !! (N) weights, N at least n [any]
 
-      real(wp) :: size_of
-      integer :: first, m, n
+      integer :: n
 
       n = self%system%n - self%system%n_quadrature
-      size_of = sqrt(real(size(weight), wp))/self%method%controls%tolerance
       call self%method%set_scales(self%system, y)
-      weight(1:n) = size_of/self%method%scale(1:n)
+      weight(1:n) = sqrt(real(size(weight), wp))/(self%method%controls%tolerance*self%method%scale(1:n))
       weight(n + 1:) = no_weight
-      first = self%system%n
-      m = (size(weight) - first)/2
-      if (m == 0 .or. .not. self%reach > 0.0_wp) return
-      associate (system => self%system)
-         select type (system)
-         class is (dae_system_t)
-            call system%weigh_multipliers(self%method%scale, self%reach, weight(first + 1:first + m), weight(first + m + 1:))
-            weight(first + 1:) = max(no_weight, size_of*weight(first + 1:))
-         end select
-      end associate
    end subroutine set_weights
 
    !> Increments of the state for difference quotients.

@@ -42,7 +42,7 @@ module mechanism
       procedure :: dae_residual => mechanism_dae_residual
       procedure :: dae_pattern => mechanism_dae_pattern, dae_spread => mechanism_dae_spread, weights => mechanism_weights
       procedure :: evaluate_loads => mechanism_evaluate_loads, multipliers => mechanism_multipliers
-      procedure :: weigh_multipliers => mechanism_weigh_multipliers
+      procedure :: effect_of => mechanism_effect_of
       procedure, private :: evaluate_terms, ledger_rates
       procedure :: begin_pace => mechanism_begin_pace, follow_pace => mechanism_follow_pace, time_of_difference
       procedure :: events => mechanism_events, last_events => mechanism_last_events, settle => mechanism_settle
@@ -284,13 +284,13 @@ module mechanism
          integer, intent(out) :: status                     !! outcome
       end subroutine mechanism_dae_residual
 
-      !> What multipliers do to the state.
-      pure module subroutine mechanism_weigh_multipliers(self, scale, time, on_rates, on_positions)
+      !> How fast a change of the multipliers changes the velocities.
+      module function mechanism_effect_of(self, change, scale) result(effect)
          implicit none (type, external)
-         class(mechanism_t), intent(in) :: self                      !! the system
-         real(wp), intent(in) :: scale(:), time                      !! (n) error scales of the state [any]; the time [s]
-         real(wp), intent(out) :: on_rates(:), on_positions(:)       !! (rows) parts of scales that a multiplier of one makes [any]
-      end subroutine mechanism_weigh_multipliers
+         class(mechanism_t), intent(inout) :: self        !! the system
+         real(wp), intent(in) :: change(:), scale(:)      !! (rows) the change [any]; (n) error scales of the state [any]
+         real(wp) :: effect                               !! norm over the scales of the velocities [1/s]
+      end function mechanism_effect_of
 
       !> Which parts of the residual depend on which unknowns.
       module subroutine mechanism_dae_pattern(self, column, row)

@@ -69,30 +69,29 @@ contains
       if (.not. all(ieee_is_finite(r_y(:n_state)))) status = 1
    end procedure mechanism_dae_residual
 
-   !> What multipliers do to the state: M^{-1} Phi_q^T of each row over the scales, angles and lengths apart.
-   module procedure mechanism_weigh_multipliers
-      real(wp) :: effect
-      integer :: body, i, k, place, row, turn
+   !> How fast a change of the multipliers changes the velocities. Of a long chain it is the whole that counts: what one multiplier
+   !> does its neighbours take back.
+   module procedure mechanism_effect_of
+      integer :: body, i, k, turn
 
-      associate (linkage => self%linkage, rows => self%linkage%rows, is_turn => self%linkage%coordinates%is_turn, &
-                 length => self%linkage%scales%length)
-         on_rates = 0.0_wp
-         do k = 1, rows%n_side
-            row = rows%side(1, k)
-            place = place_in_row(rows%n_v, row, rows%side(2, k))
-            body = rows%side(3, k)
-            do i = 1, rows%n_v
-               effect = abs(rows%jac(place + i, row))*linkage%inverse_mass(i, body)
-               if (.not. is_turn(i)) effect = effect/length
-               on_rates(row) = max(on_rates(row), time*effect)
+      associate (linkage => self%linkage, rows => self%linkage%rows, a => self%linkage%solution%a, &
+                 is_turn => self%linkage%coordinates%is_turn)
+         call spread_rows(rows, self%n_row, linkage%inverse_mass, change, a)
+         effect = 0.0_wp
+         do k = 1, rows%n_unknown
+            body = rows%unknown(k)
+            do i = 1, size(a, 1)
+               if (is_turn(i)) then
+                  effect = effect + a(i, body)**2
+               else
+                  effect = effect + (a(i, body)/linkage%scales%length)**2
+               end if
             end do
          end do
-         ! scales of positions and rates are those of one length and one rate: position 1 is a length
-         turn = findloc(is_turn, .true., dim=1)
-         on_positions = on_rates*length/scale(1)
-         on_rates = on_rates/scale(linkage%n_position + turn)
+         turn = findloc(is_turn, .true., dim=1)  ! all rates are measured by one
+         effect = sqrt(effect)/scale(linkage%n_position + turn)
       end associate
-   end procedure mechanism_weigh_multipliers
+   end procedure mechanism_effect_of
 
    !> M^{-1} Phi_q^T x.
    pure subroutine spread_rows(rows, m, inverse_mass, x, z)

@@ -451,7 +451,7 @@ def test_a_run_that_goes_on_has_the_horizon_of_its_beginning(gudgeon):
     text += "\n[precision]\nexponent_instants = 4000\n"
     directory = scratch()
     deck = written(directory, text)
-    options = ("--horizon", "--budget", "300 ms", "--write", "numbers")
+    options = ("--horizon", "--budget", "30 ms", "--write", "numbers")
     done = call(gudgeon, "run", deck, "--out", directory / "out", "--verify-restart", *options)
     assert "equal bit for bit after 3 restarts" in done.stdout
     summary = json.loads((directory / "out/summary.json").read_text())

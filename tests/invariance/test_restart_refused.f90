@@ -240,7 +240,7 @@ contains
       call check_close(error, fresh%loaded%method%t, run%loaded%method%t, 0.0_wp, "taken with another clearance")
       if (.not. allocated(error)) call begin(fresh, error, "law=kelvin_voigt")
       call check_refused(fresh, saved, "the memory of the state has "//to_text(saved%pieces(1)%size)//" numbers, and "// &
-                         to_text(saved%pieces(1)%size + 5)//" are wanted", "another law", error)
+                         to_text(saved%pieces(1)%size + 10)//" are wanted", "another law", error)
    end subroutine test_other_law
 
    !> Memory of Verner's method is none of Adams's.
