@@ -9,8 +9,8 @@
 !>
 !> $$ I = \frac{h}{30} (7 F_0 + 16 F_m + 7 F_1) + \frac{h^2}{60} (F'_0 - F'_1). $$
 !>
-!> Where the two differ by more than a small part of the impulse that is to be expected of the contact, the force is not smooth: it
-!> goes as a power 3/2 where a contact begins and ends. Then I = h int F 6 u (1 - u) du with the place s = u^2 (3 - 2 u) in the
+!> Where the two differ by more than a small part of the impulse that is to be expected of the contact, and the force is small at one
+!> end, it is not smooth: it goes as a power 3/2 where a contact begins and ends. Then I = h int F 6 u (1 - u) du with the place s = u^2 (3 - 2 u) in the
 !> step, in which such powers are whole ones, by Gauss' rule of five places.
 !>
 !> A step of half a swing or more, as at rest, knows nothing of the swing, and neither rates nor interpolant are worth anything:
@@ -28,8 +28,10 @@ module contact_impulse
    public :: find_impulse
 
    real(wp), parameter :: little = 1.0e-7_wp  !! error of the cubic that is little, of the impulse to be expected [1]
-   real(wp), parameter :: rough = 2.0e-6_wp   !! difference of quintic and cubic where the force is smooth, of the same [1]
+   real(wp), parameter :: as_asked = 2.0_wp   !! so many tolerances are little too: forces are known no better [1]
+   real(wp), parameter :: rough = 20.0_wp     !! difference of quintic and cubic where the force is smooth, of what is little [1]
    real(wp), parameter :: steady = 0.5_wp     !! least of the forces at the ends of a step without a bend, of the greatest [1]
+   real(wp), parameter :: nearly_parted = 0.1_wp  !! force at an end where a contact has begun or will end soon, of the greatest [1]
    integer, parameter :: n_gauss = 5          !! places of Gauss' rule
    real(wp), parameter :: gauss_place(n_gauss) = [-0.906179845938663993_wp, -0.538469310105683091_wp, 0.0_wp, &
                                                   0.538469310105683091_wp, 0.906179845938663993_wp]  !! of [-1, 1] [1]
@@ -50,7 +52,7 @@ contains
       logical, intent(out) :: has_moved                !! the motion is another one now
       real(wp), intent(out) :: impulse                 !! the impulse [N.s]
 
-      real(wp) :: by_ends, expected, greater, h, rates, swing
+      real(wp) :: by_ends, error, expected, greater, h, rates, swing
 
       h = method%step%h
       impulse = 0.0_wp
@@ -68,15 +70,16 @@ contains
          by_ends = 0.5_wp*h*(left%value + right%value) + rates/12.0_wp
          expected = max(abs(system%loose%sets(slot)%set%contact(item)%went%impulse), abs(by_ends))
          impulse = by_ends
+         error = max(little, as_asked*method%controls%tolerance)
          if (swing > 0.0_wp) then
             expected = max(expected, greater/swing)
             has_moved = min(left%value, right%value) <= steady*greater &
-                        .or. abs(by_ends)*(h*swing)**4 > 720.0_wp*little*expected
+                        .or. abs(by_ends)*(h*swing)**4 > 720.0_wp*error*expected
             if (.not. has_moved) return
          end if
          call go_to(system, method, 0.5_wp, y)
          impulse = h/30.0_wp*(7.0_wp*(left%value + right%value) + 16.0_wp*force_of(system, slot, item)) + rates/60.0_wp
-         if (abs(impulse - by_ends) <= rough*expected) return
+         if (abs(impulse - by_ends) <= rough*error*expected .or. min(left%value, right%value) > nearly_parted*greater) return
       end if
       call integrate(system, method, slot, item, y, impulse)
    end subroutine find_impulse
