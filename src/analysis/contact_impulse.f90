@@ -9,9 +9,9 @@
 !>
 !> $$ I = \frac{h}{30} (7 F_0 + 16 F_m + 7 F_1) + \frac{h^2}{60} (F'_0 - F'_1). $$
 !>
-!> Where the two differ by more than a small part of the impulse that is to be expected of the contact, and the force is small at one
-!> end, it is not smooth: it goes as a power 3/2 where a contact begins and ends. Then I = h int F 6 u (1 - u) du with the place s = u^2 (3 - 2 u) in the
-!> step, in which such powers are whole ones, by Gauss' rule of five places.
+!> Where the two differ by more than a small part of the impulse that is to be expected of the contact, and the force is small at
+!> one end, it is not smooth: it goes as a power 3/2 where a contact begins and ends. Then I = h int F 6 u (1 - u) du with the place
+!> s = u^2 (3 - 2 u) in the step, in which such powers are whole ones, by Gauss' rule of five places.
 !>
 !> A step of half a swing or more, as at rest, knows nothing of the swing, and neither rates nor interpolant are worth anything:
 !> h (F_0 + F_1)/2. Not so where a contact begins and ends in one step.
