@@ -19,6 +19,7 @@
 !> Source: M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions (1964), table 25.4. Limits: none.
 module contact_impulse
    use contact_peaks, only: look, trend_t
+   use event_location, only: state_at
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use integrator, only: integrator_t
    use kinds, only: pi, wp
@@ -111,9 +112,7 @@ contains
       real(wp), intent(in) :: place                    !! the place [1]
       real(wp), intent(inout), contiguous :: y(:)      !! (n) scratch state [any]
 
-      system%traits%with_quadratures = .false.
-      call method%within(system, place, y)
-      system%traits%with_quadratures = .true.
+      call state_at(system, method, place, y)
       call system%linkage%set_motion(method%step%t0 + place*method%step%h, y)
    end subroutine go_to
 

@@ -19,7 +19,7 @@ module event_location
    use ode_system, only: ode_system_t
    implicit none (type, external)
    private
-   public :: dismiss_event, find_first_event, first_of, note_events, time_resolution
+   public :: dismiss_event, find_first_event, first_of, note_events, state_at, time_resolution
 
    integer, parameter :: n_sample = 8      !! places of a step looked at, at least
    integer, parameter :: n_bisect = 30     !! halvings in search of a maximum on the interpolant
@@ -71,7 +71,7 @@ contains
    end subroutine dismiss_event
 
    !> State at a place of the step, from its interpolant; no event depends on quadratures.
-   subroutine place(system, method, s, y)
+   subroutine state_at(system, method, s, y)
       class(ode_system_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method     !! the integrator, after a step
       real(wp), intent(in) :: s                     !! the place [1]
@@ -80,7 +80,7 @@ contains
       system%traits%with_quadratures = .false.
       call method%within(system, s, y)
       system%traits%with_quadratures = .true.
-   end subroutine place
+   end subroutine state_at
 
    !> What each function must exceed in the last step to be at its event. Of functions without known noise nothing is asked.
    subroutine set_thresholds(system, method)
@@ -111,7 +111,7 @@ contains
          is_seen = is_above(system%n_event, events%g1, events%rate1, part)
          do i = 1, n - 1
             if (is_seen) exit
-            call place(system, method, real(i, wp)/real(n, wp), y)
+            call state_at(system, method, real(i, wp)/real(n, wp), y)
             call method%look_at_events(system, step%t0 + real(i, wp)*part, y, g, rate)
             is_seen = is_above(system%n_event, g, rate, part)
          end do
@@ -251,7 +251,7 @@ contains
       subroutine values_at(s)
          real(wp), intent(in) :: s  !! place [1]
 
-         call place(system, method, s, y)
+         call state_at(system, method, s, y)
          call method%look_at_events(system, method%step%t0 + s*method%step%h, y, g, rate)
       end subroutine values_at
 

@@ -10,6 +10,7 @@
 !> between them.
 module passed_onsets
    use event_chance, only: is_long, may_happen
+   use event_location, only: state_at
    use integrator, only: integrator_t
    use kinds, only: i8, wp
    use ode_system, only: contact_onset, ode_system_t
@@ -46,7 +47,7 @@ contains
          do i = 1, n
             s = last*(real(i, wp)/real(n, wp))
             if (s < 1.0_wp) then
-               call reach(system, method, s, y)
+               call state_at(system, method, s, y)
                call system%events(method%step%t0 + s*method%step%h, y, passed%gap, passed%rate)
             else
                passed%gap = method%onset%end_gap
@@ -78,18 +79,6 @@ contains
          leaves_room = may_happen(onset%gap(k), h*onset%rate(k), onset%end_gap(k), h*onset%end_rate(k))
       end associate
    end function leaves_room
-
-   !> State at a place of the step, from its interpolant; no event function depends on quadratures.
-   subroutine reach(system, method, s, y)
-      class(ode_system_t), intent(inout) :: system   !! the system
-      class(integrator_t), intent(in) :: method      !! the integrator, after a step
-      real(wp), intent(in) :: s                      !! the place [1]
-      real(wp), intent(inout) :: y(:)                !! (n) the state [any]
-
-      system%traits%with_quadratures = .false.
-      call method%within(system, s, y)
-      system%traits%with_quadratures = .true.
-   end subroutine reach
 
    !> A function from one place to the next: it stays above what it must exceed, falls from there, or may have had a maximum
    !> between.
@@ -135,7 +124,7 @@ contains
       associate (g => method%events%g, rate => method%events%rate, step => method%step)
          do i = 1, n_bisect
             place = 0.5_wp*(left + right)
-            call reach(system, method, place, y)
+            call state_at(system, method, place, y)
             call system%events(step%t0 + place*step%h, y, g, rate)
             call raise(method, k, g(k), place)
             if (rate(k) > 0.0_wp) then
