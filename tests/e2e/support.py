@@ -165,6 +165,14 @@ class Run:
         return names, [split_row(line) for line in lines if line.strip() and not line.startswith("#")]
 
 
+def run_with(program, text, **settings):
+    """Run a deck's text with other settings of the analysis: channels only, no figures."""
+    directory = scratch()
+    call(program, "run", written(directory, changed(text, "analysis.dynamic", **settings)), "--out", directory / "out", "--quiet",
+         "--write", "channels")
+    return Run(directory / "out")
+
+
 def split_row(row):
     """The cells of a row; a quoted text is one cell."""
     return [quoted or word for quoted, word in re.findall(r'"([^"]*)"|(\S+)', row)]

@@ -4,7 +4,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from support import Run, assert_close, call, changed, scratch, written
+from support import assert_close, run_with, scratch, written
 
 BEND = 35.0  # degrees
 WAYS = [{}, {"stabilise": "partitioning"}, {"stabilise": "baumgarte alpha=5s^-1 beta=5s^-1"}, {"stabilise": "projection"},
@@ -52,19 +52,11 @@ every = 10 ms
 """
 
 
-def run_deck(program, text, **settings):
-    """Run a deck with other settings of the analysis, without figures."""
-    directory = scratch()
-    call(program, "run", written(directory, changed(text, "analysis.dynamic", **settings)), "--out", directory / "out", "--quiet",
-         "--write", "channels")
-    return Run(directory / "out")
-
-
 @pytest.mark.parametrize("settings", WAYS, ids=str)
 def test_bent_shafts(gudgeon, settings):
     """Both shafts have the same speed at every instant, that of one wheel with both moments of inertia; the joint hands on what drives the
     second one, and bends both shafts across their axes by T tan(bend/2), as the plane that halves the angle has it."""
-    run = run_deck(gudgeon, SHAFTS, **settings)
+    run = run_with(gudgeon, SHAFTS, **settings)
     t = run.time
     close = 2e-6
     speed = 8 + (0.04 * (1 - np.cos(5 * t)) - 0.05 * t) / 0.007
@@ -85,7 +77,7 @@ def test_universal_beside(gudgeon):
     """The same shafts with a universal joint do not keep the same speed: what holds above is of the joint, not of the scene."""
     text = SHAFTS.replace("[joint.constant_velocity]", "[joint.universal]").replace('bent     out       in    "0 0 1"   "0 0 1"',
                                                                                   'bent     out       in    "1 0 0"   "0 1 0"')
-    run = run_deck(gudgeon, text)
+    run = run_with(gudgeon, text)
     ratio = run.item("bodies/spin", "driven")[:, 2] / run.item("bodies/spin", "driving")[:, 2]
     assert ratio.min() < 0.85 and ratio.max() > 1.15
 
@@ -94,7 +86,7 @@ def test_moving_bend(gudgeon):
     """A shaft whose far end a driver swings: the twist, counted as in the paths of both ends, stays the same."""
     swing = SHAFTS.replace("[joint.inline]\nname     i         j     axis_i\n" + f'shaft    bearing   far   "{s!r} 0 {c!r}"\n',
                            '[driver.position]\nname i j axis_i position\nacross bearing far "0 1 0" {0.2m*sin(3rad/(1s)*t)}\n')
-    run = run_deck(gudgeon, swing, end="1 s", start="given")
+    run = run_with(gudgeon, swing, end="1 s", start="given")
     bend = run.item("joints/bend", "bent")
     assert np.ptp(bend) > 0.05
     rows = np.stack([run.item("bodies/orientation", name) for name in ("driving", "driven")], 1)

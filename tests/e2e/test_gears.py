@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import ROOT, Run, assert_close, call, changed, scratch, written
+from support import ROOT, assert_close, run_with
 
 WAYS = [{}, {"stabilise": "partitioning"}, {"stabilise": "baumgarte alpha=5s^-1 beta=5s^-1"}, {"coordinates": "full"}, {"method": "ida"},
         {"method": "bdf", "tolerance": "1e-11"}, {"solver": "sparse"}, {"solver": "complete"}]
@@ -39,18 +39,10 @@ every = 10 ms
 """
 
 
-def run_deck(program, text, **settings):
-    """Run a deck with other settings of the analysis, without figures."""
-    directory = scratch()
-    call(program, "run", written(directory, changed(text, "analysis.dynamic", **settings)), "--out", directory / "out", "--quiet",
-         "--write", "channels")
-    return Run(directory / "out")
-
-
 @pytest.mark.parametrize("settings", WAYS, ids=str)
 def test_planetary_gear(gudgeon, settings):
     """From rest: all speeds are those of rolling without slip, the sun's acceleration and both tooth forces those of the power balance."""
-    run = run_deck(gudgeon, (ROOT / "inputs/planetary_gear.deck").read_text(), **settings)
+    run = run_with(gudgeon, (ROOT / "inputs/planetary_gear.deck").read_text(), **settings)
     r_sun, r_planet, r_ring, arm = 0.03, 0.02, 0.07, 0.05
     torque, load = 2.0, 5.0
     ratio = r_sun / (r_sun + r_ring)
@@ -80,7 +72,7 @@ def test_rack_and_pinion(gudgeon, settings, side):
     """A rack falls and turns a pinion on its right or its left: a = m g/(m + I/R^2), and the teeth carry I a/R^2."""
     radius = 0.08
     text = RACK.format(side=-side * radius, radius=side * radius)  # the axis points up: what is on its left has x < 0
-    run = run_deck(gudgeon, text, **settings)
+    run = run_with(gudgeon, text, **settings)
     fall = 3 * 9.81 / (3 + 0.004 / radius**2)
     time = run.time
     height = run.item("bodies/position", "rack")[:, 1]
