@@ -9,7 +9,7 @@ module run_plan
    use drawn_figures, only: plan_drawn_figures
    use figure_words, only: check_figures, figure_t
    use item, only: place_of
-   use kinds, only: wp
+   use kinds, only: i8, wp
    use libraries, only: library_versions
    use load, only: loaded_t
    use options, only: options_t
@@ -23,6 +23,7 @@ module run_plan
    use statistics, only: statistics_plan_t
    use text, only: append_text, real_text, text_t, to_text
    use text_list, only: text_list_t
+   use time_plan, only: last_instant
    use version, only: program_version
    implicit none (type, external)
    private
@@ -48,6 +49,7 @@ contains
       if (options%write /= "nothing") plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
       plan%title = loaded%scene%title
       plan%moved = assembly%moved
+      if (loaded%scene%analysis /= analysis_static) plan%n_instant = last_instant(loaded%plan) + 1_i8
       plan%n_freedom = size(loaded%system%linkage%mass) - loaded%system%linkage%rows%n
       if (allocated(assembly%dependent)) plan%n_freedom = plan%n_freedom + size(assembly%dependent)
       call plan_statistics(loaded, plan%statistics)

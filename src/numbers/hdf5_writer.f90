@@ -41,7 +41,8 @@ module hdf5_writer
    private
    public :: hdf5_writer_t
 
-   integer, parameter :: most_rows = 128, fewest_rows = 8      !! of a block
+   integer, parameter :: most_rows = 512, fewest_rows = 8      !! of a block
+   integer(i8), parameter :: rows_of_few = 128_i8              !! of a block of a short motion
    integer(i8), parameter :: bytes_of_block = 2097152_i8       !! of the widest dataset, from which the rows follow
    integer(i8), parameter :: metadata_of_dataset = 8192_i8     !! bytes that the index of a dataset may grow by
    integer(i8), parameter :: metadata_of_file = 131072_i8      !! bytes for all else
@@ -90,7 +91,7 @@ contains
       if (plan%life%goes_on) self%path = self%path//".part"  ! that of the run that goes on stays until its rows are here
       self%with_histories = plan%with%histories
       self%accuracy = plan%accuracy
-      block = rows_of_block(catalogue)
+      block = rows_of_block(catalogue, plan%n_instant)
       allocate (self%times(block))
       status = enter_file(self%path)
       if (status /= 0) then
@@ -121,9 +122,10 @@ contains
       call fail(self, "cannot make", "no space, or no right to write there", error)
    end subroutine start_file
 
-   !> How many rows make a block.
-   pure integer function rows_of_block(catalogue)
+   !> How many rows make a block: the more, the less they cost, but the file of a short motion has no room for many that never come.
+   pure integer function rows_of_block(catalogue, n_instant)
       type(catalogue_t), intent(in) :: catalogue  !! what can be recorded
+      integer(i8), intent(in) :: n_instant        !! output instants that are to come
 
       integer(i8) :: widest
       integer :: group
@@ -134,7 +136,7 @@ contains
             widest = max(widest, 8_i8*this%channel%components*size(catalogue%rooms(this%room)%names))
          end associate
       end do
-      rows_of_block = int(max(int(fewest_rows, i8), min(int(most_rows, i8), bytes_of_block/widest)))
+      rows_of_block = int(max(int(fewest_rows, i8), min(int(most_rows, i8), max(rows_of_few, n_instant), bytes_of_block/widest)))
    end function rows_of_block
 
    !> Keep a row; write the block and the new events if it is full.

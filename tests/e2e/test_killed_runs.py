@@ -65,7 +65,7 @@ def test_a_run_killed_at_any_write(gudgeon, tmp_path, condition):
     source = ROOT / "tests" / "e2e" / "end_at_write.c"
     subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", shim, source, "-ldl"], check=True)
     deck = tmp_path / "scene.deck"
-    text = plain_deck((("analysis.dynamic", "end", "30 ms"), ("output", "every", "20 us")))
+    text = plain_deck((("analysis.dynamic", "end", "30 ms"), ("output", "every", "4 us")))
     if condition:
         text += f"\n[guards]\nstop = {condition}\n"
     deck.write_text(text + "\n[statistics]\nafter = 5 ms\nchannels = slider.velocity\n")
@@ -80,7 +80,7 @@ def test_a_run_killed_at_any_write(gudgeon, tmp_path, condition):
     writes = done.stderr.count("write to run.h5")
     whole, status, message = histories(tmp_path / "whole" / "run.h5")
     assert status == "complete" and bool(message) == bool(condition)
-    assert len(whole["time"]) > 12 * 128 and len(whole["events"]) > 40
+    assert len(whole["time"]) > 12 * 512 and len(whole["events"]) > 40
     lengths = []
     # the last writes one by one, those before in strides that are no multiple of what a block takes
     for at in [*range(1, writes - 60, 17), *range(writes - 60, writes + 1)]:
