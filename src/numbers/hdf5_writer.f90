@@ -148,7 +148,7 @@ contains
       type(event_list_t), intent(in) :: events           !! all events so far
       type(error_t), allocatable, intent(out) :: error   !! they cannot be written
 
-      integer :: i, k
+      integer :: k
 
       if (self%is_broken .or. .not. self%with_histories) return
       self%waiting = self%waiting + 1
@@ -156,13 +156,27 @@ contains
       self%kinds%rows(1, self%waiting) = real(kind, wp)
       do k = 1, size(self%datasets)
          associate (this => self%datasets(k))
-            do i = 1, size(this%place)
-               this%rows(i, self%waiting) = catalogue%values(this%place(i))
-            end do
+            call pick(size(this%place), this%place, size(catalogue%values), catalogue%values, this%rows(:, self%waiting))
          end associate
       end do
       if (self%waiting == size(self%times) .or. waited(self)) call write_block(self, events, error)
    end subroutine sample_file
+
+   !> Some values of many.
+   pure subroutine pick(n, place, n_value, values, picked)
+      integer, intent(in) :: n                     !! how many
+      integer, intent(in) :: place(n)              !! (n) where they stand
+      integer, intent(in) :: n_value               !! of how many
+      real(wp), intent(in) :: values(n_value)      !! (n_value) all [any]
+      real(wp), intent(inout) :: picked(n)         !! (n) those [any]
+
+      integer :: i
+
+      !GCC$ novector
+      do i = 1, n
+         picked(i) = values(place(i))
+      end do
+   end subroutine pick
 
    !> Whether the rows in memory have waited long enough.
    logical function waited(self)
