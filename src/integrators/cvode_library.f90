@@ -128,7 +128,7 @@ contains
          self%fixed_point => fsunnonlinsol_fixedpoint(self%state, 0_c_int, self%context)
          call note(fcvodesetnonlinearsolver(self%memory, self%fixed_point), status)
       end if
-      ! what is left is in the differences by which BDF judges its steps: with CVODE's own tenth films and dampers took twice as many
+      ! what is left is in the differences by which BDF judges its steps: with CVODE's own tenth films took twice as many and more
       if (self%is_stiff) call note(fcvodesetnonlinconvcoef(self%memory, newton_rest), status)
       if (self%problem%lacks_memory) status = -1
    end subroutine create
