@@ -3,8 +3,10 @@
 !> The process of a run is a copy of this one, which has read the deck and all that it names: it does what `gudgeon run DECK
 !> --set ... --member K` does, and gives the very numbers of that command. The first case is loaded here; from it each run goes to
 !> its own, which reads again only what the parameters stand in (`load_case`). Where a case has many runs that is done here, once
-!> for all of them. What a run found comes back and is written to the journal at once. A run that fails is recorded with its exit
-!> code and its message, and the others go on.
+!> for all of them; with few jobs too, before the copy is made: pages that both processes write cost more. Many jobs would wait for
+!> it. What a run found comes back and is written to the journal at once. A run that fails is recorded with its exit code and its
+!> message, and the others go on. Messages go to a file that the runs of one job use one after the other; it becomes that of a run
+!> that fails.
 module sweep_runs
    use errors, only: error_t, exit_file, exit_ok, set_error
    use kinds, only: i8, wp
@@ -16,7 +18,7 @@ module sweep_runs
    use output_marker, only: enter_file
    use output_tree, only: remove_run
    use packed, only: packer_t, unpacker_t
-   use posix, only: n_processors, path_exists, remove_file, write_error
+   use posix, only: n_processors, path_exists, remove_file, rename_path, write_error
    use processes, only: end_process
    use progress, only: progress_t
    use recorder, only: status_running
@@ -30,6 +32,7 @@ module sweep_runs
    private
    public :: run_all
 
+   integer, parameter :: few_jobs = 4               !! so many do not wait for cases that are loaded one after the other [1]
    real(wp), parameter :: write_interval = 10.0_wp  !! least time between two times that the results are written [s]
    real(wp), parameter :: write_share = 200.0_wp    !! and this many times as long as writing them took [1]
 
@@ -57,34 +60,36 @@ contains
       type(ready_t) :: ready
       type(text_t) :: none(0)
       character(:), allocatable :: bytes
-      integer, allocatable :: due(:), processes(:)
-      integer :: at, code, ended, jobs, k, next, process
+      integer, allocatable :: due(:), processes(:), run_of(:)
+      integer :: code, ended, job, k, next, process
       integer(i8) :: began, now, rate
       real(wp) :: interval
 
       due = pack([(k, k=1, size(work%is_done))], work%is_mine([(k, k=1, size(work%is_done))]) .and. .not. work%is_done)
-      allocate (processes(size(due)), source=0)
-      jobs = options%runs%jobs
-      if (jobs == 0) jobs = n_processors()
+      k = options%runs%jobs
+      if (k == 0) k = n_processors()
+      allocate (processes(k), run_of(k), source=0)
       call display%start(.not. options%is_quiet)
       call system_clock(began, rate)
       interval = 0.0_wp
       next = 1
       ended = 0
       do while (ended < size(due))
-         do while (next - ended <= jobs .and. next <= size(due))
+         do while (next - ended <= size(processes) .and. next <= size(due))
             call make_ready(options, loaded%sweep, due(next), work, ready)
-            if (ready%loaded_number == 0 .or. work%results%n_member > 1) call turn_to_case(ready)
-            call start_run(ready, due(next), directory, work, processes(next), error)
+            if (ready%loaded_number == 0 .or. work%results%n_member > 1 .or. size(processes) <= few_jobs) call turn_to_case(ready)
+            job = findloc(processes, 0, dim=1)
+            run_of(job) = due(next)
+            call start_run(ready, run_of(job), log_of_job(work, job), directory, work, processes(job), error)
             if (allocated(error)) return
             next = next + 1
          end do
          call next_member(process, code, bytes)
-         at = findloc(processes, process, dim=1)
-         if (process == 0 .or. at == 0) exit
-         processes(at) = 0
-         call end_run(due(at), code, bytes, loaded%sweep%keeps_channels, work, error)
-         if (.not. allocated(error) .and. work%results%runs(due(at))%exit_code == exit_file) call check_place(work, error)
+         job = findloc(processes, process, dim=1)
+         if (process == 0 .or. job == 0) exit
+         processes(job) = 0
+         call end_run(run_of(job), code, bytes, loaded%sweep%keeps_channels, log_of_job(work, job), work, error)
+         if (.not. allocated(error) .and. work%results%runs(run_of(job))%exit_code == exit_file) call check_place(work, error)
          if (allocated(error)) return
          ended = ended + 1
          call display%update(real(ended, wp)/real(size(due), wp))
@@ -96,6 +101,9 @@ contains
          interval = max(write_interval, write_share*seconds(now, began))
       end do
       call display%finish()
+      do job = 1, size(run_of)
+         if (run_of(job) > 0) code = remove_file(log_of_job(work, job))
+      end do
 
    contains
 
@@ -157,10 +165,20 @@ contains
       ready%cpu = after - before
    end subroutine turn_to_case
 
+   !> File that the runs of a job say to what they have to say.
+   function log_of_job(work, job) result(path)
+      type(sweep_work_t), intent(in) :: work       !! the sweep
+      integer, intent(in) :: job                   !! number of the job
+      character(:), allocatable :: path            !! of the file
+
+      path = work%plan%directory//runs_folder//"/job-"//to_text(job)//".log"
+   end function log_of_job
+
    !> Start a run. The copy of this process that makes it ends here.
-   subroutine start_run(ready, number, directory, work, process, error)
+   subroutine start_run(ready, number, log, directory, work, process, error)
       type(ready_t), intent(inout) :: ready                !! its case
       integer, intent(in) :: number                        !! of the run
+      character(*), intent(in) :: log                      !! file for its messages
       type(output_directory_t), intent(inout) :: directory !! of the sweep
       type(sweep_work_t), intent(in) :: work               !! the sweep
       integer, intent(out) :: process                      !! number of the process
@@ -169,11 +187,11 @@ contains
       integer :: code
 
       associate (place => work%directories(number)%s)
-         code = enter_file(place//".log")
+         code = enter_file(log)
          if (code == 0 .and. work%results%sweep%keeps_channels) code = enter_file(place//"/")
          if (path_exists(place)) call remove_run(place, code)
          process = -1
-         if (code == 0) code = start_member(place//".log", process)
+         if (code == 0) code = start_member(log, process)
          if (process == 0) then
             call directory%leave()
             if (code /= 0) call end_process(exit_file)
@@ -219,20 +237,19 @@ contains
    end subroutine make_run
 
    !> Take what a run left behind.
-   subroutine end_run(number, code, bytes, keeps_channels, work, error)
+   subroutine end_run(number, code, bytes, keeps_channels, log, work, error)
       integer, intent(in) :: number                      !! of the run
       integer, intent(in) :: code                        !! its exit code
       character(*), intent(in) :: bytes                  !! what it handed back
       logical, intent(in) :: keeps_channels              !! whether it has a directory
+      character(*), intent(in) :: log                    !! file of its messages
       type(sweep_work_t), intent(inout) :: work          !! the sweep
       type(error_t), allocatable, intent(out) :: error   !! the journal cannot be written
 
-      character(:), allocatable :: log
       type(run_record_t) :: record
       type(unpacker_t) :: unpacker
       integer :: ignored
 
-      log = work%directories(number)%s//".log"
       record%number = number
       record%exit_code = code
       record%message = ""
@@ -243,12 +260,15 @@ contains
          call record%member%complete()
          if (code == exit_ok) record%exit_code = exit_file
       end if
-      if (record%exit_code /= exit_ok) record%message = message_of(log, record%exit_code)
+      if (record%exit_code /= exit_ok) then
+         record%message = message_of(log, record%exit_code)
+         ignored = enter_file(work%directories(number)%s//".log")
+         if (ignored == 0) ignored = rename_path(log, work%directories(number)%s//".log")
+      end if
       call work%results%take(record)
       work%n_made = work%n_made + 1
       work%cpu_made = work%cpu_made + record%member%cpu_run
       call work%journal%add(record, error)
-      if (record%exit_code == exit_ok) ignored = remove_file(log)
    end subroutine end_run
 
    !> Why a run failed: its error message, without the picture of the place.
