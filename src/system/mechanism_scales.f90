@@ -6,6 +6,7 @@
 !> start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start lead; one millionth of 1/end, so that what
 !> never moves has one too. Where a load jumps, the accelerations lead anew.
 submodule(mechanism) mechanism_scales
+   use clearance_set, only: clearance_set_t
    use coordinates, only: most_rates
    use floors, only: idle_part, late, remembered, shortest_difference
    implicit none (type, external)
@@ -23,11 +24,11 @@ contains
    !> which is all within the clearance. While surfaces touch,
    !> all scales are a tenth: what an impact gives back is the difference of two large energies, and
    !> its dozen steps add up. Then no rate is asked for that round-off does not allow: a contact that swings with w makes speeds
-   !> of w times what a length as the mechanism's size is rounded by.
+   !> of w times what a length is rounded by that is the size of the bodies or, if more, the distance of its bodies from the origin.
    module procedure mechanism_weights
       real(wp), parameter :: touching = 0.1_wp  ! scales during contact [1]
       real(wp), parameter :: in_film = 0.003_wp  ! of the clearance: error of a length at most [1]
-      real(wp) :: rate, ratio, swing
+      real(wp) :: noise, rate, ratio
       integer :: i, k, n
 
       associate (linkage => self%linkage, n_unknown => self%linkage%rows%n_unknown, guided => self%linkage%reduced%guided, &
@@ -50,18 +51,19 @@ contains
          if (ratio < 1.0_wp) scale(:self%linkage%n_position + n) = ratio*scale(:self%linkage%n_position + n)
       end if
       if (self%friction%grips%n_bristle > 0) call self%bristle_weights(scale)
-      swing = -1.0_wp
+      noise = -1.0_wp
       do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
+         associate (set => self%loose%sets(k)%set, scales => self%linkage%scales, motion => self%linkage%motion)
             if (set%n_touching == 0) cycle
             do i = 1, set%n_contact
-               if (set%contact(i)%is_touching) swing = max(swing, set%contact(i)%swing)
+               if (.not. set%contact(i)%is_touching) cycle
+               noise = max(noise, set%contact(i)%swing*reach_of(set, i, scales%length, ubound(motion%angle, 1), motion%r))
             end do
          end associate
       end do
-      if (swing < 0.0_wp) return
-      rate = max(1.0_wp, epsilon(1.0_wp)*swing/(self%linkage%scales%tolerance*rate))
-      associate (nq => self%linkage%n_position)
+      if (noise < 0.0_wp) return
+      associate (nq => self%linkage%n_position, scales => self%linkage%scales)
+         rate = max(1.0_wp, epsilon(1.0_wp)*noise/(scales%tolerance*scales%length*rate))
          do k = 1, nq
             scale(k) = touching*scale(k)
          end do
@@ -70,6 +72,26 @@ contains
          end do
       end associate
    end procedure mechanism_weights
+
+   !> Length by whose rounding the penetration of a contact is known.
+   pure real(wp) function reach_of(set, contact, length, n_body, r) result(reach)
+      class(clearance_set_t), intent(in) :: set   !! loose joints
+      integer, intent(in) :: contact              !! one of their contacts
+      real(wp), intent(in) :: length              !! size of the bodies [m]
+      integer, intent(in) :: n_body               !! number of bodies
+      real(wp), intent(in) :: r(3, 0:n_body)      !! (3, 0:bodies) centres of mass [m]
+
+      integer :: c, side
+
+      reach = length
+      associate (item => (contact - 1)/set%n_contact_item + 1)
+         do side = 1, 2
+            do c = 1, 3
+               reach = max(reach, abs(r(c, set%items%body(side, item))))
+            end do
+         end do
+      end associate
+   end function reach_of
 
    !> Scales of the coordinates of guided bodies and of their rates.
    pure subroutine weigh_guided(n, n_turning, length, rate, position, speed)
