@@ -4,7 +4,7 @@
 !> does
 !> not say how long to run. Every statement is either in the deck, or a setting of Adams, or named in the list.
 !>
-!> Source: the public descriptions of the statements of Adams/Solver. Limits: those of `adams_model`, `adams_joints`,
+!> Source: the public descriptions of the statements of Adams/Solver. Limits: those of `adams_parts`, `adams_joints`,
 !> `adams_forces`.
 module adams_deck
    use adams_arguments, only: name_small_degrees, name_unknown_arguments
@@ -13,9 +13,11 @@ module adams_deck
    use adams_gears, only: add_gears
    use adams_joints, only: add_joints, add_primitives
    use adams_loads, only: add_loads
-   use adams_model, only: adams_model_t, argument_numbers, leave_out, mistake, new_model, part_t
+   use adams_model, only: adams_model_t, leave_out, part_t
    use adams_motions, only: add_motions
    use adams_names, only: full_names, is_refused, is_setting, is_understood, reason_against
+   use adams_numbers, only: argument_numbers, mistake
+   use adams_parts, only: new_model
    use adams_splines, only: name_idle_splines
    use adams_starts, only: sliding_velocity
    use dataset, only: has_word, line_words, read_statements, statement_t

@@ -17,7 +17,8 @@
 module adams_forces
    use adams_joints, only: named, two_markers
    use adams_loads, only: put_alone
-   use adams_model, only: adams_model_t, argument_numbers, leave_out
+   use adams_model, only: adams_model_t, leave_out
+   use adams_numbers, only: argument_numbers
    use adams_starts, only: angle_at_start
    use dataset, only: expression_of, has_word, statement_t
    use deck_draft, only: body_axis, body_name, deck_draft_t, tab

@@ -11,7 +11,8 @@
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: other joints, axes that meet or are one.
 module adams_gears
    use adams_joints, only: named
-   use adams_model, only: adams_model_t, argument_numbers, id_of, leave_out, mistake
+   use adams_model, only: adams_model_t, leave_out
+   use adams_numbers, only: argument_numbers, id_of, mistake
    use dataset, only: statement_t
    use deck_draft, only: deck_draft_t, joint_t, tab
    use deck_table, only: direction_cell

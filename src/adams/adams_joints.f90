@@ -10,7 +10,8 @@
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: a RACKPIN whose x and z are not along one another.
 module adams_joints
-   use adams_model, only: adams_model_t, argument_numbers, id_of, leave_out, mistake
+   use adams_model, only: adams_model_t, leave_out
+   use adams_numbers, only: argument_numbers, id_of, mistake
    use adams_starts, only: add_start
    use dataset, only: has_word, line_words, statement_t
    use deck_draft, only: body_axis, deck_draft_t, joint_t, tab

@@ -10,7 +10,8 @@
 !> reactions on the ground.
 module adams_loads
    use adams_joints, only: named
-   use adams_model, only: adams_model_t, find_statement, id_of, leave_out, mistake
+   use adams_model, only: adams_model_t, find_statement, leave_out
+   use adams_numbers, only: id_of, mistake
    use dataset, only: expression_of, find_argument, statement_t
    use deck_draft, only: body_axis, body_name, deck_draft_t, tab
    use diagnostics, only: diagnostics_t

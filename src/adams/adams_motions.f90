@@ -9,7 +9,8 @@ module adams_motions
    use adams_expression, only: depends_on, on_time, parse_tree, tree_t
    use adams_integrals, only: integral_text
    use adams_joints, only: named, two_markers
-   use adams_model, only: adams_model_t, argument_numbers, find_statement, id_of, leave_out, mistake
+   use adams_model, only: adams_model_t, find_statement, leave_out
+   use adams_numbers, only: argument_numbers, id_of, mistake
    use adams_splines, only: name_splines
    use adams_starts, only: angle_at_start
    use adams_translation, only: deck_text, grouped, words_t

@@ -10,7 +10,8 @@
 !> Limits: curves of one argument, whose samples stand in the dataset; no derivatives.
 module adams_splines
    use adams_expression, only: node_call, node_curve, node_number, tree_t
-   use adams_model, only: adams_model_t, argument_numbers, find_statement, leave_out
+   use adams_model, only: adams_model_t, find_statement, leave_out
+   use adams_numbers, only: argument_numbers
    use akima, only: new_akima
    use curve, only: beyond_error, beyond_linear
    use dataset, only: has_word, line_words, statement_t

@@ -5,7 +5,8 @@
 !>
 !> Source: the public descriptions of the statements of Adams/Solver. Limits: bodies that slide on bodies that move.
 module adams_starts
-   use adams_model, only: adams_model_t, argument_numbers, leave_out
+   use adams_model, only: adams_model_t, leave_out
+   use adams_numbers, only: argument_numbers
    use dataset, only: has_word, statement_t
    use deck_draft, only: deck_draft_t, joint_t, tab
    use diagnostics, only: diagnostics_t

@@ -6,7 +6,8 @@ module force_parts
    use adams_expression, only: depends_on, is_measure, node_add, node_call, node_divide, node_multiply, node_negate, &
       node_subtract, on_other, on_rate, on_stretch, on_time, parse_tree, tree_t
    use adams_measures, only: name_measures
-   use adams_model, only: adams_model_t, find_statement, id_of
+   use adams_model, only: adams_model_t, find_statement
+   use adams_numbers, only: id_of
    use adams_splines, only: name_splines
    use adams_translation, only: coefficient_text, deck_text, grouped, is_undamped, words_t
    use dataset, only: expression_of, statement_t, upper_case
