@@ -1,9 +1,9 @@
 !> Scenes from decks, ready to run, and a recorder that keeps what it is told.
 module deck_scene
+   use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, new_system
    use catalogue, only: catalogue_t
    use check, only: check_true
-   use consistent_start, only: assembly_t
    use deck_file, only: read_deck
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t

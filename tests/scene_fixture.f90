@@ -1,8 +1,8 @@
 !> Scenes from decks written in a test: systems, starts, channels. Like checks, these do nothing once an error is there.
 module scene_fixture
+   use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, new_system
    use catalogue, only: catalogue_t
-   use consistent_start, only: assembly_t
    use deck_file, only: read_deck
    use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t

@@ -4,8 +4,9 @@
 !> driver, or a speed at the start, takes part in a contradiction if the mechanism can be assembled without it; two of them
 !> contradict each other.
 module driver_conflict
+   use assembly_report, only: assembly_t
    use build_system, only: new_system
-   use consistent_start, only: assemble, assembly_t
+   use consistent_start, only: assemble
    use errors, only: error_t, exit_assembly, set_error
    use item, only: item_t
    use joint_registry, only: n_joint_kinds

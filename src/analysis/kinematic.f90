@@ -9,7 +9,6 @@
 !> Source: Flores et al. (2008), section 2.4, figure 2.5. Limits: all joints ideal; no integrated works.
 module kinematic
    use catalogue, only: catalogue_t
-   use consistent_start, only: evaluate_rows
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, set_error
    use inverse_dynamics, only: find_reactions
@@ -22,6 +21,7 @@ module kinematic
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, not_finite_rows, open_rows, singular, solve_positions, solve_rates, solved
    use recorder, only: recorder_t, status_complete, status_failed, status_stopped, summary_t
+   use row_corrections, only: evaluate_rows
    use saved_run, only: wish_stop
    use text, only: append_text, real_text
    use step_follower, only: follow_motion, must_follow

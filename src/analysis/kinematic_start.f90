@@ -1,10 +1,13 @@
 !> Where a kinematic analysis begins: assembled positions, and a driver for every degree of freedom.
 module kinematic_start
-   use consistent_start, only: assemble, assembly_t, evaluate_rows, find_dependent
+   use assembly_report, only: assembly_t
+   use consistent_start, only: assemble
+   use dependent_rows, only: find_dependent
    use errors, only: error_t, exit_assembly, set_error
    use kinds, only: wp
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
    use mechanism, only: mechanism_t
+   use row_corrections, only: evaluate_rows
    use scene, only: scene_t
    use text, only: to_text
    implicit none (type, external)

@@ -1,7 +1,9 @@
 !> Where a motion begins: assembled positions, consistent velocities, no overlap; redundant rows are found and named.
 module start_state
+   use assembly_report, only: assembly_t
    use build_system, only: levels_ideal, new_system
-   use consistent_start, only: assemble, assembly_t, find_dependent
+   use consistent_start, only: assemble
+   use dependent_rows, only: find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, exit_deck, set_error
    use item, only: place_of

@@ -8,9 +8,11 @@
 !> Source and limits: static_problem.
 module static
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use assembly_report, only: assembly_t
    use build_system, only: levels_ideal, new_system
    use catalogue, only: catalogue_t
-   use consistent_start, only: assemble, assembly_t, find_dependent
+   use consistent_start, only: assemble
+   use dependent_rows, only: find_dependent
    use driver_conflict, only: name_conflict
    use errors, only: error_t, exit_assembly, set_error
    use film_heat, only: balance_heat

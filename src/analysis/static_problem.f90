@@ -12,13 +12,13 @@
 !> Optimization (2006), section 12.5 (second-order conditions). Limits: dense; friction and damping give no
 !> force at rest.
 module static_problem
-   use consistent_start, only: evaluate_rows, scaled_jacobian
    use inverse_dynamics, only: find_reactions
    use kinds, only: eps, i8, wp
    use lapack, only: dsyev, dsygv
    use mobility, only: split_space
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_rates
+   use row_corrections, only: evaluate_rows, scaled_jacobian
    implicit none (type, external)
    private
    public :: balance_t, evaluate_balance, free_stiffness, is_balanced, load_scale, look_at, position_scale, square_frequencies

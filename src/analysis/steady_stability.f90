@@ -11,7 +11,6 @@
 !> and this is told instead.
 module steady_stability
    use clearance_set, only: clearance_set_t
-   use consistent_start, only: least_correction
    use film_law, only: film_motion_t, film_slopes_t
    use journal_whirl, only: find_whirl, whirl_t
    use kinds, only: i8, two_pi, wp
@@ -19,6 +18,7 @@ module steady_stability
    use linearised, only: film_coefficients_t, linearised_t
    use mechanism, only: mechanism_t
    use prescribed_motion, only: newton_t, solve_rates
+   use row_corrections, only: least_correction
    use static_problem, only: balance_t, load_scale, look_at, position_scale, unbalanced_load
    use text, only: real_text
    implicit none (type, external)

@@ -1,7 +1,7 @@
 !> Films of a deck at their steady state, for `gudgeon explain`: what they carry, their coefficients, when a whirl sets in.
 module explain_films
+   use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, new_system
-   use consistent_start, only: assembly_t
    use console, only: say
    use errors, only: error_t
    use kinds, only: wp

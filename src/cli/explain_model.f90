@@ -1,7 +1,7 @@
 !> The size of the model and how it was assembled, for `gudgeon explain`.
 module explain_model
+   use assembly_report, only: assembly_t
    use console, only: say
-   use consistent_start, only: assembly_t
    use item, only: item_t
    use kind_info, only: kind_info_t
    use kinds, only: wp

@@ -1,10 +1,10 @@
 !> What a run of a deck is to write and to say: the plan that its recorder follows.
 module run_plan
+   use assembly_report, only: assembly_t
    use blas_threads, only: blas_kernels
    use build_info, only: compile_flags, compiler, git_sha1
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
-   use consistent_start, only: assembly_t
    use deck_texts, only: deck_text, get_includes
    use drawn_figures, only: plan_drawn_figures
    use figure_words, only: check_figures, figure_t

@@ -1,7 +1,7 @@
 !> `gudgeon explain DECK` and `gudgeon check DECK`: what would run, without running it.
 module verb_explain
+   use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, levels_ideal, new_system
-   use consistent_start, only: assembly_t
    use console, only: say
    use echo, only: all_defaults
    use errors, only: error_t

@@ -1,9 +1,9 @@
 !> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
 module verb_run
    use accurate_run, only: budget_of, check_accuracy, choose_tolerance, tell_accuracy
+   use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, levels_ideal, new_system
    use checkpoint_file, only: read_checkpoint
-   use consistent_start, only: assembly_t
    use dynamic, only: run_dynamic
    use errors, only: error_t, exit_file, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t

@@ -1,7 +1,7 @@
 !> One run of a scene with a setting: its system and start made anew, so that no run knows of another.
 module setting_run
+   use assembly_report, only: assembly_t
    use build_system, only: levels_as_written, new_system
-   use consistent_start, only: assembly_t
    use diagnostics, only: diagnostics_t
    use dynamic, only: run_dynamic
    use errors, only: error_t

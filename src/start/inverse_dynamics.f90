@@ -8,10 +8,10 @@
 !> Source: Flores et al. (2008), section 2.5, eq. (2.14). Limits: dense, by singular values
 !> (LAPACK dgelsd).
 module inverse_dynamics
-   use consistent_start, only: rank_tolerance, scaled_jacobian
    use kinds, only: wp
    use lapack, only: dgelsd
    use linkage, only: linkage_t
+   use row_corrections, only: rank_tolerance, scaled_jacobian
    implicit none (type, external)
    private
    public :: find_reactions

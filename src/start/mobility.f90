@@ -8,10 +8,10 @@
 !> Source: Flores et al. (2008), section 2.4 (drivers and degrees of freedom); Golub and Van
 !> Loan, Matrix Computations, sections 2.5 and 5.4 (rank). Limits: dense; the present position only.
 module mobility
-   use consistent_start, only: rank_tolerance, scaled_jacobian
    use kinds, only: wp
    use lapack, only: dgeqp3, dgesvd
    use linkage, only: linkage_t
+   use row_corrections, only: rank_tolerance, scaled_jacobian
    use text, only: append_text, text_t, to_text
    implicit none (type, external)
    private

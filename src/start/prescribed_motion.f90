@@ -10,9 +10,9 @@
 !> coordinates; a position near the one given.
 module prescribed_motion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use consistent_start, only: evaluate_rows, least_correction, limit_step, rates, worst_violation
    use kinds, only: i8, wp
    use linkage, only: linkage_t
+   use row_corrections, only: evaluate_rows, least_correction, limit_step, rates, worst_violation
    implicit none (type, external)
    private
    public :: newton_t, solve_positions, solve_rates

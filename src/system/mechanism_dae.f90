@@ -4,7 +4,8 @@
 !> For q' = N v the first equation is q' = N (v - M^{-1} Phi_q^T mu).
 submodule(mechanism) mechanism_dae
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use consistent_start, only: assembly_t, choose_dependent
+   use assembly_report, only: assembly_t
+   use dependent_rows, only: choose_dependent
    use rows, only: place_in_row, rows_t
    implicit none (type, external)
 

@@ -1,11 +1,11 @@
 !> Freedoms and drivers in excess of small mechanisms, counted by hand.
 module test_mobility
    use check, only: check_close, check_equal, check_true, suite_t
-   use consistent_start, only: evaluate_rows
    use errors, only: error_t
    use kinds, only: wp
    use mobility, only: find_mobility, joint_names, mobility_t, moving_bodies
    use mechanism, only: mechanism_t
+   use row_corrections, only: evaluate_rows
    use scene_fixture, only: nl, system_of_text
    implicit none (type, external)
    private

@@ -1,10 +1,12 @@
 !> The sparse start against the dense one: the same positions, velocities and dependent rows.
 module test_sparse_start
+   use assembly_report, only: assembly_t
    use build_system, only: levels_ideal, new_system
    use check, only: check_close, check_equal, check_true, suite_t
-   use consistent_start, only: assemble, assembly_t, choose_dependent, evaluate_rows
+   use consistent_start, only: assemble
    use deck_file, only: read_deck
    use deck_types, only: deck_t
+   use dependent_rows, only: choose_dependent
    use diagnostics, only: diagnostics_t
    use envelope, only: envelope_t, factorise_semidefinite, new_envelope, solve_factored, vanishing_vector
    use errors, only: error_t, exit_assembly
@@ -12,6 +14,7 @@ module test_sparse_start
    use kinds, only: i8, wp
    use mechanism, only: mechanism_t
    use read_scene, only: scene_from_deck
+   use row_corrections, only: evaluate_rows
    use scene, only: scene_t
    use scene_fixture, only: nl, read_scene_text
    use text, only: text_t, to_text

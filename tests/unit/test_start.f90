@@ -1,7 +1,7 @@
 !> The start of a motion: assembly, least corrections, and what cannot be assembled.
 module test_start
+   use assembly_report, only: assembly_t
    use check, only: check_close, check_equal, check_true, suite_t
-   use consistent_start, only: assembly_t
    use errors, only: error_t, exit_assembly, exit_internal, set_error
    use fixed_random, only: random_t
    use kinds, only: i8, pi, wp

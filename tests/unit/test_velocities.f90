@@ -1,7 +1,7 @@
 !> Velocities at the start: what the deck gives stays, what it leaves out follows, what contradicts is reported.
 module test_velocities
+   use assembly_report, only: assembly_t
    use check, only: check_close, check_equal, check_true, suite_t
-   use consistent_start, only: assembly_t
    use errors, only: error_t
    use kinds, only: pi, wp
    use mechanism, only: mechanism_t

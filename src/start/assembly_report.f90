@@ -1,0 +1,20 @@
+!> How an assembly went: what it moved, what is left open, which rows depend on others.
+module assembly_report
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: assembly_t
+
+   !> How an assembly went.
+   type :: assembly_t
+      integer :: rank = 0                        !! independent constraint rows
+      integer :: corrections = 0                 !! Newton corrections made
+      real(wp) :: moved = 0.0_wp                 !! greatest change of a coordinate, angles times the size of the bodies [m]
+      real(wp) :: residual = 0.0_wp              !! greatest violation left [m or rad]
+      real(wp) :: rate_changed = 0.0_wp          !! greatest change of a given velocity, angles times the size of the bodies [m/s]
+      integer :: changed_body = 0                !! the body it belongs to
+      integer, allocatable :: dependent(:)       !! rows that depend on others
+      integer, allocatable :: shared(:)          !! rows, those among them, whose multipliers are not unique
+   end type assembly_t
+
+end module assembly_report

@@ -1,0 +1,109 @@
+!> What is said of a mechanism that cannot be assembled: where, by how much, and what may be the matter.
+module start_errors
+   use errors, only: error_t, exit_assembly, set_error
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use linkage, only: linkage_t
+   use row_corrections, only: evaluate_rows
+   use text, only: real_text, to_text
+   implicit none (type, external)
+   private
+   public :: check_finite, position_error, velocity_error
+
+contains
+
+   !> The mechanism does not close: say where and by how much. A joint whose axes no small turn brings nearer where the deck puts
+   !> the bodies is to blame, whichever joint is torn where the search ended: from there on the corrections are as good as chance.
+   subroutine position_error(linkage, q, v, error)
+      type(linkage_t), intent(inout) :: linkage          !! the system, rows evaluated where the search ended
+      real(wp), intent(in) :: q(:)                       !! (n_q bodies) coordinates of the deck [any]
+      real(wp), intent(in) :: v(:)                       !! (n_v bodies) rates [m/s or rad/s]
+      type(error_t), allocatable, intent(out) :: error   !! the message
+
+      character(:), allocatable :: hint, place
+      real(wp) :: open
+      integer :: dead, row
+
+      row = maxloc(abs(linkage%rows%phi)*linkage%solution%row_weight, dim=1)
+      open = abs(linkage%rows%phi(row))
+      place = "stays open"
+      call evaluate_rows(linkage, 0.0_wp, q, v)
+      dead = dead_row(linkage)
+      if (dead > 0) then
+         row = dead
+         open = abs(linkage%rows%phi(row))
+         place = "is open where the deck puts its bodies,"
+         hint = "its axes stand at right angles where they should be parallel, or the other way round, and nothing tells "// &
+                "which way to turn"//new_line("a")//"  = give other axes, or turn one of its bodies in the deck"
+      else
+         hint = "the bodies were moved as little as possible from where the deck puts them, without success"//new_line("a")// &
+                "  = check the points of this joint, the lengths of the loop, and the start positions"
+      end if
+      call set_error(error, exit_assembly, "the mechanism cannot be assembled: joint '"//linkage%row_name(row)// &
+                     "' "//place//" by "//real_text(open, 4)// &
+                     trim(merge(" rad", " m  ", linkage%rows%is_angle(row)))//new_line("a")//"  = "//hint)
+   end subroutine position_error
+
+   !> The row between axes, far from zero, that small turns help least; 0: they help all. Of axes with an angle theta between them
+   !> it is cos(theta), which changes by sin(theta) with it.
+   pure integer function dead_row(linkage) result(row)
+      type(linkage_t), intent(in) :: linkage     !! the system, rows evaluated
+
+      real(wp), parameter :: far = 0.5_wp        ! least violation of such a row [1]
+      real(wp), parameter :: dead = 0.05_wp      ! greatest entry, of the violation, of a row that small turns hardly help [1]
+      real(wp) :: help, least
+      integer :: k
+
+      row = 0
+      least = dead
+      do k = 1, linkage%rows%n
+         if (.not. (linkage%rows%is_angle(k) .and. abs(linkage%rows%phi(k)) > far)) cycle
+         help = maxval(abs(linkage%rows%jac(:, k)))/abs(linkage%rows%phi(k))
+         if (help >= least) cycle
+         row = k
+         least = help
+      end do
+   end function dead_row
+
+   !> A driver that has no value or no rate at the start.
+   subroutine check_finite(linkage, values, error)
+      type(linkage_t), intent(in) :: linkage             !! the system
+      real(wp), intent(in) :: values(:)                  !! (rows) of the rows [m or rad, or rates]
+      type(error_t), allocatable, intent(out) :: error   !! one of them is not finite
+
+      integer :: row
+
+      row = findloc(ieee_is_finite(values), .false., dim=1)
+      if (row == 0) return
+      call set_error(error, exit_assembly, "the start cannot be found: '"//linkage%row_name(row)// &
+                     "' or its rate is not a finite number at t = 0"//new_line("a")// &
+                     "  = look for a driver that begins with an infinite speed")
+   end subroutine check_finite
+
+   !> The velocities contradict each other.
+   subroutine velocity_error(linkage, right, error)
+      type(linkage_t), intent(in) :: linkage             !! the system
+      real(wp), intent(in) :: right(:)                   !! (rows) rates of the violations left [m/s or rad/s]
+      type(error_t), allocatable, intent(out) :: error   !! the message
+
+      real(wp), parameter :: guilty = 0.1_wp  ! least share of the greatest residual of a row that is named too [1]
+      character(:), allocatable :: others
+      real(wp) :: scaled(linkage%rows%n)
+      integer :: k, row
+
+      scaled = abs(right)*linkage%solution%row_weight
+      row = maxloc(scaled, dim=1)
+      others = ""
+      do k = 1, linkage%rows%n
+         if (scaled(k) < guilty*scaled(row) .or. linkage%row_name(k) == linkage%row_name(row)) cycle
+         if (index(others//",", " '"//linkage%row_name(k)//"',") == 0) others = others//", '"//linkage%row_name(k)//"'"
+      end do
+      if (len(others) > 0) others = new_line("a")//"  = against it stand "//others(3:)
+      call set_error(error, exit_assembly, "no velocities fulfil the constraints: joint or driver '"// &
+                     linkage%row_name(row)//"' is left with "//to_text(abs(right(row)))// &
+                     trim(merge(" rad/s", " m/s  ", linkage%rows%is_angle(row)))//others//new_line("a")// &
+                     "  = two drivers or initial speeds may contradict each other, or the mechanism is in a dead point that a "// &
+                     "driver wants to pass")
+   end subroutine velocity_error
+
+end module start_errors
