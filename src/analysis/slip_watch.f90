@@ -1,6 +1,5 @@
 !> Follows the friction of contacts that slip or stick: one row for each change.
 module slip_watch
-   use catalogue, only: state_free, state_name
    use contact_grip, only: is_undecided, sticks
    use contact_places, only: slip_function, turn_function
    use floors, only: at_rest
@@ -9,6 +8,7 @@ module slip_watch
    use kinds, only: not_a_number, wp
    use mechanism, only: mechanism_t
    use recorder, only: event_t
+   use states_of_contacts, only: state_free, state_name
    implicit none (type, external)
    private
    public :: decide_next, find_reversal, handle_slip, note_jumps, sliding_way, unsettle

@@ -1,6 +1,7 @@
 !> What a channel that does not exist may have meant.
 module channel_hints
-   use catalogue, only: catalogue_t, n_rooms, room_contacts, room_energy
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: n_rooms, room_contacts, room_energy
    use channel_names, only: item_name
    use spelling, only: nearest_word
    use text, only: append_text, join, text_t

@@ -2,7 +2,8 @@
 !>
 !> A contact belongs to its joint. Its label stands in the name only if the joint has several contacts.
 module channel_names
-   use catalogue, only: catalogue_t, room_contacts, room_energy
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_contacts, room_energy
    implicit none (type, external)
    private
    public :: base_name, component_letter, item_name, label_in_name, scalar_name, scalar_t

@@ -4,7 +4,8 @@
 !> of a contact, `guide.A.penetration` where a joint has several, `energy.residual`, `energy.*`, `request.NAME`. A `*` for the item
 !> stands for everything but points, which have channels only where they are named.
 module channels
-   use catalogue, only: catalogue_t, n_rooms, room_contacts, room_points
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: n_rooms, room_contacts, room_points
    use channel_hints, only: is_same, suggestion
    use channel_names, only: component_letter, item_name, scalar_t
    use name_table, only: name_table_t

@@ -1,6 +1,7 @@
 !> Requests that are expressions over channels: understood when it is known which channels there are.
 module formula_words
-   use catalogue, only: catalogue_t, room_contacts, room_requests
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_contacts, room_requests
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
    use deck_types, only: deck_t

@@ -4,7 +4,8 @@
 !> A picture is that of the output instant nearest to the time asked for. A path has a place for each row of the window, and is
 !> thinned as it grows: memory does not grow with the run. Where two rows of a loose joint become one, the greater force stays.
 module frames
-   use catalogue, only: catalogue_t, room_clearances, room_forces
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances, room_forces
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use scene_poses, only: pose_reader_t

@@ -1,6 +1,7 @@
 !> Where bodies and contacts are at a sample: read from the catalogue, for what draws a mechanism.
 module scene_poses
-   use catalogue, only: catalogue_t, room_bodies, room_clearances, room_contacts
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use rotations, only: rotation_about, rotation_of_parameters

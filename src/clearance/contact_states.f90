@@ -4,11 +4,11 @@
 !> A contact is free or touching; it changes only at located events, and only by the procedures below: the impact speed is stored
 !> at the onset, the greatest force and penetration as steps find them, and the end makes a row of the list of events.
 module contact_states
-   use catalogue, only: state_contact, state_free, state_name
    use contact_grip, only: grip_t
    use contact_memory, only: contact_memory_t, n_contact_memory
    use kinds, only: not_a_number, wp
    use recorder, only: event_t
+   use states_of_contacts, only: state_contact, state_free, state_name
    use text, only: text_t
    implicit none (type, external)
    private

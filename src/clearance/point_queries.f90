@@ -1,6 +1,5 @@
 !> What is asked of contacts at points beside their evaluation: gaps, forces and their rates, how they lie, channels, energy.
 submodule(point_contacts) point_queries
-   use catalogue, only: state_contact, state_free
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
    use film_law, only: film_motion_t
@@ -8,6 +7,7 @@ submodule(point_contacts) point_queries
    use motion, only: cross
    use kinds, only: not_a_number
    use normal_law, only: n_law_parameter, normal_law_t
+   use states_of_contacts, only: state_contact, state_free
    use surfaces, only: shape_internal, surfaces_t
    implicit none (type, external)
 

@@ -11,7 +11,6 @@
 !> that a spinning journal does not slide, and lets f_i act at Q_i and f_j at Q_j, (4.10)-(4.13), which leaves a couple delta F_T.
 !> `is_book` does as the book prints. Limits: both surfaces round; one contact per joint.
 module round_contacts
-   use catalogue, only: state_contact, state_film, state_mixed
    use clearance_set, only: loss_contact, loss_friction
    use contact_laws, only: press_in_course
    use contact_memory, only: contact_memory_t
@@ -27,6 +26,7 @@ module round_contacts
    use readings, only: readings_t
    use revolute_level, only: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_power, &
       of_film_pressure, of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
+   use states_of_contacts, only: state_contact, state_film, state_mixed
    implicit none (type, external)
    private
    public :: journal_t, round_contacts_t

@@ -3,7 +3,6 @@
 !> Levels are those of the plane, see `clearance_revolute`. Channels of the force and of the moment are those of contacts and film
 !> together. Limits: those of both.
 module socket_joints
-   use catalogue, only: state_contact, state_film, state_mixed
    use film_law, only: film_motion_t, greatest_eccentricity
    use film_places, only: film_state_t
    use item, only: item_t
@@ -16,6 +15,7 @@ module socket_joints
    use rotations, only: axes_across
    use socket_contacts, only: socket_contacts_t
    use socket_films, only: socket_films_t
+   use states_of_contacts, only: state_contact, state_film, state_mixed
    implicit none (type, external)
    private
    public :: socket_joints_t

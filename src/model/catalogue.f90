@@ -1,59 +1,19 @@
 !> What a scene can report: every channel of every item, with its current values.
 !>
 !> A room of the catalogue is a list of items of one sort (bodies, joints, ...); a group is one
-!> quantity of all the items of a room, one dataset of the output file. The equations fill `data`;
+!> quantity of all the items of a room, one dataset of the output file. The equations fill `values`;
 !> the writers in output/ read the rest once and know no kind by name.
 module catalogue
    use, intrinsic :: ieee_exceptions, only: ieee_get_status, ieee_set_halting_mode, ieee_set_status, ieee_status_type, ieee_usual
+   use catalogue_groups, only: group_t, resize_groups
+   use catalogue_rooms, only: add_to_room, has_channel, n_rooms, resize_room, room_clearances, room_contacts, room_paths, room_t
    use expression, only: expression_t, most_seen
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: not_a_number, wp
    use readings, only: reading_offer_t, reading_plan_t, readings_t
-   use text, only: text_t
    implicit none (type, external)
    private
-   public :: bound_formula_t, catalogue_t, group_t, names_of_channels, room_t
-   public :: n_rooms, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, room_joints
-   public :: room_motions, room_points, room_reactions, room_requests
-   public :: state_contact, state_film, state_free, state_mixed
-   public :: state_name
-
-   integer, parameter :: room_bodies = 1      !! bodies, in deck order, without the ground
-   integer, parameter :: room_joints = 2      !! ideal joints
-   integer, parameter :: room_drivers = 3     !! drivers
-   integer, parameter :: room_clearances = 4  !! joints with clearance
-   integer, parameter :: room_contacts = 5    !! possible contacts of the joints with clearance
-   integer, parameter :: room_forces = 6      !! force elements
-   integer, parameter :: room_energy = 7      !! the energy ledger: one item without a name
-   integer, parameter :: room_points = 8      !! points of the deck
-   integer, parameter :: room_motions = 9     !! points as seen from elsewhere
-   integer, parameter :: room_reactions = 10  !! reactions at points
-   integer, parameter :: room_requests = 11   !! expressions over channels: one item, a group of its own for each
-   integer, parameter :: n_rooms = 11         !! number of rooms
-
-   integer, parameter :: state_free = 0     !! contact state: bodies apart
-   integer, parameter :: state_contact = 1  !! contact state: dry contact
-   integer, parameter :: state_film = 2     !! contact state: carried by a film
-   integer, parameter :: state_mixed = 3    !! contact state: film and contact
-
-   !> One quantity of all the items of a room.
-   type :: group_t
-      integer :: room = 0                     !! room, one of the above
-      type(channel_t) :: channel              !! name, SI unit, frame, components and long name
-      logical, allocatable :: has(:)          !! (items) which of them have the channel
-      logical, allocatable :: is_wanted(:)    !! (items) whose value someone reads; others may not be found
-      integer :: before = 0                   !! numbers before its own in `values`: all components of its first item, of its second
-   end type group_t
-
-   !> The items of one sort.
-   type :: room_t
-      integer :: n = 0                         !! number of items
-      character(:), allocatable :: name        !! path in the output file: bodies, joints, clearances/contacts ...
-      type(text_t), allocatable :: names(:)    !! (items) name of each item; of a contact: its joint's
-      type(text_t), allocatable :: labels(:)   !! (items) of contacts: label within the joint; else blank
-      real(wp), allocatable :: radius(:)       !! (items) of clearances: radial clearance; else 0 [m]
-      type(text_t), allocatable :: channels(:) !! (items) " name name " of the channels it has; empty: all of the room's
-   end type room_t
+   public :: bound_formula_t, catalogue_t, names_of_channels
 
    !> An expression over channels, bound to the catalogue that it stands in.
    type :: bound_formula_t
@@ -114,7 +74,7 @@ contains
 
       if (self%find_group(room, channel%name) > 0) return
       if (.not. allocated(self%groups)) allocate (self%groups(32))
-      if (self%n_group == size(self%groups)) call resize_groups(self, 2*self%n_group)
+      if (self%n_group == size(self%groups)) call resize_groups(self%groups, self%n_group, 2*self%n_group)
       self%n_group = self%n_group + 1
       associate (group => self%groups(self%n_group))
          group%room = room
@@ -122,38 +82,6 @@ contains
          if (channel%components == 2) group%channel%components = self%n_coordinates
       end associate
    end subroutine catalogue_add_group
-
-   !> Give the quantities another number of places, and keep them.
-   subroutine resize_groups(self, places)
-      class(catalogue_t), intent(inout) :: self  !! the catalogue
-      integer, intent(in) :: places              !! as many as there are quantities, or more
-
-      type(group_t), allocatable :: moved(:)
-      integer :: k
-
-      allocate (moved(places))
-      do k = 1, self%n_group
-         call take_over(self%groups(k), moved(k))
-      end do
-      call move_alloc(moved, self%groups)
-   end subroutine resize_groups
-
-   !> A quantity to another place.
-   subroutine take_over(from, to)
-      type(group_t), intent(inout) :: from  !! the quantity; afterwards without texts and values
-      type(group_t), intent(inout) :: to    !! the same
-
-      to%room = from%room
-      to%channel%components = from%channel%components
-      to%channel%code = from%channel%code
-      call move_alloc(from%channel%name, to%channel%name)
-      call move_alloc(from%channel%unit, to%channel%unit)
-      call move_alloc(from%channel%frame, to%channel%frame)
-      call move_alloc(from%channel%help, to%channel%help)
-      call move_alloc(from%has, to%has)
-      call move_alloc(from%is_wanted, to%is_wanted)
-      to%before = from%before
-   end subroutine take_over
 
    !> Add all the channels that a kind announces to a room.
    subroutine catalogue_add_kind(self, room, info)
@@ -178,42 +106,8 @@ contains
       real(wp), intent(in), optional :: radius         !! of a clearance joint: radial clearance [m]
       character(*), intent(in), optional :: channels   !! present: it has only these, see `names_of_channels`
 
-      associate (items => self%rooms(room))
-         if (.not. allocated(items%names)) call resize(items, 8)
-         if (items%n == size(items%names)) call resize(items, 2*items%n)
-         items%n = items%n + 1
-         items%names(items%n)%s = name
-         items%labels(items%n)%s = ""
-         if (present(label)) items%labels(items%n)%s = label
-         items%radius(items%n) = 0.0_wp
-         if (present(radius)) items%radius(items%n) = radius
-         items%channels(items%n)%s = ""
-         if (present(channels)) items%channels(items%n)%s = channels
-      end associate
+      call add_to_room(self%rooms(room), name, label, radius, channels)
    end subroutine catalogue_add_item
-
-   !> Give a room another number of places, and keep its items.
-   subroutine resize(room, places)
-      type(room_t), intent(inout) :: room  !! the room
-      integer, intent(in) :: places        !! as many as it has items, or more
-
-      type(text_t), allocatable :: channels(:), names(:), labels(:)
-      real(wp), allocatable :: radius(:)
-      integer :: k
-
-      allocate (names(places), labels(places), channels(places))
-      allocate (radius(places), source=0.0_wp)
-      do k = 1, room%n
-         call move_alloc(room%names(k)%s, names(k)%s)
-         call move_alloc(room%labels(k)%s, labels(k)%s)
-         call move_alloc(room%channels(k)%s, channels(k)%s)
-         radius(k) = room%radius(k)
-      end do
-      call move_alloc(names, room%names)
-      call move_alloc(labels, room%labels)
-      call move_alloc(channels, room%channels)
-      call move_alloc(radius, room%radius)
-   end subroutine resize
 
    !> The channels of a kind, each between blanks.
    pure function names_of_channels(info) result(list)
@@ -368,16 +262,6 @@ contains
       if (allocated(info%channels)) count_channels = size(info%channels)
    end function count_channels
 
-   !> Whether an item of a room has a channel: it names its own, or has all of the room's.
-   pure logical function has_channel(room, channel, item) result(has)
-      type(room_t), intent(in) :: room        !! the room
-      character(*), intent(in) :: channel     !! name of the channel between blanks
-      integer, intent(in) :: item             !! number of the item
-
-      has = len(room%channels(item)%s) == 0
-      if (.not. has) has = index(room%channels(item)%s, channel) > 0
-   end function has_channel
-
    !> Make room for the values, all NaN; no more items come.
    subroutine catalogue_allocate_data(self)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
@@ -385,21 +269,11 @@ contains
       character(:), allocatable :: word
       integer :: item, k, n
 
-      self%rooms(room_bodies)%name = "bodies"
-      self%rooms(room_joints)%name = "joints"
-      self%rooms(room_drivers)%name = "drivers"
-      self%rooms(room_clearances)%name = "clearances"
-      self%rooms(room_contacts)%name = "clearances/contacts"
-      self%rooms(room_forces)%name = "forces"
-      self%rooms(room_energy)%name = "energy"
-      self%rooms(room_points)%name = "points"
-      self%rooms(room_motions)%name = "motions"
-      self%rooms(room_reactions)%name = "reactions"
-      self%rooms(room_requests)%name = "requests"
       do k = 1, n_rooms
-         call resize(self%rooms(k), self%rooms(k)%n)
+         self%rooms(k)%name = trim(room_paths(k))
+         call resize_room(self%rooms(k), self%rooms(k)%n)
       end do
-      call resize_groups(self, self%n_group)
+      call resize_groups(self%groups, self%n_group, self%n_group)
       if (.not. allocated(self%formulas)) allocate (self%formulas(0))
       n = 0
       do k = 1, size(self%groups)
@@ -415,24 +289,5 @@ contains
       if (allocated(self%values)) deallocate (self%values)
       allocate (self%values(n), source=not_a_number())
    end subroutine catalogue_allocate_data
-
-   !> The word for a contact state.
-   pure function state_name(state) result(word)
-      integer, intent(in) :: state         !! contact state, one of the above
-      character(:), allocatable :: word    !! as written in files
-
-      select case (state)
-      case (state_free)
-         word = "free"
-      case (state_contact)
-         word = "contact"
-      case (state_film)
-         word = "film"
-      case (state_mixed)
-         word = "mixed"
-      case default
-         word = "unknown"
-      end select
-   end function state_name
 
 end module catalogue

@@ -1,6 +1,7 @@
 !> The table /events of run.h5: one record per event, appended in the order told, sorted at the end.
 module hdf5_events
-   use catalogue, only: catalogue_t, n_rooms
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: n_rooms
    use event_list, only: event_list_t, n_event_numbers, n_event_words, number_long_names, number_names, number_units
    use event_list, only: word_long_names, word_names
    use hdf5, only: h5dclose_f, h5dget_space_f, h5dset_extent_f, h5dwrite_f, h5sclose_f, h5screate_simple_f

@@ -3,7 +3,8 @@
 !> A room appears if some item of it has a chosen channel, with all such items; a quantity appears
 !> if it is chosen for some item, and its dataset then holds all items of the room that appear.
 module hdf5_layout
-   use catalogue, only: catalogue_t, n_rooms, room_clearances, room_contacts, room_energy, room_requests
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: n_rooms, room_clearances, room_contacts, room_energy, room_requests
    use channels, only: selection_t
    use hdf5, only: h5dclose_f, h5dwrite_f, h5gclose_f, h5t_ieee_f64le, h5t_native_double, h5t_std_i8le
    use hdf5, only: hid_t, hsize_t

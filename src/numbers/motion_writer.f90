@@ -5,7 +5,8 @@
 !> whenever, leaves a file that can be read, with as many steps as it has times. (VTK 9.7 has room for `NSteps` times and writes
 !> beyond it where there are more; between the two flushes there are fewer, and it takes those that lack as 0.)
 module motion_writer
-   use catalogue, only: catalogue_t, room_bodies, room_contacts
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_bodies, room_contacts
    use channel_names, only: item_name, label_in_name
    use drawing, only: drawing_t
    use errors, only: error_t, exit_file, set_error

@@ -3,7 +3,8 @@
 !> Rows wait in memory and are written in blocks; a file that cannot take a block keeps the blocks
 !> before it. A clearance joint's file holds the channels of its contacts too.
 module text_writer
-   use catalogue, only: catalogue_t, n_rooms, room_clearances, room_contacts
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: n_rooms, room_clearances, room_contacts
    use channel_names, only: item_name, scalar_t
    use channels, only: selection_t
    use decimal_text, only: decimal_width

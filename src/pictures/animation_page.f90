@@ -4,7 +4,8 @@
 !> written by their codes, so that it is text in the script and in the page.
 module animation_page
    use animation_script, only: page_head, page_script
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances
    use display_units, only: choose_unit, display_unit_t
    use drawing, only: drawing_t, in_files
    use frames, only: frame_t, track_t

@@ -1,6 +1,6 @@
 !> Figures that are asked for like a call: a histogram, two scalars against each other, a picture of the mechanism.
 submodule(figure_words) figure_calls
-   use catalogue, only: room_contacts
+   use catalogue_rooms, only: room_contacts
    use channels, only: list_scalars, match_word, selection_t
    use film_words, only: film_hint, take_film
    use motion_words, only: motion_hint, take_motion

@@ -9,7 +9,8 @@
 !> end of the run; `film(JOINT,least)` where it is thinnest, `film(JOINT,0.3s)` at a time. The mechanism: `motion_words`.
 module figure_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances
    use channel_names, only: scalar_t
    use curve_words, only: bind_curves, curves_t
    use figure_phrase, only: phrase_hint, phrase_t, read_phrase

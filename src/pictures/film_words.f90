@@ -1,6 +1,7 @@
 !> The words of a figure of a film: `film(JOINT)`, `film(JOINT,end)`, `film(JOINT,least)`, `film(JOINT,0.3s)`.
 module film_words
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances
    use film_fields, only: field_request_t, film_field_t, moment_at, moment_end, moment_least
    use kind_info, only: dim_time, same_dimension
    use kinds, only: wp

@@ -1,6 +1,7 @@
 !> The gnuplot script of the path of a journal within its clearance.
 module orbit_script
-   use catalogue, only: catalogue_t, room_clearances
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances
    use display_units, only: choose_unit
    use figure_data, only: curve_t
    use figure_words, only: figure_t

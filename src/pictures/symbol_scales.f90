@@ -1,6 +1,7 @@
 !> Sizes of the symbols of a drawn mechanism, and what they tell of its motion: ways of slides, forces, magnified clearances.
 module symbol_scales
-   use catalogue, only: catalogue_t, room_clearances, room_forces
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_clearances, room_forces
    use drawing, only: drawing_t, mark_bearing, mark_load, mark_plane, mark_slide, mark_t
    use frames, only: frame_t
    use kinds, only: wp

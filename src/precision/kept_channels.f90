@@ -5,7 +5,9 @@
 !> or at each of a whole number of them. Every channel has a kind, by which its differences are measured (`channel_difference`):
 !> what has the same unit in the same room; of requests that are no lengths, rates, forces or energies each is a kind of its own.
 module kept_channels
-   use catalogue, only: catalogue_t, group_t, room_bodies, room_contacts, room_joints, room_requests
+   use catalogue, only: catalogue_t
+   use catalogue_groups, only: group_t
+   use catalogue_rooms, only: room_bodies, room_contacts, room_joints, room_requests
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kept_run, only: kept_run_t, n_sort, sort_of, sort_positions

@@ -5,7 +5,9 @@
 !> ways of three such points are kept, one on each of its own axes: the columns of the rotation times the radius. They do not know
 !> the sign of Euler parameters.
 module kept_run
-   use catalogue, only: catalogue_t, group_t, room_bodies, room_clearances, room_contacts, room_drivers, room_joints
+   use catalogue, only: catalogue_t
+   use catalogue_groups, only: group_t
+   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_joints
    use errors, only: error_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: not_a_number, wp

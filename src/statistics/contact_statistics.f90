@@ -1,7 +1,8 @@
 !> What the contacts of joints did between two instants, from the list of events.
 module contact_statistics
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use catalogue, only: catalogue_t, room_contacts
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_contacts
    use event_list, only: event_list_t
    use kinds, only: wp
    use name_table, only: name_table_t

@@ -3,8 +3,8 @@
 !> Names are compared when it is built, once for each set; what a set tells is a list of numbers from then on (`offer`), of which
 !> those are bound that someone wants.
 module mechanism_catalogue
-   use catalogue, only: catalogue_t, names_of_channels, room_bodies, room_clearances, room_contacts, room_drivers, room_energy, &
-      room_forces, room_joints
+   use catalogue, only: catalogue_t, names_of_channels
+   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_energy, room_forces, room_joints
    use joint_friction, only: friction_channels
    use joint_set, only: joint_set_t, of_coordinate
    use kind_info, only: add_channel, channel_t, kind_info_t

@@ -1,7 +1,7 @@
 !> What requests report: points, places, reactions at points, and expressions over channels.
 module request_report
-   use catalogue, only: bound_formula_t, catalogue_t, n_rooms, room_contacts, room_motions, room_points, room_reactions, &
-      room_requests
+   use catalogue, only: bound_formula_t, catalogue_t
+   use catalogue_rooms, only: n_rooms, room_contacts, room_motions, room_points, room_reactions, room_requests
    use kind_info, only: channel_t, kind_info_t
    use kinds, only: wp
    use mechanism, only: mechanism_t

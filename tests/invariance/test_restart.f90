@@ -2,7 +2,8 @@
 !>
 !> What is saved and refused by name: test_restart_refused.
 module test_restart
-   use catalogue, only: catalogue_t, room_bodies
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_bodies
    use check, only: check_close, check_equal, check_true, suite_t
    use checkpoint, only: checkpoint_t
    use deck_scene, only: dry_deck, keeper_t, load_file, loaded_t, run_to_end

@@ -1,6 +1,7 @@
 !> A made-up scene for the tests of output/: what it can report, and a place to write to.
 module output_scene
-   use catalogue, only: catalogue_t, names_of_channels, room_bodies, room_clearances, room_contacts, room_drivers, room_energy
+   use catalogue, only: catalogue_t, names_of_channels
+   use catalogue_rooms, only: room_bodies, room_clearances, room_contacts, room_drivers, room_energy
    use kind_info, only: add_channel, kind_info_t
    use kinds, only: wp
    use posix, only: list_directory, make_directory, path_exists, process_number, remove_within

@@ -1,6 +1,6 @@
 !> Differences of runs by channels, their scales, and the first contact that is another one, on runs made by hand.
 module test_channel_difference
-   use catalogue, only: room_clearances, room_energy
+   use catalogue_rooms, only: room_clearances, room_energy
    use channel_difference, only: channel_scales, set_differences
    use check, only: check_close, check_true, suite_t
    use errors, only: error_t

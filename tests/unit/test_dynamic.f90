@@ -1,7 +1,7 @@
 !> The analysis: what it hands to a recorder, when, and how it ends.
 module test_dynamic
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use catalogue, only: room_bodies
+   use catalogue_rooms, only: room_bodies
    use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: keeper_t, load_text, loaded_t, run_to_end
    use errors, only: error_t, exit_audit, exit_file, exit_integration

@@ -1,6 +1,7 @@
 !> Words for channels and figures: what they name, and what is said of those that name nothing.
 module test_output_channels
-   use catalogue, only: catalogue_t, room_bodies, room_contacts
+   use catalogue, only: catalogue_t
+   use catalogue_rooms, only: room_bodies, room_contacts
    use channel_names, only: component_letter, scalar_name, scalar_t
    use channels, only: list_scalars, select_channels, selection_t
    use check, only: check_equal, check_true, suite_t
