@@ -17,13 +17,13 @@ module deck_scene
    use recorder, only: event_t, recorder_t, summary_t
    use run_audit, only: limits_t
    use scene, only: scene_t
+   use scene_method, only: new_method
    use scratch_deck, only: remove_scratch, write_scratch
    use start_state, only: find_start
    use step_check, only: check_steps
    use subsystems, only: new_subsystems, subsystem_t
    use text, only: append_text, text_t
    use time_plan, only: new_time_plan, time_plan_t
-   use verb_run, only: new_method
    implicit none (type, external)
    private
    public :: dry_deck, keeper_t, load_file, load_text, loaded_t, run_to_end

@@ -28,13 +28,13 @@ module verb_precision
    use progress, only: progress_t
    use run_audit, only: limits_t
    use run_limits, only: limits_of
+   use run_place, only: directory_of
    use run_plan, only: tell_origin
    use scene, only: analysis_dynamic
    use scene_echo, only: echo_scene
    use text, only: append_text, replace, split_blank, text_t
    use text_file, only: fail_file, replace_file, write_file
    use text_table, only: file_heading
-   use verb_run, only: directory_of
    use version, only: program_version
    implicit none (type, external)
    private

@@ -1,47 +1,22 @@
-!> `gudgeon run DECK`: the analysis, the ideal twin of a motion for the figures, everything written.
+!> `gudgeon run DECK`: which analysis, and the proof that a restart makes no difference.
 module verb_run
-   use accurate_run, only: budget_of, check_accuracy, choose_tolerance, tell_accuracy
-   use assembly_report, only: assembly_t
-   use build_system, only: levels_as_written, levels_ideal, new_system
-   use checkpoint_file, only: read_checkpoint
-   use dynamic, only: run_dynamic
-   use errors, only: error_t, exit_file, exit_stopped, exit_usage, set_error
+   use accurate_run, only: check_accuracy
+   use errors, only: error_t, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t
-   use exponent_runs, only: find_horizon, plan_horizon
-   use horizon_memory, only: load_horizon
-   use integrator, only: integrator_t
-   use integrator_controls, only: read_controls
-   use integrator_registry, only: find_integrator
    use kinds, only: wp
    use load, only: load_deck, loaded_t
-   use mechanism, only: mechanism_t
    use member_result, only: member_result_t
-   use memory_purpose, only: memory_is_for
+   use motion_run, only: run_motion
    use options, only: options_t
-   use output_directory, only: output_directory_t
    use output_size, only: check_size
    use output_tree, only: remove_run
-   use output_plan, only: lifetime_t, output_plan_t, show_nothing
-   use perturbation, only: new_shift
-   use posix, only: write_error
-   use processes, only: asked_by, end_by, listen
-   use recorder, only: status_stopped, summary_t
-   use run_audit, only: limits_t
-   use run_limits, only: limits_of, twin_limits
-   use run_plan, only: make_plan
-   use restart_run, only: check_restart, check_schedule, compare_restarted, open_directory
-   use run_recorder, only: run_recorder_t
-   use saved_run, only: saved_run_t
-   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static, scene_t
-   use scene_echo, only: echo_scene
-   use setting_run, only: first_line, job_t
-   use start_state, only: find_start, ideal_start_t
-   use subsystems, only: new_subsystems, subsystem_t
-   use tape, only: tape_t
-   use text, only: starts_with, to_text
+   use processes, only: asked_by
+   use restart_run, only: check_restart, compare_restarted
+   use run_place, only: directory_of
+   use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, analysis_static
    implicit none (type, external)
    private
-   public :: directory_of, end_as_asked, new_method, run_deck, run_loaded
+   public :: run_deck, run_loaded
 
    interface
 
@@ -108,132 +83,6 @@ contains
       end select
    end subroutine run_loaded
 
-   !> Motion in time under forces.
-   subroutine run_motion(options, loaded, stop_at, horizon, error, member)
-      type(options_t), intent(in) :: options                       !! the command line
-      type(loaded_t), intent(inout) :: loaded                      !! the deck
-      real(wp), intent(in) :: stop_at                              !! time of the motion after which it is saved and ends [s]
-      type(horizon_t), intent(inout) :: horizon                    !! what is known of it; what is asked for and not known is found
-      type(error_t), allocatable, intent(out) :: error             !! whatever went wrong
-      type(member_result_t), intent(inout), optional :: member     !! what a sweep wants to know of the run
-
-      class(integrator_t), allocatable :: method
-      type(assembly_t) :: assembly
-      type(ideal_start_t) :: ideal
-      type(limits_t) :: limits
-      type(output_directory_t) :: directory
-      type(output_plan_t) :: plan
-      type(run_recorder_t) :: keeper
-      type(saved_run_t), allocatable :: saved
-      type(subsystem_t), allocatable :: subsystems(:)
-      type(summary_t) :: summary
-      logical :: goes_on, is_complete
-      real(wp), allocatable :: y(:)
-
-      call begin_motion(options, loaded, y, assembly, ideal, error)
-      if (allocated(error)) return
-      call open_place(options, loaded, directory, goes_on, is_complete, error)
-      if (allocated(error) .or. is_complete) return
-      call make_plan(options, loaded, directory, assembly, plan)
-      call set_life(options, goes_on, stop_at, plan%life)
-      if (options%digits%accuracy > 0.0_wp) then
-         call choose_tolerance(options, loaded, plan, error)
-         if (.not. allocated(error)) then
-            plan%origin%deck_echo = echo_scene(loaded%deck, loaded%scene)
-            call new_system(loaded%scene, levels_as_written, loaded%system)
-            call begin_motion(options, loaded, y, assembly, ideal, error)
-         end if
-         if (allocated(error)) call directory%close()
-         if (allocated(error)) return
-      end if
-      call new_method(loaded%scene, method)
-      call limits_of(loaded%scene, loaded%system, loaded%catalogue, limits, plan%warnings)
-      call memory_is_for("the equations of "//to_text(size(loaded%scene%bodies%names))//" bodies")
-      call new_subsystems(loaded%scene, levels_as_written, loaded%system, method, loaded%plan%end, subsystems)
-      call check_schedule(options, loaded, method, size(subsystems), error)
-      if (goes_on .and. .not. allocated(error)) call take_up(plan, saved, horizon, error)
-      if (allocated(error)) then
-         call directory%close()
-         return
-      end if
-      if (options%digits%with_horizon .and. .not. allocated(horizon%t)) call look_ahead(options, loaded, horizon)
-      plan%horizon = horizon
-      keeper%plan = plan
-      call listen(.true.)
-      call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error, saved)
-      call listen(.false.)
-      call conclude(loaded, ideal, keeper, summary, error)
-      call directory%close()
-      call tell_accuracy(plan%accuracy, error)
-      if (present(member)) call keeper%result(member)
-      call end_as_asked(summary, error)
-   end subroutine run_motion
-
-   !> When a run begins and ends, and that it is saved.
-   subroutine set_life(options, goes_on, stop_at, life)
-      type(options_t), intent(in) :: options        !! the command line
-      logical, intent(in) :: goes_on                !! an earlier run is gone on with
-      real(wp), intent(in) :: stop_at               !! time of the motion after which it is saved and ends [s]
-      type(lifetime_t), intent(inout) :: life       !! these are set
-
-      life%is_saved = options%write /= "nothing"
-      life%is_concluded_later = .true.
-      life%goes_on = goes_on
-      life%stop_at = stop_at
-   end subroutine set_life
-
-   !> What an earlier run has saved, and what it knew of its horizon.
-   subroutine take_up(plan, saved, horizon, error)
-      type(output_plan_t), intent(inout) :: plan                   !! of the run; learns where it goes on
-      type(saved_run_t), allocatable, intent(out) :: saved         !! what was saved
-      type(horizon_t), intent(out) :: horizon                      !! what was known of it; no instants: nothing
-      type(error_t), allocatable, intent(out) :: error             !! it cannot be read, or is of another run
-
-      type(tape_t) :: tape
-
-      allocate (saved)
-      call read_checkpoint(plan, saved, error)
-      if (allocated(error)) return
-      plan%life%resumed_from = saved%t
-      tape = saved%output  ! which the recorder reads from its beginning
-      call load_horizon(tape, horizon)
-   end subroutine take_up
-
-   !> After the motion: that of the ideal twin for the figures, the figures, the summary.
-   subroutine conclude(loaded, ideal, keeper, summary, error)
-      type(loaded_t), intent(in) :: loaded                      !! the deck
-      type(ideal_start_t), intent(inout) :: ideal               !! the start with ideal joints, if it was needed
-      type(run_recorder_t), intent(inout) :: keeper             !! kept the motion
-      type(summary_t), intent(in) :: summary                    !! its cost and errors
-      type(error_t), allocatable, intent(inout) :: error        !! why it ended early; or a file could not be written
-
-      type(error_t), allocatable :: late_error, twin_error
-      character(:), allocatable :: warning
-      logical :: has_twin
-
-      warning = ""
-      has_twin = size(keeper%plan%figures) > 0 .and. keeper%plan%with%figures .and. loaded%system%loose%n > 0 .and. &
-                 summary%status /= status_stopped
-      if (has_twin .and. allocated(error)) has_twin = error%code /= exit_file
-      if (has_twin) then
-         call run_twin(loaded, keeper%plan, ideal, twin_error)
-         if (allocated(twin_error)) warning = "the figures have no ideal joint overlaid: "//first_line(twin_error%message)
-      end if
-      call keeper%conclude(late_error, warning)
-      if (allocated(late_error) .and. .not. allocated(error)) call move_alloc(late_error, error)
-   end subroutine conclude
-
-   !> A run that a signal has ended without being saved: whoever waits for it learns which.
-   subroutine end_as_asked(summary, error)
-      type(summary_t), intent(in) :: summary                    !! how the run ended
-      type(error_t), allocatable, intent(in) :: error           !! why
-
-      if (.not. allocated(error) .or. asked_by() == 0) return
-      if (summary%status /= status_stopped .or. error%code == exit_stopped) return
-      call write_error(error%message//new_line("a"))
-      call end_by(asked_by())
-   end subroutine end_as_asked
-
    !> The run once more, stopped and resumed several times: it must be the same. Its horizon is that of the first one, as where the
    !> search ends is a matter of the clock.
    subroutine verify_restart(options, end, horizon, error)
@@ -270,142 +119,5 @@ contains
       call compare_restarted(directory, other%directory, done, options%is_quiet .or. options%is_json, error)
       if (.not. allocated(error)) call remove_run(other%directory, k)
    end subroutine verify_restart
-
-   !> The directory of a run, if it writes anything.
-   subroutine open_place(options, loaded, directory, goes_on, is_complete, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(output_directory_t), intent(inout) :: directory !! opened
-      logical, intent(out) :: goes_on                      !! an earlier run is gone on with
-      logical, intent(out) :: is_complete                  !! that run has ended: nothing is to be done
-      type(error_t), allocatable, intent(out) :: error     !! it cannot be made, or is not free
-
-      if (options%write /= "nothing") then
-         call open_directory(options, directory_of(options, loaded), directory, goes_on, is_complete, error)
-         return
-      end if
-      goes_on = .false.
-      is_complete = .false.
-      directory%path = "."
-      allocate (directory%warnings(0))
-   end subroutine open_place
-
-   !> The start of a motion, perturbed if it is one of an ensemble.
-   subroutine begin_motion(options, loaded, y, assembly, ideal, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(inout) :: loaded              !! the deck
-      real(wp), allocatable, intent(out) :: y(:)           !! (n) state at the start [any]
-      type(assembly_t), intent(out) :: assembly            !! how it was found
-      type(ideal_start_t), intent(out) :: ideal            !! that with ideal joints, if it was needed
-      type(error_t), allocatable, intent(out) :: error     !! there is no ensemble, or no start
-
-      if (options%change%member > 0) then
-         call check_member(options, loaded, error)
-         if (allocated(error)) return
-         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, &
-                         new_shift(loaded%scene, loaded%system%linkage%coordinates, options%change%member), ideal=ideal)
-      else
-         call find_start(loaded%scene, levels_as_written, loaded%system, y, assembly, error, ideal=ideal)
-      end if
-   end subroutine begin_motion
-
-   !> How fast neighbouring motions part, by the tangent, and how long digits of this run mean anything. It may take the budget
-   !> of [precision], or that of the command line, and no more than the deck allows any motion.
-   subroutine look_ahead(options, loaded, horizon)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(horizon_t), intent(out) :: horizon              !! what is found
-
-      type(job_t) :: job
-
-      job%scene = loaded%scene
-      job%settings = loaded%scene%settings%dynamic%item_t
-      job%start = options%change%member
-      job%cpu = job%settings%number("limit_cpu")
-      job%clock = budget_of(options, loaded)
-      call plan_horizon(loaded%scene%settings%precision%item_t, loaded%plan%end, horizon)
-      if (job%settings%number("step") <= 0.0_wp) horizon%asked = job%settings%number("tolerance")
-      call find_horizon(job, horizon)
-   end subroutine look_ahead
-
-   !> A run of an ensemble needs one.
-   subroutine check_member(options, loaded, error)
-      type(options_t), intent(in) :: options               !! the command line
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(error_t), allocatable, intent(out) :: error     !! the deck has no ensemble, or not so many runs
-
-      integer :: n
-
-      if (.not. loaded%scene%settings%ensemble%is_present) then
-         call set_error(error, exit_usage, "option --member is for a deck with a section [ensemble]")
-         return
-      end if
-      n = nint(loaded%scene%settings%ensemble%number("runs"))
-      if (options%change%member > n) then
-         call set_error(error, exit_usage, "the ensemble has "//to_text(n)//" runs, not "//to_text(options%change%member))
-      end if
-   end subroutine check_member
-
-   !> The integrator that a scene asks for, with its controls.
-   subroutine new_method(scene, method)
-      type(scene_t), intent(in) :: scene                                !! the scene
-      class(integrator_t), allocatable, intent(out) :: method           !! the integrator, not started
-
-      call find_integrator(scene%settings%dynamic%word("method"), method)
-      call read_controls(scene%settings%dynamic%item_t, method%controls)
-   end subroutine new_method
-
-   !> The mechanism with ideal joints, text files only, for the figures.
-   subroutine run_twin(loaded, plan, ideal, error)
-      type(loaded_t), intent(in) :: loaded                 !! the deck
-      type(output_plan_t), intent(in) :: plan              !! plan of the run proper
-      type(ideal_start_t), intent(inout) :: ideal          !! the start with ideal joints, if the run proper has found it
-      type(error_t), allocatable, intent(out) :: error     !! there is no twin
-
-      class(integrator_t), allocatable :: method
-      type(assembly_t) :: assembly
-      type(mechanism_t) :: system
-      type(run_recorder_t) :: keeper
-      type(subsystem_t), allocatable :: subsystems(:)
-      type(summary_t) :: summary
-      real(wp), allocatable :: y(:)
-
-      call new_system(loaded%scene, levels_ideal, system)
-      if (size(system%linkage%ideal) == 0) return  ! no joint is another without clearance
-      call find_start(loaded%scene, levels_ideal, system, y, assembly, error, ideal=ideal)
-      if (allocated(error)) return
-      call new_method(loaded%scene, method)
-      keeper%plan = plan
-      keeper%plan%suffix = ".ideal"
-      keeper%plan%life = lifetime_t()
-      keeper%plan%with%hdf5 = .false.
-      keeper%plan%with%summary = .false.
-      keeper%plan%with%motion = .false.
-      keeper%plan%with%figures = .false.
-      keeper%plan%with%report = .false.
-      keeper%plan%with%progress = .false.
-      keeper%plan%show = show_nothing
-      call new_subsystems(loaded%scene, levels_ideal, system, method, loaded%plan%end, subsystems)
-      call run_dynamic(system, method, subsystems, y, loaded%plan, twin_limits(loaded%scene, system), keeper, summary, &
-                       error)
-   end subroutine run_twin
-
-   !> Directory of the run: outputs/NAME of inputs/NAME.deck, unless `--out` names another.
-   function directory_of(options, loaded) result(directory)
-      type(options_t), intent(in) :: options       !! the command line
-      type(loaded_t), intent(in) :: loaded         !! the deck
-      character(:), allocatable :: directory       !! of the run
-
-      integer :: dot, slash
-
-      associate (path => loaded%path)
-         slash = index(path, "/", back=.true.)
-         dot = index(path, ".", back=.true.)
-         if (dot <= slash + 1) dot = len(path) + 1
-         directory = "outputs/"//path(slash + 1:dot - 1)
-         if (loaded%is_stream .and. (starts_with(path, "/dev/") .or. starts_with(path, "/proc/"))) directory = "outputs/stdin"
-      end associate
-      if (allocated(options%directory)) directory = options%directory
-   end function directory_of
 
 end module verb_run

@@ -1,11 +1,19 @@
 !> Runs of analyses that integrate nothing: motions that drivers prescribe, and equilibrium.
 submodule(verb_run) verb_run_at_rest
+   use assembly_report, only: assembly_t
    use kinematic, only: run_kinematic
    use kinematic_start, only: find_kinematic_start
    use mobility, only: mobility_t
+   use motion_run, only: end_as_asked
+   use output_directory, only: output_directory_t
+   use output_plan, only: output_plan_t
    use prescribed_motion, only: newton_t
+   use processes, only: listen
+   use recorder, only: summary_t
+   use run_plan, only: make_plan
+   use run_recorder, only: run_recorder_t
    use static, only: equilibrium_t, find_equilibrium, record_equilibrium
-   use text, only: append_text, text_t
+   use text, only: append_text, starts_with, text_t
    implicit none (type, external)
 
 contains

@@ -14,13 +14,13 @@ module verb_sweep
    use output_tree, only: remove_run
    use posix, only: own_path, path_exists, remove_within
    use recorder, only: status_complete, status_failed
+   use run_place, only: directory_of
    use scene, only: analysis_dynamic
    use sweep_journal, only: differences, journal_t, origin_of_sweep_t
    use sweep_report, only: make_sweep_figures, report_sweep
    use sweep_runs, only: run_all
    use sweep_work, only: failure_text, new_sweep_work, origin_of_sweep, runs_folder, sweep_work_t, take_journal, write_results
    use text, only: append_text, text_t, to_text
-   use verb_run, only: directory_of
    implicit none (type, external)
    private
    public :: sweep_deck
