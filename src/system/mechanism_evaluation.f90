@@ -1,6 +1,7 @@
 !> The right-hand side: loads, rows, accelerations, and what is integrated besides.
 submodule(mechanism) mechanism_evaluation
    use loading, only: start_loads
+   use mechanism_parts, only: loose_t
    use motion, only: loads_t, motion_t
    implicit none (type, external)
 
@@ -97,5 +98,21 @@ contains
          end associate
       end do
    end subroutine evaluate_films
+
+   !> Accelerations of the bodies without their joints: loads over masses.
+   module procedure mechanism_evaluate_unheld
+      integer :: k
+
+      status = 0
+      call self%linkage%set_motion(t, y)
+      call self%evaluate_loads(t)
+      associate (linkage => self%linkage, n_v => self%linkage%coordinates%n_v)
+         do k = 1, linkage%rows%n_unknown
+            associate (body => linkage%rows%unknown(k), before => linkage%n_position + n_v*(k - 1))
+               ydot(before + 1:before + n_v) = self%loading%g(:, body)*linkage%inverse_mass(:, body)
+            end associate
+         end do
+      end associate
+   end procedure mechanism_evaluate_unheld
 
 end submodule mechanism_evaluation

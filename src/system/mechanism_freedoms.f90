@@ -1,5 +1,5 @@
 !> Small changes of the state along the bodies' axes, and those that the rows leave.
-submodule(mechanism) mechanism_freedoms
+submodule(mechanism_state) mechanism_freedoms
    use free_directions, only: find_free_directions
    implicit none (type, external)
 
@@ -50,21 +50,5 @@ contains
          end do
       end associate
    end procedure mechanism_free_directions
-
-   !> Accelerations of the bodies without their joints: loads over masses.
-   module procedure mechanism_evaluate_unheld
-      integer :: k
-
-      status = 0
-      call self%linkage%set_motion(t, y)
-      call self%evaluate_loads(t)
-      associate (linkage => self%linkage, n_v => self%linkage%coordinates%n_v)
-         do k = 1, linkage%rows%n_unknown
-            associate (body => linkage%rows%unknown(k), before => linkage%n_position + n_v*(k - 1))
-               ydot(before + 1:before + n_v) = self%loading%g(:, body)*linkage%inverse_mass(:, body)
-            end associate
-         end do
-      end associate
-   end procedure mechanism_evaluate_unheld
 
 end submodule mechanism_freedoms

@@ -1,4 +1,4 @@
-!> Friction that remembers: contacts that stick, and bristles.
+!> Friction that remembers: contacts that stick. Bristles are states (`mechanism_bristles`).
 !>
 !> Normal forces are known before the accelerations, so the forces x along the m tangents of contacts that stick (of each one in
 !> the plane, two in space) follow from
@@ -19,7 +19,7 @@ submodule(mechanism) mechanism_friction
    use clearance_set, only: loss_friction
    use contact_grip, only: sticks
    use coordinates, only: most_rates
-   use friction_law, only: memory_bristle, memory_slip
+   use friction_law, only: memory_slip
    use floors, only: least_mobility, no_acceleration, settling
    use grip_forces, only: gripped_t, solve_grips
    implicit none (type, external)
@@ -210,79 +210,5 @@ contains
          end if
       end associate
    end subroutine sliding_row
-
-   !> Entries of the state before the deflection of a contact.
-   module procedure mechanism_bristle_place
-      associate (grip => self%loose%sets(slot)%set%grip)
-         place = self%linkage%n_position + self%linkage%n_rate + grip%first_bristle + grip%n_component*(contact - 1)
-      end associate
-   end procedure mechanism_bristle_place
-
-   !> Place of the deflection of a joint that rubs in the state.
-   module procedure mechanism_rubbing_place
-      associate (rubbing => self%friction%rubbing)
-         place = self%linkage%n_position + self%linkage%n_rate + rubbing%first_bristle + rubbing%bristle(joint)
-      end associate
-   end procedure mechanism_rubbing_place
-
-   !> Deflections of bristles from a state into contacts and joints.
-   module procedure mechanism_take_bristles
-      integer :: k, place
-
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_bristle) cycle
-            place = self%bristle_place(k, 1)
-            call set%bend_bristles(y(place + 1:place + size(set%grip%z)))
-         end associate
-      end do
-      do k = 1, self%friction%rubbing%n
-         if (self%friction%rubbing%bristle(k) == 0) cycle
-         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
-            friction%z(self%friction%rubbing%place(k)) = y(self%rubbing_place(k))
-         end associate
-      end do
-   end procedure mechanism_take_bristles
-
-   !> Rates of these deflections; a contact that is free keeps its deflection.
-   module procedure mechanism_bristle_rates
-      integer :: contact, k, place
-
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_bristle) cycle
-            do contact = 1, set%n_contact
-               place = self%bristle_place(k, contact)
-               ydot(place + 1:place + set%grip%n_component) = 0.0_wp
-               if (set%contact(contact)%is_touching) ydot(place + 1:place + set%grip%n_component) = set%grip%z_rate(:, contact)
-            end do
-         end associate
-      end do
-      do k = 1, self%friction%rubbing%n
-         if (self%friction%rubbing%bristle(k) == 0) cycle
-         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
-            ydot(self%rubbing_place(k)) = friction%z_rate(self%friction%rubbing%place(k))
-         end associate
-      end do
-   end procedure mechanism_bristle_rates
-
-   !> Their scales: the greatest deflections that last.
-   module procedure mechanism_bristle_weights
-      integer :: k, place
-
-      do k = 1, size(self%loose%sets)
-         associate (set => self%loose%sets(k)%set)
-            if (set%grip%memory /= memory_bristle) cycle
-            place = self%bristle_place(k, 1)
-            scale(place + 1:place + size(set%grip%z)) = set%laws%friction%bristle_scale()
-         end associate
-      end do
-      do k = 1, self%friction%rubbing%n
-         if (self%friction%rubbing%bristle(k) == 0) cycle
-         associate (friction => self%linkage%joints(self%friction%rubbing%slot(k))%set%friction)
-            scale(self%rubbing_place(k)) = friction%law(self%friction%rubbing%place(k))%law%bristle_scale()
-         end associate
-      end do
-   end procedure mechanism_bristle_weights
 
 end submodule mechanism_friction

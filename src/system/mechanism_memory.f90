@@ -1,5 +1,5 @@
 !> What a planar scene remembers, for checkpoints.
-submodule(mechanism) mechanism_memory
+submodule(mechanism_state) mechanism_memory
    use checkpoint, only: add_piece, size_of_pieces
    use kind_info, only: kind_info_t
    use memory, only: get, put

@@ -1,6 +1,6 @@
 !> Where the residual of `mechanism_dae` has entries: a body couples with itself, and with those that it shares joints, forces or
 !> contacts with. All bodies have all their coordinates, as many as rates, and contacts no states of their own.
-submodule(mechanism) mechanism_pattern
+submodule(mechanism_state) mechanism_pattern
    implicit none (type, external)
 
    !> Neighbours of bodies, of each those of a list.
@@ -112,9 +112,9 @@ contains
 
    !> Which bodies depend on which: pairs that joints, forces and contacts name, each in both directions and once.
    subroutine find_couplings(self, place, near)
-      class(mechanism_t), intent(in) :: self   !! the system
-      integer, intent(in) :: place(0:)             !! (0:bodies) number of each among the unknown ones, 0: none
-      type(couplings_t), intent(out) :: near       !! the neighbours
+      class(mechanism_state_t), intent(in) :: self  !! the system
+      integer, intent(in) :: place(0:)              !! (0:bodies) number of each among the unknown ones, 0: none
+      type(couplings_t), intent(out) :: near        !! the neighbours
 
       integer, allocatable :: seen(:)
       integer :: body, i, k, kept, n, pass

@@ -5,7 +5,7 @@
 !> that small and slow mechanisms are computed as large and fast ones are. The pace begins with the greatest of: the rate at the
 !> start; sqrt(|a|/L) and sqrt(|alpha|), which is where the accelerations of the start lead; one millionth of 1/end, so that what
 !> never moves has one too. Where a load jumps, the accelerations lead anew.
-submodule(mechanism) mechanism_scales
+submodule(mechanism_state) mechanism_scales
    use clearance_set, only: clearance_set_t
    use coordinates, only: most_rates
    use floors, only: idle_part, late, remembered, shortest_difference
@@ -116,8 +116,8 @@ contains
 
    !> Greatest rate of the mechanism in a state; of bodies whose motion is known at the present motion.
    pure real(wp) function rate_of(self, y) result(rate)
-      class(mechanism_t), intent(in) :: self  !! the system
-      real(wp), intent(in) :: y(self%n)       !! (n) state [any]
+      class(mechanism_state_t), intent(in) :: self  !! the system
+      real(wp), intent(in) :: y(self%n)             !! (n) state [any]
 
       integer :: k
 
@@ -147,8 +147,8 @@ contains
 
    !> The rate to which accelerations lead, sqrt(|a|/L) and sqrt(|alpha|); of bodies whose motion is known they are not looked at.
    pure real(wp) function rate_to_come(self, ydot) result(rate)
-      class(mechanism_t), intent(in) :: self   !! the system
-      real(wp), intent(in) :: ydot(self%n)     !! (n) derivative of a state, or what it jumps by [any]
+      class(mechanism_state_t), intent(in) :: self  !! the system
+      real(wp), intent(in) :: ydot(self%n)          !! (n) derivative of a state, or what it jumps by [any]
 
       integer :: k
 
