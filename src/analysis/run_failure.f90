@@ -7,6 +7,7 @@ module run_failure
       advance_too_many_steps, integrator_t
    use kinds, only: wp
    use mechanism, only: mechanism_t
+   use motion, only: loads_t
    use readings, only: wanted_rows_t
    use text, only: real_text, to_text
    implicit none (type, external)
@@ -121,10 +122,44 @@ contains
       end do
       do k = 1, system%linkage%bodies%n
          if (all(ieee_is_finite(system%loading%g(:, k)))) cycle
+         words = bad_element(system)
+         if (words /= "") return
          words = ": a load on body '"//system%linkage%bodies%names(k)%s//"' is not a finite number"
          return
       end do
    end function not_finite
+
+   !> The force element whose load is not a finite number at the motion that was evaluated, or those of one kind among which it is.
+   function bad_element(system) result(words)
+      type(mechanism_t), intent(in) :: system   !! the system, evaluated
+      character(:), allocatable :: words        !! to follow "cannot be solved", blank if it is none
+
+      type(loads_t) :: loads
+      real(wp) :: power
+      integer :: i, k
+
+      words = ""
+      associate (linkage => system%linkage, n => system%linkage%bodies%n)
+         allocate (loads%force(3, 0:n), loads%moment(3, 0:n))
+         do k = 1, size(system%loading%forces)
+            associate (set => system%loading%forces(k)%set)
+               loads%force = 0.0_wp
+               loads%moment = 0.0_wp
+               power = 0.0_wp
+               call set%evaluate(linkage%piece%inside(linkage%motion%t), linkage%motion, loads, power)
+               do i = 1, set%n
+                  associate (bodies => set%bodies_of(i))
+                     if (all(ieee_is_finite(loads%force(:, bodies))) .and. all(ieee_is_finite(loads%moment(:, bodies)))) cycle
+                  end associate
+                  words = words//trim(merge(" or", ":  ", words /= ""))//" '"//set%names(i)%s//"'"
+               end do
+            end associate
+            if (words == "") cycle
+            words = ": the load of force element"//words(2:)//" is not a finite number"
+            return
+         end do
+      end associate
+   end function bad_element
 
    !> The ideal joint for which no friction force was found.
    function wedged_joint(system) result(words)

@@ -12,6 +12,7 @@ module run_summary
    use run_tally, only: run_tally_t
    use sampling, only: sampler_t
    use stop_condition, only: stop_t
+   use text, only: append_text, text_t
    use whole_motion, only: whole_motion_t
    implicit none (type, external)
    private
@@ -91,8 +92,27 @@ contains
       do p = 1, size(whole%parts)
          call whole%parts(p)%jumps%warn(whole%parts(p)%system, summary%warnings)
          call warn_of_passed(whole%parts(p)%system, whole%parts(p)%method, summary%warnings)
+         call warn_by_forces(whole%parts(p)%system, summary%warnings)
       end do
    end subroutine warn_by_parts
+
+   !> What force elements of a part have noted.
+   subroutine warn_by_forces(system, warnings)
+      type(mechanism_t), intent(in) :: system                    !! its system
+      type(text_t), allocatable, intent(inout) :: warnings(:)    !! (any) appended to
+
+      character(:), allocatable :: doubt
+      integer :: i, k
+
+      do k = 1, size(system%loading%forces)
+         associate (set => system%loading%forces(k)%set)
+            do i = 1, set%n
+               doubt = set%doubt(i)
+               if (doubt /= "") call append_text(warnings, "force element '"//set%names(i)%s//"' "//doubt)
+            end do
+         end associate
+      end do
+   end subroutine warn_by_forces
 
    !> What the guards have seen.
    subroutine warn_by_guards(guards, system, method, summary)

@@ -3,8 +3,9 @@
 !> The faces of the bearing are across its axis z, half of `length` either side of its point. The collars are beyond them, so that
 !> each has the clearance `gap` where the pin's point is in the middle. Face and collar meet on a circle of `face_radius` about
 !> the pin's axis, in six points of the collar: contacts a_1 ... a_6 at the end of -z, b_1 ... b_6 at the other, the first along x,
-!> the others counter-clockwise about z. With n = +z (a) and -z (b) and h = -length/2 in `plane_contacts`. Six points resist a tilt
-!> alike in all directions as long as all touch.
+!> the others counter-clockwise about z; x is `x_i` as far as it is across the axis. With n = +z (a) and -z (b) and h = -length/2
+!> in `plane_contacts`. Six points resist a tilt alike in all directions as long as all touch; how far a collar may tilt until it
+!> touches differs by 15 %, as cos 30 deg, between the direction of a point and that between two.
 !>
 !> Signs: the reported force is that on the collars, world frame; the moment is that of the contact forces on them about the pin's
 !> point. Friction at the points gives the moment about the axis. Source: Flores et al. (2008), section 6.3, where the pin is held
@@ -52,6 +53,8 @@ contains
       call add_direction(info, "axis_i", "axis of the bearing, in the frame of its body", default='"0 0 1"')
       call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; left out: as the deck puts the bodies", &
                          default="")
+      call add_direction(info, "x_i", "direction of the first points from the axis, in the frame of the body of the bearing; left &
+                         &out: that of its axes which comes after the one nearest to the axis", default="")
       call add_number(info, "length", dim_length, "distance of the faces", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "gap", dim_length, "clearance along the axis at each end", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "face_radius", dim_length, "radius of the circle on which faces and collars meet", lower=0.0_wp, &

@@ -85,6 +85,7 @@ contains
       do k = 1, self%n
          if (find_place(items(k), "axis_i") > 0) self%axes(k)%axis_i = items(k)%direction("axis_i")
          if (find_place(items(k), "axis_j") > 0) self%axes(k)%axis_j = items(k)%direction("axis_j")
+         if (find_place(items(k), "x_i") > 0) self%axes(k)%across = items(k)%direction("x_i")
       end do
    end subroutine make_planes
 

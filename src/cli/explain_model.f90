@@ -1,6 +1,7 @@
 !> The size of the model and how it was assembled, for `gudgeon explain`.
 module explain_model
    use assembly_report, only: assembly_t
+   use branches, only: find_doubts
    use console, only: say
    use item, only: item_t
    use kind_info, only: kind_info_t
@@ -10,7 +11,7 @@ module explain_model
    use mobility, only: find_mobility, mobility_t
    use scene, only: analysis_dynamic, analysis_kinematic, scene_t
    use start_state, only: redundancy_text
-   use text, only: counted, real_text, to_text
+   use text, only: counted, real_text, text_t, to_text
    implicit none (type, external)
    private
    public :: explain_size, explain_start
@@ -78,6 +79,8 @@ contains
       logical, intent(in) :: has_failed          !! there is no start
 
       type(mobility_t) :: mobility
+      type(text_t), allocatable :: doubts(:)
+      integer :: k
 
       if (has_failed) then
          call say(trim(merge("NOT assembled   ", "NOT ready to run", loaded%scene%analysis == analysis_dynamic))// &
@@ -96,6 +99,11 @@ contains
       else
          call say("no redundant rows", 2)
       end if
+      allocate (doubts(0))
+      call find_doubts(loaded%system%linkage, doubts)
+      do k = 1, size(doubts)
+         call say(doubts(k)%s, 2)
+      end do
       call say("assembled in "//counted(assembly%corrections, "correction", "corrections")//", residual "// &
                real_text(assembly%residual, 2)//" m or rad, bodies moved by up to "//real_text(assembly%moved, 3)// &
                " m", 2)

@@ -2,6 +2,7 @@
 module run_plan
    use assembly_report, only: assembly_t
    use blas_threads, only: blas_kernels
+   use branches, only: find_doubts
    use build_info, only: compile_flags, compiler, git_sha1
    use channel_names, only: scalar_t
    use channels, only: find_scalars, item_finder_t
@@ -60,6 +61,7 @@ contains
                           "' does not fit the constraints; it was changed by "//real_text(assembly%rate_changed, 3)//" m/s")
       end if
       if (loaded%system%linkage%solution%is_redundant) call append_text(plan%warnings, redundancy_text(loaded%system, assembly))
+      call find_doubts(loaded%system%linkage, plan%warnings)
       plan%with%contact_rows = has_contact_rows(loaded%scene, loaded%system)
       plan%contact_rows = contact_rows_text(loaded%scene, loaded%system)
       plan%with%hdf5 = options%write /= "nothing"

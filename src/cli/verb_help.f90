@@ -304,6 +304,7 @@ contains
       if (allocated(column%options)) words = words//"; options "//column%options
       associate (bounds => column%bounds)
          if (bounds%lower > -no_bound) words = words//"; "//merge("> ", ">=", bounds%open_lower)//" "//to_text(bounds%lower)
+         if (bounds%not_zero) words = words//"; not 0"
          if (bounds%upper < no_bound) words = words//"; "//merge("< ", "<=", bounds%open_upper)//" "//to_text(bounds%upper)
       end associate
       if (.not. allocated(column%default)) then

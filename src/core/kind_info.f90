@@ -95,6 +95,7 @@ module kind_info
       real(wp) :: upper = no_bound            !! greatest value allowed, SI [any]
       logical :: open_lower = .false.         !! the least value itself is not allowed
       logical :: open_upper = .false.         !! the greatest value itself is not allowed
+      logical :: not_zero = .false.           !! zero is not allowed
    end type bounds_t
 
    !> One column of a table, or one key of a section of settings.
@@ -173,7 +174,7 @@ module kind_info
 contains
 
    !> Append a column that holds one number with a dimension.
-   subroutine add_number(info, name, dimension, help, default, lower, upper, open_lower, open_upper, is_free)
+   subroutine add_number(info, name, dimension, help, default, lower, upper, open_lower, open_upper, not_zero, is_free)
       type(kind_info_t), intent(inout) :: info       !! the kind
       character(*), intent(in) :: name               !! as written in the deck
       type(dim_t), intent(in) :: dimension           !! of the number
@@ -183,6 +184,7 @@ contains
       real(wp), intent(in), optional :: upper        !! greatest value allowed, SI [any]
       logical, intent(in), optional :: open_lower    !! the least value itself is not allowed
       logical, intent(in), optional :: open_upper    !! the greatest value itself is not allowed
+      logical, intent(in), optional :: not_zero      !! zero is not allowed
       logical, intent(in), optional :: is_free       !! left out means more than the default
 
       type(column_t) :: column
@@ -193,6 +195,7 @@ contains
       if (present(upper)) column%bounds%upper = upper
       if (present(open_lower)) column%bounds%open_lower = open_lower
       if (present(open_upper)) column%bounds%open_upper = open_upper
+      if (present(not_zero)) column%bounds%not_zero = not_zero
       if (present(is_free)) column%is_free = is_free
       call add_column(info, column)
    end subroutine add_number

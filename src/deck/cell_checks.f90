@@ -70,6 +70,10 @@ contains
       character(:), allocatable :: lower, suffix, upper
       logical :: is_high, is_low
 
+      if (column%bounds%not_zero .and. .not. abs(x) > 0.0_wp) then
+         call mistakes%add(location, to_text(x)//" is out of range "//place, "must not be 0")
+         return
+      end if
       is_low = x < column%bounds%lower .or. (column%bounds%open_lower .and. .not. x > column%bounds%lower)
       is_high = x > column%bounds%upper .or. (column%bounds%open_upper .and. .not. x < column%bounds%upper)
       if (column%bounds%lower <= -no_bound) is_low = .false.

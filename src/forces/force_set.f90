@@ -25,6 +25,7 @@ module force_set
       procedure(bodies_interface), deferred :: bodies_of
       procedure :: set_start => force_set_start
       procedure :: follow => force_follow
+      procedure :: doubt => force_doubt
       procedure :: elastic_energy => force_elastic_energy
       procedure :: lost_power => force_lost_power
       procedure :: load_on => force_load_on
@@ -101,6 +102,15 @@ contains
       class(force_set_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion       !! positions
    end subroutine force_follow
+
+   !> What of an item did not fit the motion so far: what follows its name in a warning. In none, unless the kind says otherwise.
+   function force_doubt(self, k) result(doubt)
+      class(force_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      character(:), allocatable :: doubt      !! what does not fit; blank: nothing
+
+      doubt = repeat("", self%n + k)
+   end function force_doubt
 
    !> Energy that the elements store: none, unless the kind says otherwise. No allocation.
    pure real(wp) function force_elastic_energy(self, motion) result(energy)

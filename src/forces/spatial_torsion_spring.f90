@@ -4,6 +4,9 @@
 !> the moments on the bodies are -f N_i and -f N_j, so that the power balance holds when the axes are not quite parallel.
 !> Turns are counted: theta is taken next to the one that the last step ended with (`follow`), less than half a turn away.
 !>
+!> An angle about axes that part is that of their shadows: it changes although nothing turns about them, and at a right angle it has
+!> no value. The least angle between the axes is kept, and `doubt` tells of it.
+!>
 !> Signs: the moment on body i about the axis is positive if it takes theta back towards smaller values.
 !> Source: Nikravesh (1988), section 4.3; Flores et al. (2008), section 2.3. Limits: a step is shorter than half a turn.
 module spatial_torsion_spring
@@ -12,11 +15,12 @@ module spatial_torsion_spring
    use item, only: item_t
    use joint_frames, only: add_zero_columns, find_frames, from_start
    use kind_info, only: add_channel, add_direction, add_reference, in_space, kind_info_t
-   use kinds, only: wp
+   use kinds, only: pi, wp
    use memory, only: get, put
    use motion, only: loads_t, motion_t
-   use spatial_rows, only: angle_between, scalar_t, wrapped
+   use spatial_rows, only: angle_between, axis_of, scalar_t, wrapped
    use spring_law, only: add_turning_law, spring_law_t
+   use text, only: real_text
    implicit none (type, external)
    private
    public :: spatial_torsion_spring_t
@@ -27,6 +31,8 @@ module spatial_torsion_spring
    integer, parameter :: of_angular_rate = 3  !! its rate
    integer, parameter :: of_power = 4         !! power given to the mechanism
 
+   real(wp), parameter :: parallel = 0.9999_wp  !! cosine of an angle between axes that is none, 0.8 deg [1]
+
    !> All torsional springs of a spatial scene.
    type, extends(force_set_t) :: spatial_torsion_spring_t
       integer, allocatable :: body(:, :)            !! (2, n) bodies i and j
@@ -36,17 +42,20 @@ module spatial_torsion_spring
       logical, allocatable :: from_start(:)         !! (n) the angle is zero where the deck puts the bodies
       real(wp), allocatable :: frame(:, :, :, :)    !! (3, 3, 2, n) frames of the axes, frames of the bodies [1]
       real(wp), allocatable :: near(:)              !! (n) angle at the end of the last step [rad]
+      real(wp), allocatable :: cosine(:)            !! (n) least cosine of the angle between the axes so far [1]
    contains
       procedure, nopass :: info => torsion_info
       procedure :: prepare => torsion_prepare
       procedure :: set_start => torsion_set_start
       procedure :: follow => torsion_follow
+      procedure :: doubt => torsion_doubt
       procedure :: evaluate => torsion_evaluate
       procedure :: elastic_energy => torsion_elastic_energy
       procedure :: lost_power => torsion_lost_power
       procedure :: load_on => torsion_load_on
       procedure :: report => torsion_report
       procedure :: bodies_of => torsion_bodies
+      procedure, nopass :: memory_version => torsion_memory_version
       procedure :: memory_size => torsion_memory_size
       procedure :: save => torsion_save
       procedure :: load => torsion_load
@@ -86,6 +95,7 @@ contains
       self%n = size(items)
       allocate (self%names(self%n), self%body(2, self%n), self%law(self%n), self%from_start(self%n))
       allocate (self%axis(3, 2, self%n), self%across(3, 2, self%n), self%frame(3, 3, 2, self%n), self%near(self%n), source=0.0_wp)
+      allocate (self%cosine(self%n), source=1.0_wp)
       do k = 1, self%n
          associate (item => items(k))
             self%names(k)%s = items(k)%name
@@ -125,8 +135,22 @@ contains
       do k = 1, self%n
          angle = angle_of(self, k, motion)
          self%near(k) = angle%value
+         self%cosine(k) = min(self%cosine(k), dot_product(axis_of(motion, self%body(1, k), self%frame(:, 3, 1, k)), &
+                                                          axis_of(motion, self%body(2, k), self%frame(:, 3, 2, k))))
       end do
    end subroutine torsion_follow
+
+   !> The axes came apart.
+   function torsion_doubt(self, k) result(doubt)
+      class(spatial_torsion_spring_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                             !! item
+      character(:), allocatable :: doubt                   !! what does not fit; blank: nothing
+
+      doubt = ""
+      if (self%cosine(k) >= parallel) return
+      doubt = "has axes that came to be "//real_text(acos(max(self%cosine(k), -1.0_wp))*180.0_wp/pi, 3)// &
+              " deg apart: its angle is meant for axes that a joint holds parallel"
+   end function torsion_doubt
 
    !> Angle of an item, turns counted.
    pure function angle_of(self, k, motion) result(angle)
@@ -251,11 +275,16 @@ contains
       bodies = self%body(:, i)
    end function torsion_bodies
 
-   !> Numbers that the set must keep in a checkpoint: the angles.
+   !> Version of the form of what the set saves: since the second with how far the axes were apart.
+   pure integer function torsion_memory_version() result(version)
+      version = 2
+   end function torsion_memory_version
+
+   !> Numbers that the set must keep in a checkpoint: the angles, and how far the axes were apart.
    integer function torsion_memory_size(self) result(n)
       class(spatial_torsion_spring_t), intent(in) :: self  !! the set
 
-      n = self%n
+      n = 2*self%n
    end function torsion_memory_size
 
    !> Write what the set remembers.
@@ -268,6 +297,7 @@ contains
 
       do k = 1, self%n
          call put(row, place, self%near(k))
+         call put(row, place, self%cosine(k))
       end do
    end subroutine torsion_save
 
@@ -281,6 +311,7 @@ contains
 
       do k = 1, self%n
          call get(row, place, self%near(k))
+         call get(row, place, self%cosine(k))
       end do
    end subroutine torsion_load
 

@@ -16,6 +16,7 @@ module joint_gear
    use joint_set, only: add_joint_channels, joint_set_t
    use kind_info, only: add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: pi, wp
+   use mesh, only: distance_misfit, two_rings
    use motion, only: motion_t, point_position
    use rows, only: rows_t
    use span, only: span_of
@@ -33,6 +34,8 @@ module joint_gear
       procedure :: set_start => gear_set_start
       procedure :: evaluate => gear_evaluate
       procedure :: reaction_point => gear_reaction_point
+      procedure :: closing_fault => gear_closing_fault
+      procedure :: closing_doubt => gear_closing_doubt
    end type joint_gear_t
 
 contains
@@ -48,8 +51,10 @@ contains
       info%n_row = 1
       call add_reference(info, "i", "points", "centre of the first gear")
       call add_reference(info, "j", "points", "centre of the second gear")
-      call add_number(info, "radius_i", dim_length, "radius of the pitch circle of the first gear; negative: a ring gear")
-      call add_number(info, "radius_j", dim_length, "radius of the pitch circle of the second gear; negative: a ring gear")
+      call add_number(info, "radius_i", dim_length, "radius of the pitch circle of the first gear; negative: a ring gear", &
+                      not_zero=.true.)
+      call add_number(info, "radius_j", dim_length, "radius of the pitch circle of the second gear; negative: a ring gear", &
+                      not_zero=.true.)
       call add_joint_channels(info)
    end function gear_info
 
@@ -80,6 +85,30 @@ contains
          self%start(k) = sum(self%radius(:, k))*atan2(u(2), u(1)) - dot_product(self%radius(:, k), motion%angle(self%body(:, k)))
       end do
    end subroutine gear_set_start
+
+   !> One of two gears at most is a ring gear.
+   function gear_closing_fault(self, k, motion) result(fault)
+      class(joint_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                 !! item
+      type(motion_t), intent(in) :: motion     !! positions
+      character(:), allocatable :: fault       !! what is wrong; blank: nothing
+
+      fault = repeat("", size(motion%angle))
+      if (all(self%radius(:, k) < 0.0_wp)) fault = two_rings
+   end function gear_closing_fault
+
+   !> The centres of gears that touch are as far apart as the radii make it; where they coincide, the row is one of angles.
+   function gear_closing_doubt(self, k, motion) result(doubt)
+      class(joint_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                 !! item
+      type(motion_t), intent(in) :: motion     !! positions
+      character(:), allocatable :: doubt       !! what does not fit; blank: nothing
+
+      real(wp) :: length, rate, u(3)
+
+      call span_of(motion, self%body(:, k), self%s_i(:, k), self%s_j(:, k), u, length, rate)
+      doubt = distance_misfit(self%radius(:, k), length)
+   end function gear_closing_doubt
 
    !> Fill the rows of all items. Centres that coincide have no line: a row of angles remains.
    subroutine gear_evaluate(self, t, motion, rows)

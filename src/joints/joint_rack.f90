@@ -17,6 +17,7 @@ module joint_rack
    use joint_translational, only: add_axis_columns, joint_translational_t
    use kind_info, only: add_number, add_reference, dim_length, in_plane, kind_info_t
    use kinds, only: wp
+   use mesh, only: line_misfit
    use motion, only: motion_t, point_position, point_velocity
    use rows, only: rows_t
    implicit none (type, external)
@@ -38,6 +39,7 @@ module joint_rack
       procedure :: set_start => rack_set_start
       procedure :: evaluate => rack_evaluate
       procedure :: reaction_point => rack_reaction_point
+      procedure :: closing_doubt => rack_closing_doubt
    end type joint_rack_t
 
 contains
@@ -54,7 +56,8 @@ contains
       call add_reference(info, "i", "points", "point of the rack's pitch line")
       call add_reference(info, "j", "points", "centre of the pinion")
       call add_axis_columns(info, "pitch line")
-      call add_number(info, "radius", dim_length, "radius of the pinion's pitch circle; negative: it lies to the right of the axis")
+      call add_number(info, "radius", dim_length, "radius of the pinion's pitch circle; negative: it lies to the right of the " &
+                      //"axis", not_zero=.true.)
       call add_joint_channels(info)
    end function rack_info
 
@@ -149,5 +152,19 @@ contains
       s = axis_of(self, k, motion)
       p = point_position(motion, self%body(2, k), self%s_j(:, k)) - self%pinion%radius(k)*[-s(2), s(1), 0.0_wp]
    end function rack_reaction_point
+
+   !> The pinion is beside the line by its radius.
+   function rack_closing_doubt(self, k, motion) result(doubt)
+      class(joint_rack_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                 !! item
+      type(motion_t), intent(in) :: motion     !! positions
+      character(:), allocatable :: doubt       !! what does not fit; blank: nothing
+
+      real(wp) :: d(3), s(3)
+
+      s = axis_of(self, k, motion)
+      d = point_position(motion, self%body(2, k), self%s_j(:, k)) - point_position(motion, self%body(1, k), self%s_i(:, k))
+      doubt = line_misfit(self%pinion%radius(k), s(1)*d(2) - s(2)*d(1))
+   end function rack_closing_doubt
 
 end module joint_rack

@@ -54,6 +54,7 @@ module joint_set
       procedure :: set_start => joint_set_start
       procedure :: take_joint => joint_take_joint
       procedure :: closing_fault => joint_closing_fault
+      procedure :: closing_doubt => joint_closing_doubt
       procedure :: follow => joint_follow
       procedure :: declare_rows => joint_declare_rows
       procedure :: reaction_point => joint_reaction_point
@@ -198,6 +199,17 @@ contains
 
       fault = repeat("", k + self%n + size(motion%angle))
    end function joint_closing_fault
+
+   !> What of an item's dimensions does not fit where it is closed, though its rows hold: what follows its name in a warning. In
+   !> none, unless the kind says otherwise.
+   function joint_closing_doubt(self, k, motion) result(doubt)
+      class(joint_set_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                !! item
+      type(motion_t), intent(in) :: motion    !! positions
+      character(:), allocatable :: doubt      !! what does not fit; blank: nothing
+
+      doubt = repeat("", k + self%n + size(motion%angle))
+   end function joint_closing_doubt
 
    !> Tell the bodies of the set's rows, and which are angles.
    subroutine joint_declare_rows(self, rows)

@@ -18,7 +18,8 @@ module spatial_gear
    use item, only: item_t
    use kind_info, only: add_number, dim_length, kind_info_t
    use kinds, only: wp
-   use motion, only: cross, motion_t
+   use mesh, only: axes_misfit, distance_misfit, two_rings
+   use motion, only: cross, motion_t, point_position
    use rows, only: rows_t
    use spatial_joint, only: add_axis_columns, add_joint_columns, add_spatial_channels, element_t, set_joint_frames
    use spatial_rows, only: angle_of, axis_of, dot_of_axes, dot_with_span, put_row, scalar_t, seen_from_other, wrapped
@@ -39,6 +40,8 @@ module spatial_gear
       procedure :: set_start => gear_set_start
       procedure :: evaluate => gear_evaluate
       procedure :: find_angles => gear_find_angles
+      procedure :: closing_fault => gear_closing_fault
+      procedure :: closing_doubt => gear_closing_doubt
    end type spatial_gear_t
 
 contains
@@ -54,8 +57,10 @@ contains
       info%counts_turns = .true.
       call add_joint_columns(info)
       call add_axis_columns(info, "axis of the gear")
-      call add_number(info, "radius_i", dim_length, "radius of the pitch circle of the first gear; negative: a ring gear")
-      call add_number(info, "radius_j", dim_length, "radius of the pitch circle of the second gear; negative: a ring gear")
+      call add_number(info, "radius_i", dim_length, "radius of the pitch circle of the first gear; negative: a ring gear", &
+                      not_zero=.true.)
+      call add_number(info, "radius_j", dim_length, "radius of the pitch circle of the second gear; negative: a ring gear", &
+                      not_zero=.true.)
       call add_spatial_channels(info)
    end function gear_info
 
@@ -148,5 +153,49 @@ contains
          call put_row(rows, self%first_row + k, motion, self%body(:, k), x, self%start(k), 0.0_wp, 0.0_wp)
       end do
    end subroutine gear_evaluate
+
+   !> Radii of an item as the deck gives them.
+   pure function own_radii(self, k, motion) result(radius)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      real(wp) :: radius(2)                      !! (2) of i and j [m]
+
+      radius = self%radius(:, k)
+      if (.not. self%is_parallel(k)) return
+      if (dot_product(axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k)), &
+                      axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))) < 0.0_wp) radius(2) = -radius(2)
+   end function own_radii
+
+   !> One of two gears at most is a ring gear.
+   function gear_closing_fault(self, k, motion) result(fault)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      character(:), allocatable :: fault         !! what is wrong; blank: nothing
+
+      fault = ""
+      if (all(own_radii(self, k, motion) < 0.0_wp)) fault = two_rings
+   end function gear_closing_fault
+
+   !> Parallel axes are as far apart as the radii make it, others meet.
+   function gear_closing_doubt(self, k, motion) result(doubt)
+      class(spatial_gear_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      character(:), allocatable :: doubt         !! what does not fit; blank: nothing
+
+      real(wp) :: d(3), normal(3), z_i(3), z_j(3)
+
+      z_i = axis_of(motion, self%body(1, k), self%axes%frame_i(:, 3, k))
+      z_j = axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k))
+      d = point_position(motion, self%body(2, k), self%s_j(:, k)) - point_position(motion, self%body(1, k), self%s_i(:, k))
+      if (self%is_parallel(k)) then
+         doubt = distance_misfit(own_radii(self, k, motion), norm2(d - dot_product(d, z_i)*z_i))
+      else
+         normal = cross(z_i, z_j)
+         doubt = axes_misfit(self%radius(:, k), abs(dot_product(d, normal))/norm2(normal))
+      end if
+   end function gear_closing_doubt
 
 end module spatial_gear

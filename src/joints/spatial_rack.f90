@@ -16,6 +16,7 @@ module spatial_rack
    use item, only: item_t
    use kind_info, only: add_direction, add_number, dim_length, kind_info_t
    use kinds, only: wp
+   use mesh, only: line_misfit
    use motion, only: cross, motion_t, point_position
    use rows, only: rows_t
    use spatial_joint, only: add_joint_columns, add_reaction_channels, element_t
@@ -40,6 +41,7 @@ module spatial_rack
       procedure :: evaluate => rack_evaluate
       procedure :: reaction_point => rack_reaction_point
       procedure :: closing_fault => rack_closing_fault
+      procedure :: closing_doubt => rack_closing_doubt
    end type spatial_rack_t
 
 contains
@@ -57,7 +59,7 @@ contains
       call add_direction(info, "axis_i", "direction of the pitch line, in the frame of the body of i", default='"1 0 0"')
       call add_direction(info, "axis_j", "axis of the pinion, in the frame of the body of j", default='"0 0 1"')
       call add_number(info, "radius", dim_length, "radius of the pinion's pitch circle; negative: it lies to the right of the " &
-                      //"line, seen from the tip of its axis")
+                      //"line, seen from the tip of its axis", not_zero=.true.)
       call add_reaction_channels(info)
    end function rack_info
 
@@ -163,5 +165,20 @@ contains
       fault = "rolls on a line that is not at right angles to its pinion's axis"//new_line("a")// &
               "  = turn axis_i, axis_j or one of its bodies in the deck"
    end function rack_closing_fault
+
+   !> The pinion is beside the line by its radius.
+   function rack_closing_doubt(self, k, motion) result(doubt)
+      class(spatial_rack_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                   !! item
+      type(motion_t), intent(in) :: motion       !! positions
+      character(:), allocatable :: doubt         !! what does not fit; blank: nothing
+
+      real(wp) :: d(3), n(3)
+
+      n = cross(axis_of(motion, self%body(2, k), self%axes%frame_j(:, 3, k)), &
+                axis_of(motion, self%body(1, k), self%line(:, k)))
+      d = point_position(motion, self%body(2, k), self%s_j(:, k)) - point_position(motion, self%body(1, k), self%s_i(:, k))
+      doubt = line_misfit(self%radius(k), dot_product(n, d))
+   end function rack_closing_doubt
 
 end module spatial_rack

@@ -1,14 +1,16 @@
 !> Ways in which a mechanism can close that nobody means.
 !>
 !> Rows that hold two axes at right angles to a third keep it parallel to them, and opposed as well. Which of both an assembly
-!> comes to is decided by where the deck puts the bodies; what it came to is looked at here.
+!> comes to is decided by where the deck puts the bodies; what it came to is looked at here. So are dimensions that rows do not ask
+!> for, as the distance of two gears.
 module branches
    use errors, only: error_t, exit_assembly, set_error
    use joint_set, only: joint_slot_t
    use linkage, only: linkage_t
+   use text, only: append_text, text_t
    implicit none (type, external)
    private
-   public :: check_branches
+   public :: check_branches, find_doubts
 
 contains
 
@@ -41,5 +43,23 @@ contains
       end subroutine look
 
    end subroutine check_branches
+
+   !> What of joints does not fit where they are closed: warnings.
+   subroutine find_doubts(linkage, warnings)
+      type(linkage_t), intent(in) :: linkage                   !! the system, assembled
+      type(text_t), allocatable, intent(inout) :: warnings(:)  !! (n) grown
+
+      character(:), allocatable :: doubt
+      integer :: item, k
+
+      do k = 1, size(linkage%joints)
+         associate (set => linkage%joints(k)%set)
+            do item = 1, set%n
+               doubt = set%closing_doubt(item, linkage%motion)
+               if (doubt /= "") call append_text(warnings, "joint '"//set%names(item)%s//"' "//doubt)
+            end do
+         end associate
+      end do
+   end subroutine find_doubts
 
 end module branches

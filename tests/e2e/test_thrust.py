@@ -83,3 +83,34 @@ def test_friction_of_a_collar_slows_the_spin(gudgeon):
     lost = 0.1 * 15e-3 * 2 * mass * v / inertia
     np.testing.assert_allclose(run.item("bodies/spin", "pin")[k], (spin - lost) * AXIS, rtol=1e-6)
     np.testing.assert_allclose(run.item("bodies/velocity", "pin")[k], -v * AXIS, atol=1e-6)
+
+
+def test_a_scene_turned_about_the_axis_is_the_same_if_its_first_points_turn(gudgeon):
+    """A pin that tumbles between the faces, and the same turned by 25 degrees about the axis: along the axis both are one motion
+    where `x_i` turns too, and not where it is left out, as six points are no ring."""
+    e = np.cross(AXIS, [0.0, 0.0, 1.0])
+    x = e / np.linalg.norm(e)
+
+    def turned(v):
+        c, s = np.cos(np.radians(25)), np.sin(np.radians(25))
+        return c * v + s * np.cross(AXIS, v) + (1 - c) * AXIS * (AXIS @ v)
+
+    def ways(turn, with_x):
+        directory = scratch()
+        text = THRUST.replace("1e-4 1e-4 2e-4", "1e-4 1e-4 1e-4")
+        for word, value in (("VELOCITY", 0.3 * AXIS), ("SPIN", turn(30.0 * (x + 0.2 * np.cross(AXIS, x))))):
+            text = text.replace(word, " ".join(f"{v:.17g}" for v in value))
+        text = text.replace(" FRICTION", "").replace(" law friction\n", " law x_i\n" if with_x else " law\n")
+        if with_x:
+            row = " ".join(f"{v:.17g}" for v in turn(x))
+            text = text.replace("steel hard\n", f'steel hard "{row}"\n')
+        text = text.replace("[friction.coulomb]\nname coefficient\ndry 0.1\n", "")
+        call(gudgeon, "run", written(directory, text), "--out", directory / "out", "--quiet")
+        run = Run(directory / "out")
+        return run.item("clearances/tilt", "collar"), run.item("clearances/axial_displacement", "collar")
+
+    tilt, way = ways(lambda v: v, True)
+    for with_x, is_same in ((True, True), (False, False)):
+        found = ways(turned, with_x)
+        apart = max(np.abs(found[0] - tilt).max() / tilt.max(), np.abs(found[1] - way).max() / np.abs(way).max())
+        assert (apart < 1e-7) == is_same, apart
