@@ -14,6 +14,7 @@ module clearance_bushing
    use clearance_spherical, only: add_socket_columns, check_socket, describe_socket
    use bodies, only: material_t
    use item, only: item_t
+   use joint_frames, only: find_frames
    use kind_info, only: add_channel, add_direction, add_number, add_reference, add_word, dim_length, in_space, kind_info_t
    use kinds, only: wp
    use motion, only: motion_t
@@ -55,6 +56,8 @@ contains
       call add_direction(info, "axis_i", "axis of the bushing, in the frame of its body", default='"0 0 1"')
       call add_direction(info, "axis_j", "axis of the pin, in the frame of its body; left out: as the deck puts the bodies", &
                          default="")
+      call add_direction(info, "x_i", "where the angle of a film's supply is zero, in the frame of the bushing's body; left out: &
+                         &the body axis after the one nearest to the axis", default="")
       call add_socket_columns(info, "bushing", "pin")
       call add_number(info, "length", dim_length, "length of the bushing along its axis", lower=0.0_wp, open_lower=.true.)
       call add_number(info, "journal_length", dim_length, "distance of the pin's bases; left out: the length of the bushing", &
@@ -115,6 +118,7 @@ contains
             if (item%is_given("journal_length")) socket%half_j = 0.5_wp*item%number("journal_length")
             socket%axis_i = item%direction("axis_i")
             socket%axis_j = item%direction("axis_j")
+            socket%across = item%direction("x_i")
          end associate
       end do
       call self%take_level(items)
@@ -125,10 +129,14 @@ contains
       class(clearance_bushing_t), intent(inout) :: self  !! the set, prepared
       type(motion_t), intent(in) :: motion               !! bodies where the deck puts them
 
+      real(wp) :: frame_i(3, 3), frame_j(3, 3)
       integer :: k
 
       do k = 1, self%n
          associate (socket => self%socket(k), i => self%items%body(1, k), j => self%items%body(2, k), own => motion%spatial%own)
+            call find_frames(motion, [i, j], socket%axis_i, socket%axis_j, .true., frame_i, frame_j, &
+                             reshape([socket%across, 0.0_wp, 0.0_wp, 0.0_wp], [3, 2]))
+            socket%across = frame_i(:, 1)
             socket%axis_i = matmul(socket%axis_i/norm2(socket%axis_i), own(:, :, i))
             if (any(abs(socket%axis_j) > 0.0_wp)) then
                socket%axis_j = matmul(socket%axis_j/norm2(socket%axis_j), own(:, :, j))

@@ -47,6 +47,7 @@ module socket_contacts
       real(wp) :: half_j = 0.0_wp                 !! half the distance of the pin's bases [m]
       real(wp) :: axis_i(3) = 0.0_wp              !! (3) unit axis of the bushing, frame of body i [1]
       real(wp) :: axis_j(3) = 0.0_wp              !! (3) unit axis of the pin, frame of body j [1]
+      real(wp) :: across(3) = 0.0_wp              !! (3) unit vector across the first, where angles are zero, frame of body i [1]
    end type socket_t
 
    !> Where a ball or base is, and how it moves, as body i sees it; world frame.

@@ -7,12 +7,11 @@ module socket_joints
    use film_places, only: film_state_t
    use item, only: item_t
    use kinds, only: wp
-   use motion, only: motion_t
+   use motion, only: cross, motion_t
    use point_contacts, only: of_force, of_moment, of_state, point_report
    use readings, only: readings_t
   use revolute_level, only: of_drag_bearing, of_drag_journal, of_eccentricity_ratio, of_film_force, of_film_moment, of_film_power, &
       of_film_pressure, of_film_thickness, of_film_torque, of_side_flow, of_temperature_rise
-   use rotations, only: axes_across
    use socket_contacts, only: socket_contacts_t
    use socket_films, only: socket_films_t
    use states_of_contacts, only: state_contact, state_film, state_mixed
@@ -64,7 +63,10 @@ contains
                seat%half_j = socket%half_j
                seat%is_of_pin = socket%half_j < socket%half_i
                seat%axis_j = socket%axis_j
-               if (socket%has_axis) seat%frame = axes_across(socket%axis_i)
+               if (.not. socket%has_axis) cycle
+               seat%frame(:, 1) = socket%across
+               seat%frame(:, 2) = cross(socket%axis_i, socket%across)
+               seat%frame(:, 3) = socket%axis_i
             end associate
          end do
       end select

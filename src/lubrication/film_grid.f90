@@ -86,7 +86,8 @@ contains
                     default="none", choices="none widest_gap fixed both")
       call add_number(info, "number", dim_none, "how many fixed supplies, at equal distances", default="1", lower=1.0_wp, &
                       upper=12.0_wp)
-      call add_number(info, "angle", dim_angle, "of the first, in the frame of the bearing's body", default="0 deg")
+      call add_number(info, "angle", dim_angle, "of the first, from x of the bearing's body, in space from x_i of the bushing", &
+                      default="0 deg")
       call add_number(info, "width", dim_angle, "of a supply around the bearing; 0: a line", default="0 deg", lower=0.0_wp, &
                       upper=two_pi, open_upper=.true.)
       call add_number(info, "length", dim_none, "of a supply, part of the bearing's length; 1: from end to end", default="1", &

@@ -233,3 +233,20 @@ def test_films_beyond_their_validity_say_so(gudgeon):
     assert told(gudgeon, "grid", "axis angle[rad]", f'"0 1 0" {tilt}') == []
     (words,) = told(gudgeon, "finite", "z[m]", "0.015")
     assert "'joint': the pin fills only 0.75 of the length of its film" in words
+
+
+def test_a_supply_is_where_the_deck_puts_it(gudgeon):
+    """Angles of a supply count from `x_i`, the first axis across that of the bushing unless it is given: turned back by 30 degrees, with an
+    angle that much larger, the supply is at the same place; the angle alone makes another force."""
+    def force(angle, x_i=None):
+        joint = bushing("grid", 0.02).replace("{boundary} fine", "reynolds fine fixed 40deg 0.8 5e4Pa " + f"{angle}deg")
+        joint = joint.replace("boundary resolution", "boundary resolution supply width length pressure angle")
+        if x_i:
+            joint = joint.replace("axis_j", "axis_j x_i").replace('"0 0 1"', f'"0 0 1" "{x_i}"')
+        return film_of(gudgeon, joint, (0.4, 0.2), (2e-3, 1e-3))[0]
+
+    first = force(50)
+    assert np.array_equal(first, force(50, "1 0 0.3"))
+    back = np.radians(-30)
+    assert np.linalg.norm(force(80, f"{np.cos(back)} {np.sin(back)} 0") - first) < 2e-3 * np.linalg.norm(first)
+    assert np.linalg.norm(force(80) - first) > 2e-2 * np.linalg.norm(first)
