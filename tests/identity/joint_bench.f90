@@ -18,11 +18,11 @@ module joint_bench
    use text, only: to_text
    implicit none (type, external)
    private
-   public :: before, bench_t, evaluate_after, far, friction_laws, make_bench, n_body, n_item, now, span_between, &
-      times_jacobian
+   public :: before, bench_t, evaluate_after, friction_laws, make_bench, n_body, n_item, n_seed, span_between, times_jacobian
 
    integer, parameter :: n_item = 3       !! joints: of two bodies, of ground and body, of body and ground
    integer, parameter :: n_body = 2       !! moving bodies
+   integer, parameter :: n_seed = 4       !! geometries for each kind
    integer, parameter :: before = 2       !! rows of others before those of the kind
    real(wp), parameter :: now = 0.37_wp   !! time of all tests [s]
    real(wp), parameter :: far = 1.2_wp    !! least distance of the points of an item, so that directions are smooth [m]

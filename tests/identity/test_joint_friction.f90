@@ -2,7 +2,7 @@
 module test_joint_friction
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
-   use joint_bench, only: bench_t, evaluate_after, make_bench, n_item
+   use joint_bench, only: bench_t, evaluate_after, make_bench, n_item, n_seed
    use joint_friction, only: most_rows
    use joint_registry, only: n_joint_kinds
    use planar_kinds, only: is_planar_joint
@@ -11,7 +11,6 @@ module test_joint_friction
    private
    public :: run_test_joint_friction
 
-   integer, parameter :: n_seed = 4       !! geometries for each kind
    integer, parameter :: n_rubbing = 2    !! kinds that rub
    real(wp), parameter :: step = 1.0e-6_wp  !! of differences [N or N.m]
 
