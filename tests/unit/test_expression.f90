@@ -1,15 +1,14 @@
-!> Expressions: values and derivatives against sympy and against differences, dimensions, mistakes.
+!> Values of expressions: against sympy and against differences, where they do not exist, and of the text that is written back.
 module test_expression
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use, intrinsic :: ieee_exceptions, only: ieee_divide_by_zero, ieee_get_flag, ieee_invalid, ieee_set_flag
    use check, only: check_close, check_equal, check_true, suite_t
    use errors, only: error_t
    use expression, only: constant_expression, evaluate, expression_t
-   use expression_compile, only: compile_expression, dimension_agrees, evaluate_safely, fault_t, is_reserved, symbol_t, symbols_t, &
-                               & symbol_word
+   use expression_compile, only: compile_expression, evaluate_safely, fault_t, symbols_t
+   use expression_fixture, only: compile
    use expression_reference, only: expression_source, n_reference, reference_values
-   use kind_info, only: dim_angle, dim_angular_speed, dim_force, dim_frequency, dim_length, dim_none, dim_speed, dim_t, &
-                      & dim_time, same_dimension
+   use kind_info, only: dim_force, same_dimension
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -26,54 +25,8 @@ contains
       call suite%test("constants", test_constants)
       call suite%test("singular_points", test_singular_points)
       call suite%test("huge_and_tiny", test_huge)
-      call suite%test("dimensions", test_dimensions)
-      call suite%test("radians", test_radians)
-      call suite%test("mistakes", test_mistakes)
-      call suite%test("limits", test_limits)
       call suite%test("resolved_source", test_resolved_source)
    end subroutine run_test_expression
-
-   !> Parameters of all tests.
-   subroutine make_symbols(all)
-      type(symbols_t), intent(out) :: all  !! the parameters
-
-      type(symbol_t) :: symbols(5)
-      integer :: k
-
-      symbols(1)%name = "w0"
-      symbols(1)%number = 3.0_wp
-      symbols(1)%dimension = dim_angular_speed
-      symbols(2)%name = "r0"
-      symbols(2)%number = 0.1_wp
-      symbols(2)%dimension = dim_length
-      symbols(3)%name = "amplitude"
-      symbols(3)%number = 0.125_wp
-      symbols(4)%name = "law"
-      symbols(4)%kind = symbol_word
-      symbols(4)%word = "hertz"
-      symbols(5)%name = "soft"
-      symbols(5)%number = -0.1_wp
-      symbols(5)%dimension = dim_frequency
-      symbols(5)%is_soft = .true.
-      call all%start(5)
-      do k = 1, 5
-         call all%add(symbols(k))
-      end do
-   end subroutine make_symbols
-
-   !> Compile with the parameters above; a mistake fails the test.
-   subroutine compile(error, source, compiled)
-      type(error_t), allocatable, intent(inout) :: error  !! first failure
-      character(*), intent(in) :: source                  !! the text
-      type(expression_t), intent(out) :: compiled         !! the expression
-
-      type(symbols_t) :: symbols
-      type(fault_t), allocatable :: fault
-
-      call make_symbols(symbols)
-      call compile_expression(source, symbols, .true., compiled, fault)
-      if (allocated(fault)) call check_equal(error, fault%message, "", source)
-   end subroutine compile
 
    !> Value and both derivatives are those of sympy.
    subroutine test_sympy(error)
@@ -231,162 +184,6 @@ contains
       end function applied
 
    end subroutine test_huge
-
-   !> Dimensions of results.
-   subroutine test_dimensions(error)
-      type(error_t), allocatable, intent(out) :: error  !! first failure
-
-      call expect("10 mm^2", dim_t(m=2), .false.)
-      call expect("3kg.m/s^2", dim_force, .false.)
-      call expect("2 N/m^1.5*(1 mm)^1.5", dim_force, .true.)
-      call expect("sqrt(4 m^2/s^2)", dim_speed, .true.)
-      call expect("10 mm/t", dim_speed, .false.)
-      call expect("10 m /2s", dim_t(m=1, s=-1), .false.)
-      call expect("max(1 mm, 2 um)", dim_length, .false.)
-      call expect("20degC + 5K", dim_t(k=1), .false.)
-      call expect("step(t - 1 ms)", dim_none, .false.)
-      call expect("abs(-1 N)", dim_force, .false.)
-
-   contains
-
-      !> Compile and compare.
-      subroutine expect(source, dimension, is_soft)
-         character(*), intent(in) :: source    !! the text
-         type(dim_t), intent(in) :: dimension  !! of its value
-         logical, intent(in) :: is_soft        !! its radians may be taken or left
-
-         type(expression_t) :: compiled
-
-         call compile(error, source, compiled)
-         call check_true(error, same_dimension(compiled%dimension, dimension), source//": dimension")
-         call check_true(error, compiled%is_soft .eqv. is_soft, source//": softness")
-      end subroutine expect
-
-   end subroutine test_dimensions
-
-   !> The rule for radians.
-   subroutine test_radians(error)
-      type(error_t), allocatable, intent(out) :: error  !! first failure
-
-      call expect("2*pi*50Hz*t", dim_angle, .true.)
-      call expect("50Hz*t", dim_angle, .false.)
-      call expect("5rad/s*t", dim_angle, .true.)
-      call expect("5rad/s*t", dim_none, .true.)
-      call expect("50Hz", dim_angular_speed, .false.)
-      call expect("2*50Hz", dim_angular_speed, .false.)
-      call expect("2*pi*50Hz", dim_angular_speed, .true.)
-      call expect("w0", dim_frequency, .false.)
-      call expect("w0*r0", dim_speed, .true.)
-      call expect("w0*r0 + 1m/s", dim_speed, .true.)
-      call expect("w0^2*r0", dim_t(m=1, s=-2), .true.)
-      call expect("1/w0", dim_time, .true.)
-      call expect("1 + 30deg", dim_angle, .true.)
-      call expect("1 + 30deg", dim_none, .false.)
-      call expect("0.5*sin(w0*t)", dim_angle, .false.)
-      call expect("0.5rad*sin(w0*t)", dim_angle, .true.)
-      call expect("atan2(r0, 1m)", dim_angle, .true.)
-      call expect("atan(2)", dim_none, .true.)
-      call expect("sqrt(4N/m/(1kg))", dim_angular_speed, .true.)
-      call expect("soft", dim_angular_speed, .true.)
-      call expect("2*pi", dim_angle, .true.)
-      call expect("2*pi*1m", dim_angle, .false.)
-
-   contains
-
-      !> Compile and compare with what is wanted.
-      subroutine expect(source, wanted, agrees)
-         character(*), intent(in) :: source  !! the text
-         type(dim_t), intent(in) :: wanted   !! dimension of the place
-         logical, intent(in) :: agrees       !! whether it may stand there
-
-         type(expression_t) :: compiled
-
-         call compile(error, source, compiled)
-         call check_true(error, dimension_agrees(compiled%dimension, compiled%is_soft, wanted) .eqv. agrees, source)
-      end subroutine expect
-
-   end subroutine test_radians
-
-   !> Mistakes are found where they are.
-   subroutine test_mistakes(error)
-      type(error_t), allocatable, intent(out) :: error  !! first failure
-
-      call expect("", 1, "the expression is empty")
-      call expect("  ", 1, "the expression is empty")
-      call expect("1 +", 3, "the expression ends too early")
-      call expect("(1 + 2", 1, "a parenthesis is not closed")
-      call expect("1 + 2)", 6, "this parenthesis was not opened")
-      call expect("1 2", 3, "an operator is missing here")
-      call expect("2**3", 2, "a power is written with ^")
-      call expect("2*/3", 3, "a number, a name or a parenthesis belongs here")
-      call expect("2 + sine(3)", 5, "there is no function 'sine'")
-      call expect("sin", 1, "the function 'sin' lacks its argument in parentheses")
-      call expect("sin()", 5, "a number, a name or a parenthesis belongs here")
-      call expect("sin(1, 2)", 6, "too many arguments for 'sin'")
-      call expect("atan2(1)", 1, "'atan2' takes two arguments, separated by a comma")
-      call expect("2*w1", 3, "unknown parameter 'w1'")
-      call expect("2*law", 3, "the parameter 'law' is the word 'hertz', not a number")
-      call expect("5 w0", 3, "an operator is missing before 'w0'")
-      call expect("5 t", 3, "an operator is missing before 't'")
-      call expect("5 radd", 3, "unknown unit 'radd': did you mean 'rad'?")
-      call expect("5 m/s2", 5, "unknown parameter 's2'")
-      call expect("1e999", 1, "not a finite number: it is too large")
-      call expect("t > 1 s", 3, "there are no comparisons in expressions")
-      call expect("r0 + t", 6, "this is a time [s], the part before it is a length [m]")
-      call expect("r0 + 1", 6, "this is a dimensionless number, the part before it is a length [m]")
-      call expect("min(r0, 2 s)", 9, "this is a time [s], the part before it is a length [m]")
-      call expect("exp(r0)", 5, "exp takes a dimensionless number or an angle, not a length [m]")
-      call expect("2^t", 3, "an exponent is a dimensionless number, not a time [s]")
-      call expect("r0^(t/1s)", 1, "only a dimensionless number has an exponent that varies")
-      call expect("2^(1/0)", 3, "this exponent is not a number up to 1000")
-      call check_true(error, is_reserved("t") .and. is_reserved("pi") .and. is_reserved("sin"), "reserved names")
-      call check_true(error, .not. is_reserved("w0"), "other names")
-
-   contains
-
-      !> Compile and compare the mistake.
-      subroutine expect(source, first, message)
-         character(*), intent(in) :: source   !! the text
-         integer, intent(in) :: first         !! first character that is wrong
-         character(*), intent(in) :: message  !! what is wrong
-
-         type(expression_t) :: compiled
-         type(fault_t), allocatable :: fault
-         type(symbols_t) :: symbols
-
-         call make_symbols(symbols)
-         call compile_expression(source, symbols, .true., compiled, fault)
-         call check_true(error, allocated(fault), source//": refused")
-         if (.not. allocated(fault)) return
-         call check_equal(error, fault%message, message, source)
-         call check_equal(error, fault%first, first, source//": place")
-      end subroutine expect
-
-   end subroutine test_mistakes
-
-   !> Very long and very deep expressions are refused, not survived by luck.
-   subroutine test_limits(error)
-      type(error_t), allocatable, intent(out) :: error  !! first failure
-
-      type(expression_t) :: compiled
-      type(fault_t), allocatable :: fault
-      type(symbols_t) :: symbols
-
-      call compile_expression(repeat("(", 100000)//"1", symbols, .true., compiled, fault)
-      call check_true(error, allocated(fault), "many parentheses")
-      call compile_expression(repeat("-", 100000)//"1", symbols, .true., compiled, fault)
-      call check_true(error, allocated(fault), "many signs")
-      call compile_expression(repeat("2^", 100000)//"1", symbols, .true., compiled, fault)
-      call check_true(error, allocated(fault), "many powers")
-      call compile_expression(repeat("1+", 100000)//"1", symbols, .true., compiled, fault)
-      call check_true(error, allocated(fault), "many terms")
-      call compile_expression(repeat("sin(", 100000)//"1", symbols, .true., compiled, fault)
-      call check_true(error, allocated(fault), "many functions")
-      call compile_expression(repeat("(1+", 45)//"1"//repeat(")", 45), symbols, .true., compiled, fault)
-      call check_true(error, allocated(fault), "more than the stack holds")
-      call compile_expression(repeat("(1+", 30)//"1"//repeat(")", 30), symbols, .true., compiled, fault)
-      call check_true(error, .not. allocated(fault), "as much as the stack holds")
-   end subroutine test_limits
 
    !> The text that is written back holds the values of parameters and compiles to exactly the same values.
    subroutine test_resolved_source(error)
