@@ -101,9 +101,7 @@ contains
          interval = max(write_interval, write_share*seconds(now, began))
       end do
       call display%finish()
-      do job = 1, size(run_of)
-         if (run_of(job) > 0) code = remove_file(log_of_job(work, job))
-      end do
+      call remove_logs(work, run_of)
 
    contains
 
@@ -116,6 +114,18 @@ contains
       end function seconds
 
    end subroutine run_all
+
+   !> Remove the files that the messages of runs went to.
+   subroutine remove_logs(work, run_of)
+      type(sweep_work_t), intent(in) :: work   !! the sweep
+      integer, intent(in) :: run_of(:)         !! (jobs) number of the last run of each; 0: it made none
+
+      integer :: code, job
+
+      do job = 1, size(run_of)
+         if (run_of(job) > 0) code = remove_file(log_of_job(work, job))
+      end do
+   end subroutine remove_logs
 
    !> After a run that could not write: whether the directory is still there; the journal may go to a file that nobody can find.
    subroutine check_place(work, error)
