@@ -10,8 +10,7 @@ module kind_info
    public :: channel_t, column_t, dim_t, kind_info_t
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
    public :: cell_condition, cell_file, cell_formula, cell_list, cell_words
-   public :: add_condition
-   public :: add_any_number, add_direction, add_file, add_formula, add_list
+   public :: add_any_number, add_condition, add_direction, add_file, add_formula, add_list
    public :: add_channel, add_column, add_duration, add_expression, add_flag, add_number, add_reference
    public :: add_vector, add_word, add_words, same_dimension
    public :: dim_acceleration, dim_angle, dim_angular_acceleration, dim_angular_damping, dim_angular_speed
@@ -68,7 +67,6 @@ module kind_info
    integer, parameter :: cell_expression = 6  !! a number, or an expression in the time `t`
    integer, parameter :: cell_flag = 7        !! on or off
    integer, parameter :: cell_duration = 8    !! a time, or `N turns of DRIVER` (settings only)
-
    integer, parameter :: cell_list = 9        !! numbers with one unit, in quotes (tables only)
    integer, parameter :: cell_file = 10       !! a text file
    integer, parameter :: cell_condition = 11  !! conditions on channels (settings only)
