@@ -171,7 +171,7 @@ contains
       call check_says(error, message, "at t = 0.5")
    end subroutine test_driver_not_finite
 
-   !> So does a load, named by its body.
+   !> So does a load, named by its force element.
    subroutine test_load_not_finite(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
@@ -181,11 +181,12 @@ contains
 
       call run_text(pendulum//"[force.point]"//nl//"name point fx"//nl//"wind eye {sqrt(1 - t/(0.5 s))*1 N}"//nl// &
                     second, .true., keeper, summary, message, error)
-      call check_says(error, message, "a load on body 'bob' is not a finite number")
+      call check_says(error, message, "the load of force element 'wind' is not a finite number")
       call check_says(error, message, "at t = 0.5 s")
       call run_text(pendulum//"[force.torque]"//nl//"name body moment"//nl//"twist bob {log(1 - t/(0.25 s))*1 N.m}"//nl// &
                     second//"step = 10 ms"//nl, .true., other, summary, message, error)
-      call check_says(error, message, "the equations of motion cannot be solved: a load on body 'bob' is not a finite number")
+      call check_says(error, message, "the equations of motion cannot be solved: the load of force element 'twist' is not a "// &
+                      "finite number")
    end subroutine test_load_not_finite
 
    !> The worst constraint with its unit: a driver is off by radians, a pin by metres.
