@@ -5,6 +5,12 @@ import shutil
 import subprocess
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#555555", "#000000")
+MARKERS = (5, 6, 7, 8, 9, 10, 11, 12, 13)  # squares, circles, triangles, diamonds of gnuplot, filled or not; none looks like another
+
+
+def look(n):
+    """Marker, colour and dashes of curve n, from 1 on: no other of 72 has both marker and colour; those of a colour are dashed otherwise."""
+    return MARKERS[(n - 1) % len(MARKERS)], COLOURS[n % len(COLOURS)], 1 + (n - 1) // len(COLOURS)
 
 
 def keep(columns, rows, path):
@@ -31,7 +37,7 @@ def draw(series, path, title, labels):
     series = {name: points for name, points in series.items() if points}
     blocks = "".join(f"$d{n} << E\n" + "".join(f"{x:.5e} {y:.5e}\n" for x, y in points) + "E\n"
                      for n, points in enumerate(series.values(), 1))
-    curves = ", ".join(f"$d{n} using 1:2 with linespoints lw 2 pt {4 + n} ps 1.1 lc rgb '{COLOURS[n % len(COLOURS)]}' title '{name}'"
+    curves = ", ".join("$d{} using 1:2 with linespoints lw 2 ps 1.1 pt {} lc rgb '{}' dt {} title '{}'".format(n, *look(n), name)
                        for n, name in enumerate(series, 1))
     script = f"""set terminal pngcairo size 1000,650 font 'DejaVu Sans,11' noenhanced
 set output '{path}'

@@ -53,3 +53,13 @@ def test_failed_run_is_told(gudgeon, tmp_path, scripts, capsys):
     tools, laws = scripts
     assert tools.run_all(gudgeon, tmp_path, {"bad": tools.Case(laws.IMPACT, {"law": "none_such"})}) == {}
     assert "bad: ended with code" in capsys.readouterr().err
+
+
+def test_curves_of_the_timers_differ():
+    """Of two dozen curves none has the marker and the colour of another, and none the dashes of another of its colour."""
+    spec = importlib.util.spec_from_file_location("pictures", ROOT / "tests" / "bench" / "pictures.py")
+    pictures = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(pictures)
+    looks = [pictures.look(n) for n in range(1, 25)]
+    assert len({look[:2] for look in looks}) == len({look[1:] for look in looks}) == len(looks)
+    assert all(4 <= look[0] <= 13 for look in looks), "pentagons look like circles"
