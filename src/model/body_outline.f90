@@ -1,8 +1,8 @@
 !> The outline of a body that has no shapes, by the points that it carries.
 !>
 !> A line between two points, a polygon through three or more (in the plane their convex hull, in space lines to its centre of mass
-!> if they are more than three), the line from its centre of mass to a single point, a block where that is the centre of mass: one
-!> that is loose in a guide as large as it is, any other in proportion to the scene.
+!> if they are more than three), the line from its centre of mass to a single point, a block in proportion to the scene where that
+!> is the centre of mass.
 module body_outline
    use drawing, only: add_stroke, drawing_t, in_both, part_t, round_part, start_part
    use kinds, only: wp
@@ -46,12 +46,11 @@ contains
    end function distinct_points
 
    !> Outline of a body by its points.
-   subroutine outline(drawing, body, s, frame, sides, part)
+   subroutine outline(drawing, body, s, frame, part)
       type(drawing_t), intent(in) :: drawing  !! for the size of the scene
       integer, intent(in) :: body             !! the body
       real(wp), intent(in) :: s(:, :)         !! (3, n) places of its points [m]
       real(wp), intent(in) :: frame(3, 3)     !! (3, 3) axes of a block: in which it slides, or zero, and those across [1]
-      real(wp), intent(in) :: sides(3)        !! (3) half its sides along them; zero: not known, in the plane none [m]
       type(part_t), intent(out) :: part       !! the outline
 
       real(wp), parameter :: centre(3, 1) = 0.0_wp
@@ -70,7 +69,6 @@ contains
          axes = axes_across([0.0_wp, 0.0_wp, 1.0_wp])
          if (norm2(frame(:, 1)) > 0.0_wp) axes = frame
          half = 0.5_wp*drawing%size*[block_length, block_height, merge(block_height, 0.0_wp, drawing%is_spatial)]
-         if (maxval(sides) > 0.0_wp) half = sides
          call box_part(half, centre(:, 1), axes, body, part)
       else if (n == 2) then
          call start_part(part, body, s)

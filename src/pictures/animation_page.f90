@@ -100,10 +100,10 @@ contains
       do k = 1, drawing%n_mark
          associate (mark => drawing%marks(k))
             call page%line("{k:"//to_text(mark%kind)//",b:["//to_text(mark%body(1))//","//to_text(mark%body(2))//"],s:["// &
-                           triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"//triple(mark%axis)//",w:["// &
-                           number(symbols%ways(1, k))//","//number(symbols%ways(2, k))//"],h:"//number(symbols%walls(k))//",l:"// &
-                           to_text(symbols%loose(k))//",g:["//number(mark%gaps(1))//","//number(mark%gaps(2))//"],n:"// &
-                           number(mark%half_length)//",aj:"//triple(mark%axis_j)//",q:"//to_text(symbols%load(k))//"},")
+                           triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"//triple(mark%axis)//",w:"// &
+                           pair(symbols%ways(:, k))//",h:"//pair(symbols%walls(:, k))//",l:"//to_text(symbols%loose(k))//",g:"// &
+                           pair(mark%gaps)//",n:"//number(mark%half_length)//",aj:"//triple(mark%axis_j)//",q:"// &
+                           to_text(symbols%load(k))//"},")
          end associate
       end do
       call page%line("],")
@@ -189,6 +189,14 @@ contains
          call page%add(number(values(k))//",")
       end do
    end subroutine add_numbers
+
+   !> Two numbers.
+   function pair(x) result(s)
+      real(wp), intent(in) :: x(2)             !! (2) the numbers [any]
+      character(:), allocatable :: s           !! as `[1,2]`
+
+      s = "["//number(x(1))//","//number(x(2))//"]"
+   end function pair
 
    !> A vector.
    function triple(x) result(s)

@@ -72,7 +72,7 @@ module animation_script
       " for(let k=-1;k<=1;k+=0.4){const b=e(k);", &
       "  s+=line([b,[b[0]-0.4*h*(u[0]-u[1]),b[1]-0.4*h*(u[1]+u[0])]],'#707070',0.002)}return s}", &
       "function guide(p,u,w,h,fixed){const n=[-u[1],u[0]],l=Math.hypot(...n);if(l<0.1)return'';let s='';[-1,1].forEach(k=>{", &
-      "  const o=[k*h*n[0]/l,k*h*n[1]/l],e=t=>[p[0]+t*u[0]+o[0],p[1]+t*u[1]+o[1]],a=w[0]-0.09*S,b=w[1]+0.09*S;", &
+      "  const g=k*h[k<0?0:1],o=[g*n[0]/l,g*n[1]/l],e=t=>[p[0]+t*u[0]+o[0],p[1]+t*u[1]+o[1]],a=w[0]-0.09*S,b=w[1]+0.09*S;", &
       "  s+=line([e(a),e(b)],'#707070',0.003);for(let t=a;fixed&&t<b;t+=0.02*S){const q=e(t);", &
       "   s+=line([q,[q[0]+0.017*S*k*n[0]/l-0.012*S*u[0],q[1]+0.017*S*k*n[1]/l-0.012*S*u[1]]],'#707070',0.002)}});return s}", &
       "function plane(p,u,w){const a=w[0]-0.2*S,b=w[1]+0.2*S,e=t=>[p[0]+t*u[0],p[1]+t*u[1]];", &

@@ -45,7 +45,7 @@ module scene_strokes
       real(wp) :: magnified = 0.0_wp              !! factor of eccentricities; 0: no loose round joints [1]
       real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
       real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: least and greatest place of j along the axis [m]
-      real(wp), allocatable :: walls(:)           !! (marks) of slides: from the middle of the guide to its walls [m]
+      real(wp), allocatable :: walls(:, :)        !! (2, marks) of slides: from the guide's line to its walls, as `gaps` [m]
       integer, allocatable :: loose(:)            !! (marks) number of the joint with clearance, 0: none
       integer, allocatable :: load(:)             !! (marks) of a load: number of the force element, 0: none
    end type symbols_t
@@ -153,7 +153,8 @@ contains
       case (mark_slide)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
-         if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, symbols%walls(number), mark%body(1) == 0)
+         if (norm2(axis) > 0.1_wp) call draw_guide(canvas, symbols, p(:, 1), axis, way, symbols%walls(:, number), &
+                                                mark%body(1) == 0)
       case (mark_bearing)
          if (any(mark%body == 0)) call draw_support(canvas, symbols, p(:, merge(1, 2, mark%body(1) == 0)))
          radius = bearing_size*symbols%size
@@ -219,13 +220,13 @@ contains
    end subroutine draw_hatch
 
    !> Both sides of a guide, hatched if it is the ground's.
-   subroutine draw_guide(canvas, symbols, p, axis, way, wall, is_ground)
+   subroutine draw_guide(canvas, symbols, p, axis, way, walls, is_ground)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales
       real(wp), intent(in) :: p(2)             !! (2) point of the guide [m]
       real(wp), intent(in) :: axis(2)          !! (2) its axis in the view, at most of length 1 [1]
       real(wp), intent(in) :: way(2)           !! (2) places of the slider along the axis [m]
-      real(wp), intent(in) :: wall             !! from its middle to its walls [m]
+      real(wp), intent(in) :: walls(2)         !! (2) from its line to its walls: on the side of R90 axis, and on the other [m]
       logical, intent(in) :: is_ground         !! it is fixed
 
       real(wp) :: across(2), ends(2, 2), reach
@@ -235,7 +236,7 @@ contains
       ends(:, 1) = p + (way(1) - reach)*axis
       ends(:, 2) = p + (way(2) + reach)*axis
       do side = -1, 1, 2
-         across = real(side, wp)*wall*[-axis(2), axis(1)]/norm2(axis)
+         across = real(side, wp)*walls(merge(1, 2, side > 0))*[-axis(2), axis(1)]/norm2(axis)
          if (.not. is_ground) then
             call add(canvas, style_symbol, symbols, reshape([ends(:, 1) + across, ends(:, 2) + across], [2, 2]), dark)
          else if (side < 0) then

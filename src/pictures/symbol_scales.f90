@@ -31,7 +31,7 @@ contains
       allocate (symbols%load(drawing%n_mark), source=0)
       symbols%ways = 0.0_wp
       symbols%loose = 0
-      allocate (symbols%walls(drawing%n_mark), source=least_wall*symbols%size)
+      allocate (symbols%walls(2, drawing%n_mark), source=least_wall*symbols%size)
       do k = 1, drawing%n_mark
          associate (mark => drawing%marks(k), names => catalogue%rooms(room_clearances)%names)
             do i = 1, size(names)
@@ -55,8 +55,13 @@ contains
                symbols%ways(:, k) = [min(symbols%ways(1, k), across), max(symbols%ways(2, k), along)]
             end do
             if (drawing%is_spatial .or. mark%kind /= mark_slide) cycle
-            half = half_sides(drawing, list, mark, symbols%size)
-            symbols%walls(k) = max(symbols%walls(k), half(2))
+            half = mark%sides
+            if (maxval(half) > 0.0_wp) then
+               symbols%walls(:, k) = half(2) + mark%gaps
+            else
+               half = half_sides(drawing, list, mark, symbols%size)
+               symbols%walls(:, k) = max(symbols%walls(:, k), half(2))
+            end if
             symbols%ways(:, k) = symbols%ways(:, k) + [-half(1), half(1)]
          end associate
       end do

@@ -12,7 +12,7 @@ module drawn_axes
    use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
-   public :: axis_of, direction_in_plane, find_ways, start_frame, turning_axis
+   public :: axis_of, direction_in_plane, find_frame, find_ways, start_frame, turning_axis
 
 contains
 
@@ -72,15 +72,12 @@ contains
       if (end == 2) axis = matmul(matmul(start_frame(scene, tie%body(1)), axis), start_frame(scene, tie%body(2)))
    end function turning_axis
 
-   !> Axes of bodies that slide, in their own frames, the first in which they do, and half the sides of loose ones along them; zero
-   !> of those that do not.
-   subroutine find_ways(scene, frames, half)
+   !> Axes of bodies that slide, in their own frames, the first in which they do; zero of those that do not.
+   subroutine find_ways(scene, frames)
       type(scene_t), intent(in) :: scene         !! the scene
       real(wp), intent(out) :: frames(:, :, :)   !! (3, 3, bodies) axes [1]
-      real(wp), intent(out) :: half(:, :)        !! (3, bodies) half the sides, as loose guides have them [m]
 
       frames = 0.0_wp
-      half = 0.0_wp
       call look(scene%joints)
       call look(scene%clearances)
 
@@ -100,12 +97,7 @@ contains
                tie = tie_of(scene, tables(k)%info, tables(k)%items(i))
                if (.not. norm2(axis) > 0.0_wp .or. tie%n < 2 .or. tie%by_joint .or. tie%body(2) == 0) cycle
                if (tables(k)%info%leaves /= leaves_way .and. find_place(tables(k)%items(i), "slider") == 0) cycle
-               associate (item => tables(k)%items(i), frame => frames(:, :, tie%body(2)), sides => half(:, tie%body(2)))
-                  call find_frame(scene, item, tie, axis, frame)
-                  if (find_place(item, "slider") == 0) cycle
-                  sides = 0.5_wp*[item%number("length"), item%number("height"), 0.0_wp]
-                  if (find_place(item, "width_axis") > 0) sides(2:3) = 0.5_wp*[item%number("width"), item%number("height")]
-               end associate
+               call find_frame(scene, tables(k)%items(i), tie, axis, frames(:, :, tie%body(2)))
             end do
          end do
       end subroutine look

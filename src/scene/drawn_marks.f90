@@ -22,10 +22,11 @@ module drawn_marks
 contains
 
    !> Marks of the rows of some kinds.
-   subroutine add_marks(scene, tables, are_forces, drawing)
+   subroutine add_marks(scene, tables, are_forces, has_shape, drawing)
       type(scene_t), intent(in) :: scene           !! the scene
       type(table_t), intent(in) :: tables(:)       !! (kinds) joints, joints with clearance or forces
       logical, intent(in) :: are_forces            !! they are forces
+      logical, intent(in) :: has_shape(0:)         !! (0:bodies) whether rows of [shapes] say how a body looks
       type(drawing_t), intent(inout) :: drawing    !! gets marks
 
       type(mark_t) :: mark
@@ -52,6 +53,7 @@ contains
                   call add_bearing(mark, drawing)
                else if (mark%kind == mark_slide) then
                   call measure_slide(scene, item, tie, mark)
+                  if (has_shape(mark%body(2))) mark%sides = 0.0_wp
                end if
                if (mark%kind > 0) call add_mark(drawing, mark)
             end associate
@@ -75,14 +77,15 @@ contains
       call add_mark(drawing, mark)
    end subroutine add_load
 
-   !> Gaps, length and direction of what slides in a loose guide; nothing of one that is not loose.
+   !> Sides of what slides in a guide, gaps and direction of one that is loose.
    subroutine measure_slide(scene, item, tie, mark)
       type(scene_t), intent(in) :: scene         !! the scene
       type(item_t), intent(in) :: item           !! the row
       type(tie_t), intent(in) :: tie             !! what it ties
       type(mark_t), intent(inout) :: mark        !! the joint, with its axis
 
-      if (find_place(item, "gap") == 0 .or. find_place(item, "length") == 0) return
+      if (any([find_place(item, "gap"), find_place(item, "length"), find_place(item, "height")] == 0)) return
+      mark%sides = 0.5_wp*[item%number("length"), item%number("height")]
       if (item%word("level") == "ideal") return
       mark%half_length = 0.5_wp*item%number("length")
       mark%gaps = item%number("gap")

@@ -2,11 +2,12 @@
 !>
 !> A body has the rows of [shapes] that name it. One without is drawn by the points that it carries (`body_outline`). Columns
 !> `radius`, `radius_i` and `radius_j` of a row that ties two points are circles about them, of discs and gears, in space across
-!> their axes (`drawn_axes`); of loose joints in space they are balls. Joints and forces are marks (`drawn_marks`).
+!> their axes (`drawn_axes`); of loose joints in space they are balls. What slides in a loose guide is the block of its row, and
+!> only where it has points beyond it drawn by them too. Joints and forces are marks (`drawn_marks`).
 module scene_drawing
    use body_outline, only: distinct_points, outline, same_place
    use drawing, only: add_part, drawing_t, part_t, round_part
-   use drawn_axes, only: find_ways, turning_axis
+   use drawn_axes, only: axis_of, find_frame, find_ways, turning_axis
    use drawn_marks, only: add_marks
    use item, only: find_place
    use kind_info, only: leaves_more
@@ -14,7 +15,7 @@ module scene_drawing
    use rotations, only: axes_across
    use scene, only: scene_t, table_shapes, table_t
    use scene_size, only: extent_of_scene, size_of_bodies
-   use shapes, only: part_of_shape, sphere_part
+   use shapes, only: box_part, part_of_shape, sphere_part
    use ties, only: tie_of, tie_t
    implicit none (type, external)
    private
@@ -27,7 +28,7 @@ contains
       type(scene_t), intent(in) :: scene         !! the scene
       type(drawing_t), intent(out) :: drawing    !! what it looks like
 
-      logical :: has_part(0:scene%bodies%n)
+      logical :: has_part(0:scene%bodies%n), has_shape(0:scene%bodies%n)
       integer :: k
 
       drawing%is_spatial = scene%settings%is_spatial
@@ -41,12 +42,14 @@ contains
       end do
       has_part = .false.
       call add_shapes(scene, drawing, has_part)
+      has_shape = has_part
       call add_rounds(scene, scene%joints, .false., drawing, has_part)
       call add_rounds(scene, scene%clearances, drawing%is_spatial, drawing, has_part)
+      call add_blocks(scene, has_shape, drawing, has_part)
       call add_outlines(scene, drawing, has_part)
-      call add_marks(scene, scene%joints, .false., drawing)
-      call add_marks(scene, scene%clearances, .false., drawing)
-      call add_marks(scene, scene%forces, .true., drawing)
+      call add_marks(scene, scene%joints, .false., has_shape, drawing)
+      call add_marks(scene, scene%clearances, .false., has_shape, drawing)
+      call add_marks(scene, scene%forces, .true., has_shape, drawing)
    end subroutine drawing_of_scene
 
    !> A point of the deck in its body's own frame.
@@ -117,6 +120,55 @@ contains
       end do
    end subroutine add_rounds
 
+   !> Blocks of loose guides, as their rows have them; a body whose points all are in one block needs no other outline.
+   subroutine add_blocks(scene, has_shape, drawing, has_part)
+      type(scene_t), intent(in) :: scene            !! the scene
+      logical, intent(in) :: has_shape(0:)          !! (0:bodies) whether rows of [shapes] say how a body looks
+      type(drawing_t), intent(inout) :: drawing     !! gets parts
+      logical, intent(inout) :: has_part(0:)        !! (0:bodies) whether a body has one
+
+      type(part_t) :: part
+      real(wp) :: frame(3, 3), half(3)
+      type(tie_t) :: tie
+      integer :: i, k
+
+      do k = 1, size(scene%clearances)
+         do i = 1, size(scene%clearances(k)%items)
+            associate (item => scene%clearances(k)%items(i))
+               if (find_place(item, "slider") == 0) cycle
+               tie = tie_of(scene, scene%clearances(k)%info, item)
+               if (has_shape(tie%body(2))) cycle
+               call find_frame(scene, item, tie, axis_of(item), frame)
+               half = 0.5_wp*[item%number("length"), item%number("height"), 0.0_wp]
+               if (find_place(item, "width_axis") > 0) half(2:3) = 0.5_wp*[item%number("width"), item%number("height")]
+            end associate
+            associate (body => tie%body(2), centre => drawing%s(:, tie%point(2)))
+               call box_part(half, centre, frame, body, part)
+               call add_part(drawing, part)
+               if (has_all_points(drawing, body, centre, frame, half)) has_part(body) = .true.
+            end associate
+         end do
+      end do
+   end subroutine add_blocks
+
+   !> Whether a block has all points of its body in it.
+   pure logical function has_all_points(drawing, body, centre, frame, half)
+      type(drawing_t), intent(in) :: drawing  !! where points are
+      integer, intent(in) :: body             !! the body
+      real(wp), intent(in) :: centre(3)       !! (3) centre of the block, own frame of the body [m]
+      real(wp), intent(in) :: frame(3, 3)     !! (3, 3) its axes as columns, own frame of the body [1]
+      real(wp), intent(in) :: half(3)         !! (3) half its sides along them [m]
+
+      integer :: k
+
+      has_all_points = .false.
+      do k = 1, size(drawing%body)
+         if (drawing%body(k) /= body) cycle
+         if (any(abs(matmul(drawing%s(:, k) - centre, frame)) > half + same_place*drawing%size)) return
+      end do
+      has_all_points = .true.
+   end function has_all_points
+
    !> Outlines of bodies that have no part, by their points.
    subroutine add_outlines(scene, drawing, has_part)
       type(scene_t), intent(in) :: scene            !! the scene
@@ -124,11 +176,11 @@ contains
       logical, intent(in) :: has_part(0:)           !! (0:bodies) whether a body has one
 
       type(part_t) :: part
-      real(wp) :: frames(3, 3, scene%bodies%n), half(3, scene%bodies%n)
+      real(wp) :: frames(3, 3, scene%bodies%n)
       integer, allocatable :: first(:), next(:)
       integer :: body, k
 
-      call find_ways(scene, frames, half)
+      call find_ways(scene, frames)
       allocate (first(0:scene%bodies%n), next(scene%points%n), source=0)
       do k = scene%points%n, 1, -1  ! lists of the points of each body, in the order of the deck
          next(k) = first(scene%points%body(k))
@@ -136,7 +188,7 @@ contains
       end do
       do body = 1, scene%bodies%n
          if (has_part(body)) cycle
-         call outline(drawing, body, distinct_points(drawing, first(body), next), frames(:, :, body), half(:, body), part)
+         call outline(drawing, body, distinct_points(drawing, first(body), next), frames(:, :, body), part)
          call add_part(drawing, part)
       end do
    end subroutine add_outlines

@@ -243,15 +243,26 @@ def test_arrows_end_within_the_picture(gudgeon, tmp_path, figure, force):
         assert np.all(line >= unit * frame[:, 0]) and np.all(line <= unit * frame[:, 1]), (line, frame)
 
 
-def test_loose_slider_has_its_size(gudgeon, tmp_path):
-    """A slider loose in a guide is drawn with the length and height that its row gives, however large the scene is."""
+@pytest.mark.parametrize(("point", "is_beyond"), [("", False), ("eye slider 10 0\n", False), ("eye slider 10 90\n", True)])
+def test_loose_slider_has_its_size(gudgeon, tmp_path, point, is_beyond):
+    """A slider loose in a guide is drawn with length and height of its row, whatever points it has, between its walls, gaps
+    included; a line goes to a point beyond it."""
     text = (ROOT / "inputs" / "slider_crank_translational.deck").read_text()
-    found = strokes(run(gudgeon, tmp_path, text, "mechanism") / "mechanism.dat")
-    sides = [np.ptp(line, axis=0) for line in found[0]["body"]]
+    text = changed(text.replace("pin      slider     0      0\n", f"pin slider 0 0\n{point}"), "analysis.dynamic", end="0.2 ms")
     row = text.split("[clearance.translational]")[1].splitlines()
     head, cells = row[1].split(), row[2].split()
-    size = [float(cells[head.index(name)]) * 1e-3 for name in ("length[mm]", "height[mm]")]
-    assert any(np.allclose(side, size, rtol=0.02) for side in sides), (sides, size)
+    length, height = (float(cells[head.index(name)]) * 1e-3 for name in ("length[mm]", "height[mm]"))
+    gap = 0.5e-3
+    folder = run(gudgeon, tmp_path, text, "mechanism(t=0ms) animation(n=2)")
+    frame = strokes(folder / "mechanism.t.0ms.dat")[0]
+    sides = [np.ptp(line, axis=0) for line in frame["body"]]
+    assert sum(np.allclose(side, [length, height], rtol=0.02) for side in sides) == 1, sides
+    walls = [line for line in frame["ground"] if len(line) == 2 and np.ptp(line[:, 0]) > length and np.ptp(line[:, 1]) < 1e-9]
+    np.testing.assert_allclose(np.ptp([wall[0, 1] for wall in walls]), height + 2 * gap, rtol=1e-3)
+    ends = np.concatenate([line for line in frame["line"] if len(line) == 2])
+    assert (ends[:, 1].max() > 0.08) == is_beyond
+    page = (folder / "animation.n.2.html").read_text(encoding="utf-8")
+    assert any(np.allclose([float(x) for x in found], height / 2 + gap, rtol=1e-3) for found in re.findall(r"h:\[([^,\]]*),([^\]]*)\]", page))
 
 
 def test_loose_block_of_space_has_its_size(gudgeon, tmp_path):
