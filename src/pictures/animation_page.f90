@@ -103,7 +103,7 @@ contains
                            triple(mark%s(:, 1))//","//triple(mark%s(:, 2))//"],a:"//triple(mark%axis)//",w:"// &
                            pair(symbols%ways(:, k))//",h:"//pair(symbols%walls(:, k))//",l:"//to_text(symbols%loose(k))//",g:"// &
                            pair(mark%gaps)//",n:"//number(mark%half_length)//",aj:"//triple(mark%axis_j)//",q:"// &
-                           to_text(symbols%load(k))//"},")
+                           to_text(symbols%load(k))//",c:"//number(symbols%coils(k))//",z:"//to_text(symbols%bends(k))//"},")
          end associate
       end do
       call page%line("],")

@@ -61,13 +61,13 @@ module animation_script
       "function ground(p){const h=0.035*S,y=p[1]+1.5*h;let s=line([[p[0]-h,y],p,[p[0]+h,y]],'#707070',0.003);", &
       " s+=line([[p[0]-1.5*h,y],[p[0]+1.5*h,y]],'#707070',0.003);for(let k=-1;k<2;k+=0.5)", &
       "  s+=line([[p[0]+k*1.4*h,y],[p[0]+(k-0.4)*1.4*h,y+0.6*h]],'#707070',0.002);return s}", &
-      "function spring(a,b){const p=[a],n=12,d=[b[0]-a[0],b[1]-a[1]],l=Math.hypot(...d)||1;for(let k=0;k<n;k++){", &
-      "  const u=0.15+0.7*k/(n-1),o=k&&k<n-1?0.02*S*(k%2?1:-1):0;p.push([a[0]+u*d[0]-o*d[1]/l,a[1]+u*d[1]+o*d[0]/l])}", &
+      "function spring(a,b,c,n){const p=[a],d=[b[0]-a[0],b[1]-a[1]],l=Math.hypot(...d)||1;for(let k=0;k<n;k++){", &
+      "  const u=0.15+0.7*k/(n-1),o=k&&k<n-1?c*(k%2?1:-1):0;p.push([a[0]+u*d[0]-o*d[1]/l,a[1]+u*d[1]+o*d[0]/l])}", &
       " return line([...p,b],'#404040',0.004)}", &
-      "function damper(a,b){const d=[b[0]-a[0],b[1]-a[1]],l=Math.hypot(...d)||1,at=(u,o)=>[a[0]+u*d[0]-o*0.02*S*d[1]/l,", &
-      "  a[1]+u*d[1]+o*0.02*S*d[0]/l];return[[a,at(0.25,0)],[at(0.75,1),at(0.25,1),at(0.25,-1),at(0.75,-1)],", &
+      "function damper(a,b,c){const d=[b[0]-a[0],b[1]-a[1]],l=Math.hypot(...d)||1,at=(u,o)=>[a[0]+u*d[0]-o*c*d[1]/l,", &
+      "  a[1]+u*d[1]+o*c*d[0]/l];return[[a,at(0.25,0)],[at(0.75,1),at(0.25,1),at(0.25,-1),at(0.75,-1)],", &
       "  [at(0.55,0.8),at(0.55,-0.8)],[at(0.55,0),b]].map(p=>line(p,'#404040',0.004)).join('')}", &
-      "function wall(p,q){const d=[q[0]-p[0],q[1]-p[1]],l=Math.hypot(...d);if(!l)return'';const u=[d[0]/l,d[1]/l],h=0.04*S;", &
+      "function wall(p,q,h){const d=[q[0]-p[0],q[1]-p[1]],l=Math.hypot(...d);if(!l)return'';const u=[d[0]/l,d[1]/l];", &
       " const e=k=>[p[0]-k*h*u[1],p[1]+k*h*u[0]];let s=line([e(-1),e(1)],'#707070',0.003);", &
       " for(let k=-1;k<=1;k+=0.4){const b=e(k);", &
       "  s+=line([b,[b[0]-0.4*h*(u[0]-u[1]),b[1]-0.4*h*(u[1]+u[0])]],'#707070',0.002)}return s}", &
@@ -82,7 +82,8 @@ module animation_script
       "  const k=m.b.indexOf(0);return k<0?'':ground(p[k])};", &
       " if(m.k==1)s+=stand()+disc(p[1],0.014*S,'#fff');if(m.k==3)s+=stand()+line(p,'#404040',0.004)+p.map(q=>disc(q,0.014*S,", &
       "'#fff')).join('');", &
-      " if(m.k==4||m.k==8)s+=m.b.map((b,k)=>b?'':wall(p[k],p[1-k])).join('')+(m.k==4?spring(...p):damper(...p));", &
+      " if(m.k==4||m.k==8)s+=m.b.map((b,k)=>b?'':wall(p[k],p[1-k],2*m.c)).join('')", &
+      "  +(m.k==4?spring(...p,m.c,m.z):damper(...p,m.c));", &
       " if(m.k==2){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &
       "  s+=guide(p[0],flat(V,e.map((v,k)=>v-o[k])),m.w,m.h,!m.b[0])}", &
       " if(m.k==7){const o=world(f,m.b[0],m.s[0]),e=world(f,m.b[0],m.s[0].map((v,k)=>v+m.a[k]));", &

@@ -46,6 +46,8 @@ module scene_strokes
       real(wp) :: force = 0.0_wp                  !! force of the longest arrow; 0: there are none [N]
       real(wp), allocatable :: ways(:, :)         !! (2, marks) of slides: least and greatest place of j along the axis [m]
       real(wp), allocatable :: walls(:, :)        !! (2, marks) of slides: from the guide's line to its walls, as `gaps` [m]
+      real(wp), allocatable :: coils(:)           !! (marks) of springs and dampers: half their width [m]
+      integer, allocatable :: bends(:)            !! (marks) of springs: corners of their zigzag
       integer, allocatable :: loose(:)            !! (marks) number of the joint with clearance, 0: none
       integer, allocatable :: load(:)             !! (marks) of a load: number of the force element, 0: none
    end type symbols_t
@@ -139,10 +141,10 @@ contains
          call add_disc(canvas, style_pin, symbols, p(:, 2), radius)
       case (mark_spring, mark_damper)
          do k = 1, 2
-            if (mark%body(k) == 0) call draw_wall(canvas, symbols, p(:, k), p(:, 3 - k))
+            if (mark%body(k) == 0) call draw_wall(canvas, symbols, p(:, k), p(:, 3 - k), 2.0_wp*symbols%coils(number))
          end do
-         if (mark%kind == mark_spring) call draw_spring(canvas, symbols, p)
-         if (mark%kind == mark_damper) call draw_damper(canvas, symbols, p)
+         if (mark%kind == mark_spring) call draw_spring(canvas, symbols, p, symbols%coils(number), symbols%bends(number))
+         if (mark%kind == mark_damper) call draw_damper(canvas, symbols, p, symbols%coils(number))
       case (mark_plane)
          x(:, 2) = matmul(frame%a(:, :, mark%body(1)), mark%axis)
          axis = projected(view, x(:, 1) + x(:, 2)) - p(:, 1)
@@ -208,7 +210,7 @@ contains
       integer :: k, n
 
       call add(canvas, style_ground, symbols, reshape([from, to], [2, 2]), dark)
-      step = 0.018_wp*symbols%size
+      step = min(0.018_wp*symbols%size, 0.25_wp*norm2(to - from))
       n = max(1, nint(norm2(to - from)/step))
       if (.not. norm2(to - from) > 0.0_wp) return
       along = (to - from)/norm2(to - from)
@@ -248,18 +250,19 @@ contains
    end subroutine draw_guide
 
    !> A spring between two points.
-   subroutine draw_spring(canvas, symbols, p)
+   subroutine draw_spring(canvas, symbols, p, coil, n)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales
       real(wp), intent(in) :: p(2, 2)          !! (2, 2) its ends [m]
+      real(wp), intent(in) :: coil             !! half its width [m]
+      integer, intent(in) :: n                 !! corners of its zigzag
 
-      integer, parameter :: n = 12
       real(wp) :: across(2), q(2, 0:n + 1)
       integer :: k
 
       across = p(:, 2) - p(:, 1)
       if (.not. norm2(across) > 0.0_wp) return
-      across = 0.02_wp*symbols%size*[-across(2), across(1)]/norm2(across)
+      across = coil*[-across(2), across(1)]/norm2(across)
       q(:, 0) = p(:, 1)
       q(:, n + 1) = p(:, 2)
       do k = 1, n
@@ -270,17 +273,18 @@ contains
    end subroutine draw_spring
 
    !> A damper or actuator between two points: a piston in a cylinder.
-   subroutine draw_damper(canvas, symbols, p)
+   subroutine draw_damper(canvas, symbols, p, half)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales
       real(wp), intent(in) :: p(2, 2)          !! (2, 2) its ends [m]
+      real(wp), intent(in) :: half             !! half its width [m]
 
       real(wp), parameter :: bottom = 0.25_wp, head = 0.55_wp, mouth = 0.75_wp  ! places along it [1]
       real(wp) :: across(2), along(2), ends(2, 2)
 
       along = p(:, 2) - p(:, 1)
       if (.not. norm2(along) > 0.0_wp) return
-      across = 0.02_wp*symbols%size*[-along(2), along(1)]/norm2(along)
+      across = half*[-along(2), along(1)]/norm2(along)
       call add(canvas, style_symbol, symbols, reshape([p(:, 1), p(:, 1) + bottom*along], [2, 2]), dark)
       ends = reshape([p(:, 1) + bottom*along, p(:, 1) + mouth*along], [2, 2])
       call add(canvas, style_symbol, symbols, reshape([ends(:, 2) + across, ends(:, 1) + across, ends(:, 1) - across, &
@@ -291,17 +295,18 @@ contains
    end subroutine draw_damper
 
    !> A wall across the line from a point that is fixed to another, hatched behind.
-   subroutine draw_wall(canvas, symbols, p, other)
+   subroutine draw_wall(canvas, symbols, p, other, half)
       type(canvas_t), intent(inout) :: canvas  !! gets lines
       type(symbols_t), intent(in) :: symbols   !! scales
       real(wp), intent(in) :: p(2)             !! (2) the fixed point [m]
       real(wp), intent(in) :: other(2)         !! (2) the other one [m]
+      real(wp), intent(in) :: half             !! half its width [m]
 
       real(wp) :: across(2)
 
       if (.not. norm2(other - p) > 0.0_wp) return
       across = other - p
-      across = 0.04_wp*symbols%size*[across(2), -across(1)]/norm2(across)
+      across = half*[across(2), -across(1)]/norm2(across)
       call draw_hatch(canvas, symbols, p - across, p + across)
    end subroutine draw_wall
 

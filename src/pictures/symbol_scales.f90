@@ -2,7 +2,7 @@
 module symbol_scales
    use catalogue, only: catalogue_t
    use catalogue_rooms, only: room_clearances, room_forces
-   use drawing, only: drawing_t, mark_bearing, mark_load, mark_plane, mark_slide, mark_t
+   use drawing, only: drawing_t, mark_bearing, mark_damper, mark_load, mark_plane, mark_slide, mark_spring, mark_t
    use frames, only: frame_t
    use kinds, only: wp
    use scene_strokes, only: arrow_at, bearing_size, journal_part, symbols_t
@@ -65,8 +65,41 @@ contains
             symbols%ways(:, k) = symbols%ways(:, k) + [-half(1), half(1)]
          end associate
       end do
+      call measure_springs(drawing, list, symbols)
       symbols%force = largest_force(symbols, list)
    end subroutine new_symbols
+
+   !> Widths of springs and dampers, and corners of springs: in proportion to the scene, fewer and narrower where one is short, by
+   !> its greatest length, so that they are the same in all frames.
+   pure subroutine measure_springs(drawing, list, symbols)
+      type(drawing_t), intent(in) :: drawing        !! the scene
+      type(frame_t), intent(in) :: list(:)          !! (n) frames
+      type(symbols_t), intent(inout) :: symbols     !! scales, with the size
+
+      real(wp), parameter :: widest = 0.02_wp       ! half a width, of the size of the scene [1]
+      real(wp), parameter :: slender = 0.2_wp       ! the same of the length, at most [1]
+      real(wp), parameter :: apart = 0.015_wp       ! corners along a spring, of the size of the scene, at least [1]
+      integer, parameter :: fewest = 4, most = 12   ! corners
+      real(wp) :: length, x(3, 2)
+      integer :: f, i, k
+
+      allocate (symbols%coils(drawing%n_mark), source=0.0_wp)
+      allocate (symbols%bends(drawing%n_mark), source=0)
+      do k = 1, drawing%n_mark
+         associate (mark => drawing%marks(k))
+            if (mark%kind /= mark_spring .and. mark%kind /= mark_damper) cycle
+            length = 0.0_wp
+            do f = 1, size(list)
+               do i = 1, 2
+                  x(:, i) = list(f)%r(:, mark%body(i)) + matmul(list(f)%a(:, :, mark%body(i)), mark%s(:, i))
+               end do
+               length = max(length, norm2(x(:, 2) - x(:, 1)))
+            end do
+         end associate
+         symbols%coils(k) = min(widest*symbols%size, slender*length)
+         symbols%bends(k) = max(fewest, min(most, 2*int(0.5_wp*length/(apart*symbols%size))))
+      end do
+   end subroutine measure_springs
 
    !> The diagonal of the box in which the centres of mass of all bodies are, with the size of the largest outline.
    pure real(wp) function extent_of_motion(drawing, list) result(length)

@@ -179,6 +179,21 @@ def test_springs_and_dampers(gudgeon, tmp_path, stiffness, law, lines):
     assert all(line[:, 0].max() < 1e-9 for line in frame["ground"]), "hatched behind the wall"
 
 
+@pytest.mark.parametrize("stiffness", [5, 0])
+def test_a_short_spring_is_slender(gudgeon, tmp_path, stiffness):
+    """In a scene of 30 m a spring or damper of 1 m is at most 0.4 of its length wide, its corners are few, and no picture has others."""
+    text = ELEMENT.replace("STIFFNESS", str(stiffness)).replace("LAW", "-").replace("every = 0.1 s", "every = 10 ms")
+    folder = run(gudgeon, tmp_path, text.replace("[force.spring]", "far ground 30 0\n[force.spring]"), "animation(n=4)")
+    found = strokes(folder / "animation.n.4.dat")
+    widths = [np.ptp(np.concatenate(frame["symbol"])[:, 1]) for frame in found]
+    lengths = [np.ptp(np.concatenate(frame["symbol"])[:, 0]) for frame in found]
+    assert max(widths) <= 0.4 * max(lengths) * 1.001 and np.ptp(widths) < 1e-3 and min(widths) > 0.1 * max(lengths)
+    assert {sum(len(line) for line in frame["symbol"]) for frame in found} == ({6} if stiffness else {10})
+    assert all(np.ptp(frame["ground"][0][:, 1]) < 1 for frame in found)
+    page = (folder / "animation.n.4.html").read_text(encoding="utf-8")
+    assert all(abs(2 * float(half) - widths[0]) < 1e-3 for half in re.findall(r",c:([0-9.]+),z:[1-9]", page)[:1]), page[:4000]
+
+
 def test_loads_are_arrows(gudgeon, tmp_path):
     """A force at a point, 3 t and 4 t, is an arrow from there, whose length goes with it; the picture states the longest."""
     text = ELEMENT.replace("STIFFNESS", "5").replace("LAW", "-").replace("every = 0.1 s", "every = 10 ms")
