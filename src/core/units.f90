@@ -4,14 +4,15 @@
 !> `W/(m.K)`, `1` for none. SI names take the usual prefixes. The factor is kept as a fraction times a
 !> power of ten, so that `0.1 mm` is read as exactly the number 1e-4.
 module units
-   use kind_info, only: dim_t
+   use kind_info, only: dim_t, same_dimension
    use kinds, only: pi, wp
    use numbers, only: number_length, read_number
    use spelling, only: nearest_word
    use text, only: append_text, lower, starts_with, text_t, to_text
    implicit none (type, external)
    private
-   public :: dimension_power, dimension_product, exponent_length, parse_unit, read_quantity, to_si, unit_factor, unit_t
+   public :: dimension_power, dimension_product, exponent_length, largest_quantity, parse_unit, read_quantity, to_si, &
+      unit_factor, unit_t
 
    !> A unit: x of it are `(x + offset)*numerator/denominator*10**power` in SI.
    type :: unit_t
@@ -28,6 +29,8 @@ module units
       character(8) :: prefixes = ""   !! letters that may stand before it
       type(unit_t) :: unit            !! its factor and dimension
    end type named_unit_t
+
+   real(wp), parameter :: largest_quantity = 1.0e290_wp  !! numbers below keep products in range [any]
 
    character(*), parameter :: prefix_letters = "GMkdcmunp"
    integer, parameter :: prefix_power(9) = [9, 6, 3, -1, -2, -3, -6, -9, -12]
@@ -62,12 +65,13 @@ module units
 contains
 
    !> Read a unit.
-   subroutine parse_unit(string, unit, message, first, last)
+   recursive subroutine parse_unit(string, unit, message, first, last, wanted)
       character(*), intent(in) :: string                 !! the unit, without brackets
       type(unit_t), intent(out) :: unit                  !! its factor and dimension
       character(:), allocatable, intent(out) :: message  !! empty: success; else what is wrong
       integer, intent(out) :: first                      !! where in the string it is wrong
       integer, intent(out) :: last                       !! where that ends
+      type(dim_t), intent(in), optional :: wanted        !! dimension of the place, for what is suggested
 
       integer :: at
 
@@ -80,6 +84,9 @@ contains
       end if
       at = 1
       call parse_product(string, at, 0, unit, message, first, last)
+      if (present(wanted) .and. index(message, "unknown unit") == 1) then
+         message = unknown_unit(string(first:last), string(:first - 1), string(last + 1:), wanted)
+      end if
       if (len(message) > 0) return
       if (at <= len(string)) then
          message = "'"//string(at:at)//"' has no place in a unit"
@@ -242,16 +249,19 @@ contains
       is_known = .false.
    end subroutine find_unit
 
-   !> The message about an unknown unit, with the nearest one that is known.
-   function unknown_unit(name) result(message)
-      character(*), intent(in) :: name      !! as written
-      character(:), allocatable :: message  !! what and which instead
+   !> The message about an unknown unit, with the nearest one that is known; of units equally near, one that fits its place.
+   recursive function unknown_unit(name, before, behind, wanted) result(message)
+      character(*), intent(in) :: name                 !! as written
+      character(*), intent(in), optional :: before     !! what stands before it
+      character(*), intent(in), optional :: behind     !! what stands behind it
+      type(dim_t), intent(in), optional :: wanted      !! dimension of the whole
+      character(:), allocatable :: message             !! what and which instead
 
       type(text_t), allocatable :: known(:)
       type(unit_t) :: unit
       character(:), allocatable :: near
       logical :: has_first, has_second
-      integer :: i, k
+      integer :: i, k, pass
 
       message = "unknown unit '"//name//"'"
       i = scan(name, "0123456789")
@@ -278,14 +288,34 @@ contains
          end if
       end do
       allocate (known(0))
-      do i = 1, n_named
-         call append_text(known, trim(named(i)%name))
-         do k = 1, len_trim(named(i)%prefixes)
-            call append_text(known, named(i)%prefixes(k:k)//trim(named(i)%name))
+      do pass = 1, 2  ! those that fit first
+         do i = 1, n_named
+            do k = 0, len_trim(named(i)%prefixes)
+               near = trim(named(i)%prefixes(max(k, 1):k)//named(i)%name)
+               if (fits(near) .eqv. pass == 1) call append_text(known, near)
+            end do
          end do
       end do
       near = nearest_word(name, known)
       if (len(near) > 0) message = message//": did you mean '"//near//"'?"
+
+   contains
+
+      !> Whether a unit in the place of the name gives the dimension that is wanted.
+      recursive logical function fits(candidate)
+         character(*), intent(in) :: candidate  !! known
+
+         type(unit_t) :: whole
+         character(:), allocatable :: wrong
+         integer :: first, last
+
+         fits = .true.
+         if (.not. present(wanted)) return
+         call parse_unit(before//candidate//behind, whole, wrong, first, last)
+         fits = len(wrong) == 0
+         if (fits) fits = same_dimension(whole%dimension, wanted)
+      end function fits
+
    end function unknown_unit
 
    !> Read a number with a unit, without or with blanks between.
@@ -295,14 +325,12 @@ contains
       real(wp), intent(out) :: x          !! its value in SI [any]
       logical, intent(out) :: is_finite   !! .false.: too large
 
-      real(wp), parameter :: largest = 1.0e290_wp  !! keeps the product in range [any]
-
       if (abs(unit%offset) > 0.0_wp) then
          call read_number(string, 0, x, is_finite)
          x = to_si(x, unit)
       else
          call read_number(string, unit%power, x, is_finite)
-         is_finite = is_finite .and. abs(x) < largest
+         is_finite = is_finite .and. abs(x) < largest_quantity
          if (is_finite) x = x*unit%numerator/unit%denominator
       end if
    end subroutine read_quantity

@@ -15,7 +15,7 @@ module cells
    use kinds, only: wp
    use number_cell, only: read_number
    use number_lists, only: read_list
-   use quantities, only: is_numeric, quantity_t, read_bare, read_brace, read_unit, report_dimension, report_not_a_number
+   use quantities, only: is_unit_word, quantity_t, read_brace, read_unit, report_dimension
    use text, only: to_text
    use tokens, only: span, token_brace, token_t, token_word
    use units, only: unit_t
@@ -127,7 +127,7 @@ contains
 
       type(quantity_t) :: quantity
 
-      call read_number(deck, list, place, quantity, mistakes, header)
+      call read_number(deck, list, place, quantity, mistakes, header, column%dimension)
       if (.not. column%is_any) call report_dimension(quantity, column%dimension, value%location, place, mistakes)
       if (.not. quantity%is_good) return
       value%number = quantity%x
@@ -180,9 +180,10 @@ contains
 
       n = size(list)
       has_unit = .false.
-      if (n > 1 .and. list(n)%kind == token_word) has_unit = .not. is_numeric(text_of(deck, list(n)))
+      if (n > 1 .and. list(n)%kind == token_word) has_unit = is_unit_word(text_of(deck, list(n)))
       if (has_unit) then
-         call read_unit(text_of(deck, list(n)), list(n)%location, place, unit, is_good, mistakes)
+         call read_unit(text_of(deck, list(n)), list(n)%location, place, unit, is_good, mistakes, &
+                        column%dimension)
          if (.not. is_good) return
          n = n - 1
       end if
@@ -198,7 +199,7 @@ contains
          if (has_unit) then
             call read_number(deck, list(k:k), place, quantity, mistakes, unit)
          else
-            call read_number(deck, list(k:k), place, quantity, mistakes)
+            call read_number(deck, list(k:k), place, quantity, mistakes, wanted=column%dimension)
          end if
          call report_dimension(quantity, column%dimension, list(k)%location, place, mistakes)
          if (.not. quantity%is_good) cycle

@@ -4,6 +4,7 @@ module number_cell
    use deck_types, only: deck_t, text_of
    use diagnostics, only: diagnostics_t
    use expression, only: expression_t
+   use kind_info, only: dim_t
    use quantities, only: is_numeric, quantity_t, read_bare, read_brace, read_unit, report_not_a_number
    use tokens, only: token_brace, token_t, token_word
    use units, only: unit_t
@@ -14,13 +15,14 @@ module number_cell
 contains
 
    !> One number, bare, with its unit glued or beside it, or in braces.
-   subroutine read_number(deck, list, place, quantity, mistakes, header)
+   subroutine read_number(deck, list, place, quantity, mistakes, header, wanted)
       type(deck_t), intent(in) :: deck                !! the deck
       type(token_t), intent(in) :: list(:)            !! (n) number, and its unit if that stands apart
       character(*), intent(in) :: place               !! as `in column mass of bodies`
       type(quantity_t), intent(out) :: quantity       !! the number
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
       type(unit_t), intent(in), optional :: header    !! unit of bare numbers
+      type(dim_t), intent(in), optional :: wanted     !! dimension of the place, for a unit that is suggested
 
       character(:), allocatable :: word
       type(expression_t) :: compiled
@@ -37,10 +39,10 @@ contains
          call report_not_a_number(word, list(1)%location, place, mistakes, deck)
       else if (size(list) > 1) then
          call check_count(list, 2, place, mistakes)
-         call read_unit(text_of(deck, list(2)), list(2)%location, place, unit, is_good, mistakes)
+         call read_unit(text_of(deck, list(2)), list(2)%location, place, unit, is_good, mistakes, wanted)
          if (is_good) call read_bare(word, list(1)%location, place, quantity, mistakes, unit)
       else
-         call read_bare(word, list(1)%location, place, quantity, mistakes, header)
+         call read_bare(word, list(1)%location, place, quantity, mistakes, header, wanted)
       end if
    end subroutine read_number
 

@@ -12,7 +12,7 @@ module number_lists
    use item, only: location_t, value_t
    use kind_info, only: dim_t, same_dimension
    use kinds, only: wp
-   use quantities, only: is_numeric, quantity_t, read_bare, read_unit, report_not_a_number
+   use quantities, only: is_numeric, is_unit_word, quantity_t, read_bare, read_unit, report_not_a_number
    use source_text, only: n_line_of, read_source, source_t
    use text, only: to_text
    use tokens, only: lex_line, span, token_quoted, token_t, token_word
@@ -50,7 +50,7 @@ contains
       has_unit = present(header)
       if (present(header)) unit = header
       if (n > 0) then
-         if (.not. is_numeric(word(n))) then
+         if (is_unit_word(word(n))) then
             call read_unit(word(n), places(n), place, unit, is_good, mistakes)
             if (.not. is_good) return
             has_unit = .true.

@@ -8,10 +8,10 @@ module parameters
                                & symbol_word
    use item, only: location_t
    use name_table, only: name_table_t
-   use quantities, only: is_numeric, quantity_t, word_in_brace
+   use quantities, only: is_not_finite, is_numeric, quantity_t, word_in_brace
    use source_text, only: line_of
    use spelling, only: nearest_word
-   use text, only: join, lower, piece, text_t
+   use text, only: join, piece, text_t
    use tokens, only: lex_line, span, token_brace, token_equals, token_t, token_word
    implicit none (type, external)
    private
@@ -191,16 +191,6 @@ contains
          symbol%word = word
       end if
    end subroutine read_symbol
-
-   !> Whether a word means a number that is not finite.
-   pure logical function is_not_finite(word)
-      character(*), intent(in) :: word  !! as written
-
-      integer :: first
-
-      first = max(1, verify(word, "+-"))
-      is_not_finite = lower(word(first:)) == "nan" .or. lower(word(first:)) == "inf" .or. lower(word(first:)) == "infinity"
-   end function is_not_finite
 
    !> Check that an override is of the same sort as the value in the deck.
    subroutine compare(symbol, changed, location, mistakes)

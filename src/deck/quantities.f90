@@ -15,12 +15,13 @@ module quantities
    use kinds, only: wp
    use sight_words, only: sight_words_t
    use numbers, only: number_length
-   use text, only: lower, piece
+   use text, only: lower, piece, to_text
    use tokens, only: token_brace, token_t
-   use units, only: parse_unit, read_quantity, unit_t
+   use units, only: largest_quantity, parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
-   public :: is_numeric, quantity_t, read_bare, read_brace, read_unit, report_dimension, report_not_a_number, word_in_brace
+   public :: is_not_finite, is_numeric, is_unit_word, quantity_t, read_bare, read_brace, read_unit, report_dimension, &
+      report_not_a_number, word_in_brace
 
    !> A number that has been read.
    type :: quantity_t
@@ -40,20 +41,40 @@ contains
       is_numeric = number_length(word) > 0
    end function is_numeric
 
+   !> Whether a word behind numbers is meant to be their unit: it is no number, and not what stands for one that is not finite.
+   pure logical function is_unit_word(word)
+      character(*), intent(in) :: word  !! a cell
+
+      is_unit_word = .not. (is_numeric(word) .or. is_not_finite(word))
+   end function is_unit_word
+
+   !> Whether a word stands for what is no number, or no finite one.
+   pure logical function is_not_finite(word)
+      character(*), intent(in) :: word  !! a cell
+
+      select case (lower(word(verify(word//"x", "+-"):)))
+      case ("nan", "inf", "infinity")
+         is_not_finite = .true.
+      case default
+         is_not_finite = .false.
+      end select
+   end function is_not_finite
+
    !> Read a unit; mistakes are reported.
-   subroutine read_unit(string, location, place, unit, is_good, mistakes)
+   subroutine read_unit(string, location, place, unit, is_good, mistakes, wanted)
       character(*), intent(in) :: string              !! the unit
       type(location_t), intent(in) :: location        !! of the unit
       character(*), intent(in) :: place               !! as `in column mass of bodies`
       type(unit_t), intent(out) :: unit               !! the unit
       logical, intent(out) :: is_good                 !! .false.: a mistake was reported
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
+      type(dim_t), intent(in), optional :: wanted     !! dimension of the place, for what is suggested
 
       character(:), allocatable :: help, message
       type(location_t) :: at
       integer :: first, k, last
 
-      call parse_unit(string, unit, message, first, last)
+      call parse_unit(string, unit, message, first, last, wanted)
       is_good = len(message) == 0
       if (is_good) return
       help = ""
@@ -67,13 +88,14 @@ contains
    end subroutine read_unit
 
    !> Read a word that begins like a number; `beside` is its unit if that stands beside it.
-   subroutine read_bare(word, location, place, quantity, mistakes, beside)
+   subroutine read_bare(word, location, place, quantity, mistakes, beside, wanted)
       character(*), intent(in) :: word                !! number, with or without a glued unit
       type(location_t), intent(in) :: location        !! of the word
       character(*), intent(in) :: place               !! as `in column mass of bodies`
       type(quantity_t), intent(out) :: quantity       !! what it is
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
       type(unit_t), intent(in), optional :: beside    !! for a number without its own unit
+      type(dim_t), intent(in), optional :: wanted     !! dimension of the place, for the unit that is suggested
 
       type(location_t) :: at
       type(unit_t) :: unit
@@ -91,13 +113,14 @@ contains
          end if
          at = location
          at%first = location%first + n
-         call read_unit(word(n + 1:), at, place, unit, quantity%is_good, mistakes)
+         call read_unit(word(n + 1:), at, place, unit, quantity%is_good, mistakes, wanted)
          if (.not. quantity%is_good) return
          quantity%has_unit = .true.
       end if
       call read_quantity(word(1:n), unit, quantity%x, quantity%is_good)
       quantity%dimension = unit%dimension
-      if (.not. quantity%is_good) call mistakes%add(location, "'"//word//"' is not a finite number "//place, "too large")
+      if (.not. quantity%is_good) call mistakes%add(location, "'"//word//"' is too large "//place, &
+                                                    "numbers up to "//to_text(largest_quantity)//" in SI units are computed with")
    end subroutine read_bare
 
    !> Report a word where a number is wanted.
@@ -108,19 +131,14 @@ contains
       type(diagnostics_t), intent(inout) :: mistakes  !! collects what is wrong
       type(deck_t), intent(in), optional :: deck      !! for its parameters
 
-      character(:), allocatable :: help, small
+      character(:), allocatable :: help
       integer :: i, n
 
-      small = lower(word)
-      i = 1
-      if (scan(small(1:1), "+-") == 1) i = 2
-      select case (small(i:))
-      case ("nan", "inf", "infinity")
+      if (is_not_finite(word)) then
          call mistakes%add(location, "'"//word//"' is not a finite number "//place, "a number is wanted here")
          return
-      case default
-         help = ""
-      end select
+      end if
+      help = ""
       n = number_length(word)
       if (n > 0 .and. n < len(word)) then
          if (word(n + 1:n + 1) == ",") help = "the decimal sign is a point: "//word(1:n)//"."//word(n + 2:)

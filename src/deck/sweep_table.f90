@@ -238,7 +238,8 @@ contains
             end if
             column%unit_name = head(open + 1:len(head) - 1)
             at%last = max(at%first, at%first + len(column%unit_name) - 1)
-            call read_unit(column%unit_name, at, "in the sweep of "//name, column%unit, is_good, mistakes)
+            call read_unit(column%unit_name, at, "in the sweep of "//name, column%unit, is_good, mistakes, &
+                           column%symbol%dimension)
             if (.not. is_good) cycle
             if (.not. dimension_agrees(column%symbol%dimension, column%symbol%is_soft, column%unit%dimension)) then
                call mistakes%add(at, "parameter '"//name//"' is "//dimension_name(column%symbol%dimension)//" in the deck", &

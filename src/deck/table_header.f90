@@ -140,7 +140,7 @@ contains
       inside = location
       inside%first = location%first + 1
       inside%last = max(inside%first, location%last - 1)
-      call read_unit(string, inside, place, header%unit, is_good, mistakes)
+      call read_unit(string, inside, place, header%unit, is_good, mistakes, column%dimension)
       header%has_unit = is_good
       if (is_good .and. .not. column%is_any .and. .not. same_dimension(header%unit%dimension, column%dimension)) then
          call mistakes%add(inside, "wrong dimension "//place, "this is "//dimension_name(header%unit%dimension)//", " &

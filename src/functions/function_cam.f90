@@ -9,7 +9,7 @@
 !> Source: R. L. Norton, Cam design and manufacturing handbook (2002), chapters 3 and 4. Limits: none.
 module function_cam
    use curve, only: beyond_hold, beyond_periodic, rise_t
-   use dimension_text, only: dimension_name
+   use dimension_text, only: dimension_name, unit_text
    use function_kind, only: function_kind_t, made_t
    use item, only: item_t, place_of
    use kind_info, only: add_any_number, add_word, kind_info_t, same_dimension
@@ -113,7 +113,8 @@ contains
             made%help = "give column return"
          else if (item%is_given("period") .and. item%number("period") < total*(1.0_wp - 8.0_wp*eps)) then
             call complain("period", "the period is shorter than rise, dwell and return together")
-            made%help = "these take "//to_text(total)//" in SI units"
+            made%help = "these take "//to_text(total)
+            if (unit_text(rise%dimensions(1)) /= "1") made%help = made%help//" "//unit_text(rise%dimensions(1))
          end if
       end associate
 

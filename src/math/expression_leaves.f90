@@ -8,7 +8,8 @@ module expression_leaves
    use expression_symbols, only: symbol_function, symbol_number, symbol_word
    use kinds, only: pi, wp
    use numbers, only: number_length
-   use units, only: exponent_length, parse_unit, read_quantity, unit_t
+   use text, only: to_text
+   use units, only: exponent_length, largest_quantity, parse_unit, read_quantity, unit_t
    implicit none (type, external)
    private
    public :: parse_name, parse_number
@@ -92,7 +93,8 @@ contains
       if (scan(peek(parser), letters//"%") == 1) call parse_glued_unit(parser, unit)
       if (allocated(parser%fault)) return
       call read_quantity(parser%source(first:first + length - 1), unit, x, is_finite)
-      if (.not. is_finite) call fail(parser, first, first + length - 1, "not a finite number: it is too large")
+      if (.not. is_finite) call fail(parser, first, first + length - 1, "too large: numbers up to "// &
+                                    to_text(largest_quantity)//" in SI units are computed with")
       term%dimension = unit%dimension
       call emit(parser, op_number, x)
    end subroutine parse_number

@@ -59,8 +59,8 @@ contains
             of_corner = merge(3, 2, is_spatial)
             if (allocated(list%table)) n = size(list%table)
             if (n < 3*of_corner .or. mod(n, of_corner) /= 0) then
-               message = "the polygon '"//item%name//"' needs three corners or more, "//merge("three", "two  ", is_spatial)// &
-                         " coordinates each, in column points"
+               message = "the polygon '"//item%name//"' needs three corners or more, "// &
+                         trim(merge("three", "two  ", is_spatial))//" coordinates each, in column points"
             else if (.not. same_dimension(list%dimensions(1), dim_length)) then
                message = "the corners of polygon '"//item%name//"' are no lengths"
             end if

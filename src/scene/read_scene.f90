@@ -224,9 +224,10 @@ contains
 
       associate (gravity => scene%settings%header%values(place_of(scene%settings%header, "gravity")))
          if (gravity%given .and. gravity%vector%n /= merge(3, 2, scene%settings%is_spatial)) then
-            call diagnostics%add(gravity%location, "gravity has "//merge("three", "two  ", gravity%vector%n == 3)//" components", &
-                                 "of a vector of another space", &
-                                 merge("give three in a spatial scene", "give two in a planar scene   ", scene%settings%is_spatial))
+            call diagnostics%add(gravity%location, "gravity has "//trim(merge("three", "two  ", gravity%vector%n == 3))// &
+                                 " components", "of a vector of another space", &
+                                 trim(merge("give three in a spatial scene", "give two in a planar scene   ", &
+                                            scene%settings%is_spatial)))
          end if
       end associate
       if (diagnostics%count() > 0) return

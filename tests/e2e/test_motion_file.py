@@ -226,7 +226,7 @@ def test_no_file_without_the_word(gudgeon, tmp_path):
 @pytest.mark.parametrize(
     ("row", "message"),
     [
-        ('a  crank  polygon  "0 0 1 0 mm"  -', "needs three corners or more"),
+        ('a  crank  polygon  "0 0 1 0 mm"  -', "needs three corners or more, two coordinates each"),
         ('a  crank  polygon  "0 0 1 0 1 1 s"  -', "no lengths"),
         ("a  crank  circle  -  -", "needs a radius"),
         ("a  crank  box  -  -", "needs a length and a width"),
