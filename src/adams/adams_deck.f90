@@ -15,7 +15,7 @@ module adams_deck
    use adams_loads, only: add_loads
    use adams_model, only: adams_model_t, leave_out, part_t
    use adams_motions, only: add_motions
-   use adams_names, only: full_names, is_refused, is_setting, is_understood, reason_against
+   use adams_names, only: full_names, is_known, is_refused, is_setting, is_understood, reason_against
    use adams_numbers, only: argument_numbers, mistake
    use adams_parts, only: new_model
    use adams_splines, only: name_idle_splines
@@ -61,6 +61,8 @@ contains
 
       call read_statements(source, title, statements)
       call full_names(statements)
+      call name_foreign(statements, mistakes)
+      if (mistakes%count() > 0) return
       call name_refused(statements, mistakes)
       call name_doubles(statements, mistakes)
       if (mistakes%count() > 0) return
@@ -103,6 +105,20 @@ contains
       imported%deck = buffer%get()
    end subroutine import_dataset
 
+   !> A file without any statement of Adams is no dataset.
+   subroutine name_foreign(statements, mistakes)
+      type(statement_t), intent(in) :: statements(:)       !! (n) statements, their names in full
+      type(diagnostics_t), intent(inout) :: mistakes       !! collects what is wrong
+
+      integer :: k
+
+      if (size(statements) == 0) return
+      if (any([(is_known(statements(k)), k=1, size(statements))])) return
+      call mistake(mistakes, statements(1)%at, "no statement of an Adams dataset is in this file; this is the first line that "// &
+                   "is none", &
+                   "a statement is a name with a slash, as PART/2, MASS = 1; a deck needs no import: gudgeon run DECK")
+   end subroutine name_foreign
+
    !> Statements of what gudgeon does not model are mistakes: without them the dataset is of another mechanism.
    subroutine name_refused(statements, mistakes)
       type(statement_t), intent(in) :: statements(:)       !! (n) statements, their names in full
@@ -111,8 +127,9 @@ contains
       integer :: k
 
       do k = 1, size(statements)
-         if (is_refused(statements(k)%keyword)) call mistake(mistakes, statements(k)%at, statements(k)%keyword//"/"// &
-            to_text(statements(k)%id)//" is an elastic body; gudgeon has rigid ones only", &
+         if (.not. (is_refused(statements(k)%keyword) .and. statements(k)%has_slash)) cycle
+         call mistake(mistakes, statements(k)%at, statements(k)%keyword//"/"//to_text(statements(k)%id)// &
+            " is an elastic body; gudgeon has rigid ones only", &
             "take it out of the dataset, or put a SPRINGDAMPER or a FIXED joint in its place")
       end do
    end subroutine name_refused

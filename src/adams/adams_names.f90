@@ -7,7 +7,7 @@ module adams_names
    use text, only: split_blank, text_t
    implicit none (type, external)
    private
-   public :: full_names, is_refused, is_setting, is_understood, reason_against
+   public :: full_names, is_known, is_refused, is_setting, is_understood, reason_against
 
    character(*), parameter :: understood = &
       "ACCGRAV GRAVITY JOINT JPRIM MARKER MOTION GEAR COUPLER PART SFORCE SPRINGDAMPER UNITS VFORCE VTORQUE GFORCE VARIABLE GCON " &
@@ -21,7 +21,7 @@ module adams_names
 
 contains
 
-   !> Put the names of all statements in full.
+   !> Put the names of all statements in full; words without a slash are no abbreviations.
    subroutine full_names(statements)
       type(statement_t), intent(inout) :: statements(:)   !! (n) their keywords are changed
 
@@ -31,6 +31,7 @@ contains
       known = split_blank(understood//" "//refused//" "//settings//" "//others)
       do k = 1, size(statements)
          found = 0
+         if (.not. statements(k)%has_slash) cycle
          do i = 1, size(known)
             if (index(known(i)%s, statements(k)%keyword) /= 1) cycle
             if (known(i)%s == statements(k)%keyword) then
@@ -42,6 +43,14 @@ contains
          if (found > 0) statements(k)%keyword = known(found)%s
       end do
    end subroutine full_names
+
+   !> Whether there is such a statement, with a slash behind its name.
+   pure logical function is_known(statement)
+      type(statement_t), intent(in) :: statement  !! its name in full
+
+      is_known = statement%has_slash .and. &
+                 is_one(statement%keyword, understood//" "//refused//" "//settings//" "//others)
+   end function is_known
 
    !> Whether a deck can have what a statement says.
    pure logical function is_understood(keyword)

@@ -27,6 +27,7 @@ module dataset
    type :: statement_t
       character(:), allocatable :: keyword          !! in capitals, as written
       integer :: id = -1                            !! its number; -1: it has none
+      logical :: has_slash = .false.                !! a slash is behind its name, as statements have it
       type(argument_t), allocatable :: arguments(:) !! (n) in the order of the text
       character(:), allocatable :: view_name        !! name from the comment before it; blank: none
       type(location_t) :: at                        !! where its name stands
@@ -86,7 +87,8 @@ contains
       at = verify(now%text(slash:now%n), " ") + slash - 1
       if (at < slash) at = now%n + 1
       if (at <= now%n) then
-         if (now%text(at:at) == "/") at = at + 1
+         statement%has_slash = now%text(at:at) == "/"
+         if (statement%has_slash) at = at + 1
       end if
       stop = at - 1 + scan(now%text(at:now%n)//",", ",")
       head = trim(adjustl(now%text(at:stop - 1)))

@@ -421,6 +421,23 @@ def test_refused_by_name(gudgeon):
     assert "no PART" in call(gudgeon, "import", "empty.adm", cwd=folder, expect=3).stderr
 
 
+@pytest.mark.parametrize("foreign", ["deck = 1\n[scene]\nfl 0.8\n", "t,x\n0,1\nfl 1/2\n", "a title\n\nJUNK/1, FL = 2\n"])
+def test_what_is_no_dataset_is_told(gudgeon, foreign):
+    """A file without a statement of Adams, though its words begin like one, is named as that, with its first line that is none."""
+    folder = scratch()
+    (folder / "d.adm").write_text(foreign)
+    said = call(gudgeon, "import", "d.adm", cwd=folder, expect=3).stderr
+    assert "no statement of an Adams dataset is in this file" in said and f"d.adm:{3 if 'JUNK' in foreign else 2}:1" in said, said
+    assert "elastic" not in said
+
+
+def test_words_without_a_slash_are_left_out(gudgeon):
+    """`fl 0.8` in a dataset is no FLEX_BODY."""
+    folder = scratch()
+    (folder / "d.adm").write_text((MODELS / "pendulum.adm").read_text().replace("END\n", "fl 0.8\nEND\n"))
+    assert "FL: a deck has no such thing" in call(gudgeon, "import", "d.adm", cwd=folder).stdout
+
+
 @pytest.mark.parametrize("line, words", [
     ("MARKER/2, PART = 2, QP = 1, 0, 0", "MARKER/2 is there twice"),
     ("PART/2, MASS = 3, CM = 2", "PART/2 is there twice"),
