@@ -16,6 +16,8 @@ module comparison_report
    integer, parameter :: most_figures = 12   !! channels that are drawn
    integer, parameter :: few = 200           !! instants up to which each is a dot
    integer, parameter :: most_missing = 20   !! channels of one alone that are named
+   integer, parameter :: cell_width = 11     !! of a column of numbers with three digits
+   integer, parameter :: short_width = 10    !! of one of numbers with two
 
 contains
 
@@ -54,25 +56,25 @@ contains
       do k = 1, size(found%list)
          width = max(width, len(found%list(k)%name) + len(found%list(k)%unit) + 4)
       end do
-      call lines%line(padded("channel", width)// &
-            "     RMS   greatest    at [s]   allowed    peak A    peak B   lag [s]   magn.   phase")
+      call lines%line(padded("channel", width)//heads([character(10) :: "RMS", "greatest", "at [s]", "allowed", "peak A", &
+                      "peak B", "lag [s]"], cell_width)//trim(heads([character(5) :: "magn.", "phase"], short_width)))
       do k = 1, size(found%list)
          associate (d => found%list(k))
-            call lines%line(padded(d%name//" ["//d%unit//"]", width)//cell(d%rms)//" "//cell(d%greatest)//cell(d%at)// &
-                  cell(d%allowed) &
-                            //cell(d%peak(1))//cell(d%peak(2))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
-                            trim(merge("  differs  ", "           ", d%is_different))//of_interpolation(d))
+            call lines%line(trim(padded(d%name//" ["//d%unit//"]", width)//cell(d%rms)//cell(d%greatest)//cell(d%at)// &
+                            cell(d%allowed)//cell(d%peak(1))//cell(d%peak(2))//cell(d%lag)//short(d%magnitude)//short(d%phase)// &
+                            trim(merge("differs  ", "         ", d%is_different))//of_interpolation(d)))
          end associate
       end do
       if (found%by_statistics) call add_statistics(lines, found, width)
       if (size(found%pairs) > 0) then
          call lines%line("")
-         call lines%line(padded("impact", width)//"onset A [s]      B - A [s]   speed A   speed B [m/s]   peak A    peak B [N]")
+         call lines%line(padded("impact", width)//padded("onset A [s]", 17)//padded("B - A [s]", cell_width)// &
+                         padded("speed A", cell_width)//padded("speed B [m/s]", 14)//padded("peak A", cell_width)//"peak B [N]")
          do k = 1, size(found%pairs)
             associate (p => found%pairs(k))
-               call lines%line(padded(p%item//" "//to_text(p%number), width)//padded(real_text(p%a%time, 9), 16)// &
-                               cell(p%b%time - p%a%time)//cell(p%a%speed)//cell(p%b%speed)//"   "//cell(p%a%force)// &
-                                     cell(p%b%force))
+               call lines%line(padded(p%item//" "//to_text(p%number), width)//padded(real_text(p%a%time, 9), 17)// &
+                               cell(p%b%time - p%a%time)//cell(p%a%speed)//padded(cell(p%b%speed), 14)//cell(p%a%force)// &
+                               trim(cell(p%b%force)))
             end associate
          end do
       end if
@@ -95,12 +97,13 @@ contains
       integer :: k
 
       call lines%line("")
-      call lines%line(padded("channel", width)//"  mean A   +-          mean B   +-          p       RMS A     RMS B     p")
+      call lines%line(padded("channel", width)//trim(heads([character(6) :: "mean A", "+-", "mean B", "+-", "p", "RMS A", "RMS B", &
+                      "p"], cell_width)))
       do k = 1, size(found%list)
          associate (d => found%list(k))
-            call lines%line(padded(d%name//" ["//d%unit//"]", width)//cell(d%mean%a%value)//cell(d%mean%a%half)// &
+            call lines%line(trim(padded(d%name//" ["//d%unit//"]", width)//cell(d%mean%a%value)//cell(d%mean%a%half)// &
                             cell(d%mean%b%value)//cell(d%mean%b%half)//cell(d%mean%significance)// &
-                            cell(sqrt(d%square%a%value))//cell(sqrt(d%square%b%value))//cell(d%square%significance))
+                            cell(sqrt(d%square%a%value))//cell(sqrt(d%square%b%value))//cell(d%square%significance)))
          end associate
       end do
    end subroutine add_statistics
@@ -125,24 +128,37 @@ contains
       s = text//repeat(" ", max(0, width - len(text)))
    end function padded
 
-   !> A number in ten places.
+   !> A number with three digits, at most `-1.23e-100`, and a blank behind it.
    pure function cell(x) result(s)
       real(wp), intent(in) :: x            !! the number [any]
       character(:), allocatable :: s       !! with blanks behind it
 
       s = "-"
       if (ieee_is_finite(x)) s = real_text(x, 3)
-      s = padded(s, 10)
+      s = padded(s, cell_width)
    end function cell
 
-   !> A measure of Sprague and Geers in eight places.
+   !> A measure of Sprague and Geers with two digits, at most `-1.2e-100`, and a blank behind it.
    pure function short(x) result(s)
       real(wp), intent(in) :: x            !! the measure [1]
       character(:), allocatable :: s       !! with blanks behind it
 
-      s = padded(real_text(x, 2), 8)
-      if (len(s) > 8) s = real_text(x, 1)//" "
+      s = padded(real_text(x, 2), short_width)
    end function short
+
+   !> Headings of columns of numbers.
+   pure function heads(words, width) result(s)
+      character(*), intent(in) :: words(:) !! (n) a heading each
+      integer, intent(in) :: width         !! of a column
+      character(:), allocatable :: s       !! the line
+
+      integer :: k
+
+      s = ""
+      do k = 1, size(words)
+         s = s//padded(trim(words(k)), width)
+      end do
+   end function heads
 
    !> A row of numbers for each channel.
    function comparison_rows(found) result(text)

@@ -172,6 +172,24 @@ def test_decimal_commas_gaps_and_further_tables(gudgeon):
     assert "'torn.csv' has 3 tables; the first is compared, 9 rows from line 1 on; the second, torn.csv:2, begins in line 10" in done.stdout
 
 
+def test_columns_never_touch(gudgeon):
+    """A magnitude of -0.00082 has eight characters: a blank stands between all columns, as in the line of their names."""
+    folder = pendulum(gudgeon)
+    t, _, y, angle = independent()
+    np.savetxt(folder / "long.csv", np.c_[t, y * (1 - 0.00082), angle * (1 + 0.00082), y * -1.00082e-150], delimiter=",")
+    asked = [word for k, name in enumerate(("rod.position.y", "rod.angle", "rod.velocity.y"), 2) for word in ("--channel", f"{name}={k}")]
+    lines = call(gudgeon, "compare", "outputs/pend", "long.csv", *asked, cwd=folder, expect=1).stdout.splitlines()
+    head = next(k for k, line in enumerate(lines) if line.startswith("channel "))
+    assert lines[head].replace(" [s]", "").split() == "channel RMS greatest at allowed peak A peak B lag magn. phase".split()
+    starts = [at.start() for at in re.finditer(r"(?<=  )\S|(?<=A  )\S", lines[head])]
+    for row in lines[head + 1 : head + 4]:
+        cells = row.split("]", 1)[1].split()
+        assert len(cells) == 10 and cells[-1] == "differs", row
+        [float(cell) for cell in cells[:-1] if cell != "-"]
+        assert all(row[at - 1] == " " and row[at] != " " for at in starts), (lines[head], row)
+    assert any(" -0.00082 " in row for row in lines)
+
+
 def test_mistakes_have_messages(gudgeon):
     folder = pendulum(gudgeon)
     np.savetxt(folder / "two.csv", np.c_[np.arange(5.0), np.arange(5.0)], delimiter=",", header="t,q", comments="")
