@@ -66,20 +66,31 @@ contains
       end do
    end function catalogue_find_group
 
-   !> Add a quantity to a room, unless it is there. A vector has as many components as a point has coordinates.
+   !> Add a quantity to a room. A vector has as many components as a point has coordinates. One that is there, of another kind of
+   !> item, has the components and frames of both.
    subroutine catalogue_add_group(self, room, channel)
       class(catalogue_t), intent(inout) :: self  !! the catalogue
       integer, intent(in) :: room                !! its room
       type(channel_t), intent(in) :: channel     !! the quantity
 
-      if (self%find_group(room, channel%name) > 0) return
+      integer :: components, found
+
+      components = merge(self%n_coordinates, channel%components, channel%components == 2)
+      found = self%find_group(room, channel%name)
+      if (found > 0) then
+         associate (there => self%groups(found)%channel)
+            there%components = max(there%components, components)
+            if (index(there%frame, channel%frame) == 0) there%frame = there%frame//", "//channel%frame
+         end associate
+         return
+      end if
       if (.not. allocated(self%groups)) allocate (self%groups(32))
       if (self%n_group == size(self%groups)) call resize_groups(self%groups, self%n_group, 2*self%n_group)
       self%n_group = self%n_group + 1
       associate (group => self%groups(self%n_group))
          group%room = room
          group%channel = channel
-         if (channel%components == 2) group%channel%components = self%n_coordinates
+         group%channel%components = components
       end associate
    end subroutine catalogue_add_group
 

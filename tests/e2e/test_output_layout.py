@@ -123,6 +123,43 @@ def test_datasets_of_other_scenes_are_documented(gudgeon, root, tmp_path, deck, 
             assert re.search(rf"\b{node.attrs['frame']}\b", row["frame"]), f"{path}: {node.attrs['frame']}"
 
 
+def test_moments_of_torsional_springs_beside_torques(gudgeon, tmp_path, root):
+    """One number about the axis and two that do not exist; the attribute has the frames of both, as the table says."""
+    (tmp_path / "t.deck").write_text("""deck = 1
+[scene]
+space = spatial
+gravity = 0 0 0 m/s^2
+[bodies]
+name mass[kg] ixx[kg.m^2] iyy[kg.m^2] izz[kg.m^2]
+bar 1 1 1 1
+[points]
+name body xi[m]
+a ground 0
+b bar 0
+[joint.revolute]
+name i j axis_i
+pin a b "0 0 1"
+[force.torsion_spring]
+name i j axis_i stiffness[N.m/rad] free_angle[rad]
+twist ground bar "0 0 1" 3 0.1
+[force.torque]
+name body mx[N.m]
+push bar 1
+[analysis.dynamic]
+end = 1 ms
+[output]
+every = 1 ms
+""")
+    done = subprocess.run([gudgeon, "run", tmp_path / "t.deck", "--out", tmp_path / "run", "--quiet"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(tmp_path / "run" / "run.h5", "r") as file:
+        moment = file["forces/moment"]
+        rows = dict(zip(file["forces/names"].asstr()[:], moment[0]))
+        np.testing.assert_allclose(rows["twist"], [-0.3, np.nan, np.nan], rtol=1e-12)
+        np.testing.assert_allclose(rows["push"], [1, 0, 0], atol=1e-15)
+        assert moment.attrs["frame"] == documented(root)["/forces/moment"]["frame"] == "world, joint"
+
+
 @pytest.mark.parametrize("options", [(), ("--csv", "--horizon"), ("--accuracy", "1e-3", "--budget", "20 s"), ("static",)])
 def test_every_key_of_the_summary_is_documented(gudgeon, root, tmp_path, options):
     """Keys of summary.json both ways, objects and lists as they are called, and the keys of the objects in lists."""
