@@ -5,7 +5,7 @@ module exponent_plot
    use exponent, only: horizon_t
    use growth, only: n_digit
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp
+   use kinds, only: not_a_number, wp
    use plot_text, only: quoted
    use precision_rows, only: number
    use script_parts, only: colours, preamble
@@ -31,28 +31,32 @@ contains
       character(:), allocatable :: text        !! whole lines
 
       type(buffer_t) :: lines
-      integer :: first, i
+      real(wp) :: rate(size(horizon%t), 2)
+      integer :: i
 
       call lines%line("# time [s], ln of growth by the tangent, by a twin, mean rate so far [1/s] by the tangent, by a twin")
-      first = max(1, count(horizon%t <= horizon%after*(1.0_wp + 1.0e-9_wp)))
+      rate = mean_rates(horizon)
       do i = 1, size(horizon%t)
          call lines%line(number(horizon%t(i))//" "//number(horizon%tangent%growth(i))//" "//number(horizon%twin%growth(i))//" "// &
-                         mean_rate(horizon%tangent%growth)//" "//mean_rate(horizon%twin%growth))
+                         number(rate(i, 1))//" "//number(rate(i, 2)))
       end do
       text = lines%get()
-
-   contains
-
-      !> Mean rate from the end of the transient to instant i.
-      function mean_rate(growth) result(word)
-         real(wp), intent(in) :: growth(:)        !! (instants) ln of the growth [1]
-         character(:), allocatable :: word        !! the rate, or NaN
-
-         word = "NaN"
-         if (i > first) word = number((growth(i) - growth(first))/(horizon%t(i) - horizon%t(first)))
-      end function mean_rate
-
    end function exponent_rows
+
+   !> Mean rates from the end of the transient to each instant, by the tangent and by a twin; NaN up to that end.
+   pure function mean_rates(horizon) result(rate)
+      type(horizon_t), intent(in) :: horizon   !! what is known
+      real(wp) :: rate(size(horizon%t), 2)     !! (instants, 2) the rates [s^-1]
+
+      integer :: first, i
+
+      first = max(1, count(horizon%t <= horizon%after*(1.0_wp + 1.0e-9_wp)))
+      rate(:first, :) = not_a_number()
+      do i = first + 1, size(horizon%t)
+         rate(i, 1) = (horizon%tangent%growth(i) - horizon%tangent%growth(first))/(horizon%t(i) - horizon%t(first))
+         rate(i, 2) = (horizon%twin%growth(i) - horizon%twin%growth(first))/(horizon%t(i) - horizon%t(first))
+      end do
+   end function mean_rates
 
    !> Two panels: the growth, and the exponent with its interval.
    function exponent_script(horizon, title) result(script)
@@ -76,11 +80,13 @@ contains
       call lines%line("set format y '1e%+.0f'; e = log(10.)")
       call add_tics(lines, horizon)
       call add_digits(lines, horizon, time)
+      call lines%line("set offsets 0, 0, graph 0.03, graph 0.03")
       call lines%line("plot "//curve("($1*f)", "($2/e)", 1, "by the tangent, with jumps at "//to_text(horizon%n_crossed)// &
                                      " events", "linewidth 2")//", \")
       call lines%line("     "//curve("($1*f)", "($3/e)", 2, "by a twin, brought back "//to_text(horizon%n_renewed)//" times", &
                                      "linewidth 1.5 dashtype 2"))
-      call lines%line("unset arrow; unset label; set format y '%g'; set ytics autofreq; set key top right")
+      call lines%line("unset offsets; unset arrow; unset label; unset x2tics")
+      call lines%line("set format y '%g'; set ytics autofreq; set key top right")
       call lines%line("set ylabel 'mean exponent so far, without the transient [1/s]'")
       call lines%line("set xrange ["//number(horizon%after*time%factor)//":"//number(end*time%factor)//"]")
       call add_interval(lines, horizon)
@@ -123,41 +129,62 @@ contains
       call lines%line("set ytics ("//piece(tics, 3)//")")
    end subroutine add_tics
 
-   !> Marks of the times up to which there are digits.
+   !> Marks of the times up to which there are digits: a line each, and above the panel their numbers, beside one another.
    subroutine add_digits(lines, horizon, time)
       type(buffer_t), intent(inout) :: lines    !! the script
       type(horizon_t), intent(in) :: horizon    !! what is known
       type(display_unit_t), intent(in) :: time  !! unit of the abscissa
 
-      character(:), allocatable :: at
-      real(wp) :: last
-      integer :: k
+      real(wp), parameter :: apart = 0.026_wp   ! numbers, of the width [1]
+      character(:), allocatable :: at, tics
+      real(wp) :: last, place(n_digit), wide
+      integer :: k, latest
 
-      last = -1.0_wp
-      do k = n_digit, 1, -1
+      latest = findloc(ieee_is_finite(horizon%digits), .true., dim=1)  ! the fewer digits, the later
+      if (latest == 0) return
+      wide = horizon%t(size(horizon%t))
+      last = -wide
+      do k = n_digit, latest, -1
          if (.not. ieee_is_finite(horizon%digits(k))) cycle
-         if (horizon%digits(k) - last < 0.02_wp*horizon%t(size(horizon%t))) cycle
-         last = horizon%digits(k)
-         at = number(last*time%factor)
+         place(k) = max(horizon%digits(k), last + apart*wide)
+         last = place(k)
+      end do
+      last = (1.0_wp + apart)*wide
+      tics = ""
+      do k = latest, n_digit
+         if (.not. ieee_is_finite(horizon%digits(k))) cycle
+         place(k) = min(place(k), last - apart*wide)
+         last = place(k)
+         at = number(horizon%digits(k)*time%factor)
          call lines%line("set arrow from first "//at//", graph 0 to first "//at//", graph 1 nohead dashtype 2 linecolor "// &
                          "rgb '#909090'")
-         call lines%line("set label '"//to_text(k)//trim(merge(" digit ", " digits", k == 1))//"' at first "//at// &
-                         ", graph 0.98 right rotate by 90 offset -0.7,0 font ',12' textcolor rgb '#606060'")
+         tics = tics//", '"//to_text(k)//"' "//number(place(k)*time%factor)
       end do
+      call lines%line("set label 'digits' at first "//number((last - 0.6_wp*apart*wide)*time%factor)// &
+                      ", graph 1 right offset 0,0.6 font ',12' textcolor rgb '#606060'")
+      call lines%line("set x2range [0:"//number(wide*time%factor)//"]")
+      call lines%line("set x2tics ("//piece(tics, 3)//") scale 0 offset 0,-0.4 font ',12' textcolor rgb '#606060'")
    end subroutine add_digits
 
-   !> The interval of the exponent, and the range around it.
+   !> The interval of the exponent, and the range around it, which holds the curves but for what is far away after the transient.
    subroutine add_interval(lines, horizon)
       type(buffer_t), intent(inout) :: lines    !! the script
       type(horizon_t), intent(in) :: horizon    !! what is known
 
+      real(wp), parameter :: most = 4.0_wp      ! of the range that the interval has about it [1]
+      real(wp), parameter :: room = 0.06_wp     ! above and below the curves, of their range [1]
       type(estimate_t) :: rate
-      real(wp) :: reach
+      real(wp) :: high, low, means(size(horizon%t), 2), reach
 
       rate = horizon%tangent%rate
       if (horizon%tangent%reason /= "") rate = horizon%twin%rate
       reach = max(5.0_wp*rate%half, 1.2_wp*abs(rate%value), tiny(1.0_wp))
-      call lines%line("set yrange ["//number(rate%value - reach)//":"//number(rate%value + reach)//"]")
+      means = mean_rates(horizon)
+      low = max(minval(means, mask=ieee_is_finite(means)), rate%value - most*reach)
+      high = min(maxval(means, mask=ieee_is_finite(means)), rate%value + most*reach)
+      low = min(low, rate%value - reach)
+      high = max(high, rate%value + reach)
+      call lines%line("set yrange ["//number(low - room*(high - low))//":"//number(high + room*(high - low))//"]")
       call lines%line("set object 1 rectangle from graph 0, first "//number(rate%value - rate%half)//" to graph 1, first "// &
                       number(rate%value + rate%half)//" behind fillcolor rgb '#e4ecf4' fillstyle solid noborder")
    end subroutine add_interval

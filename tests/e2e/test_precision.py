@@ -236,6 +236,20 @@ end = {end}
 {settings}"""
 
 
+def assert_room_in_the_figure(figures, digits):
+    """Numbers of digits stand above the growth, none upon another, and the axis of the exponent holds all of its curves."""
+    script = (figures / "exponent.gp").read_text(encoding="utf-8")
+    tics = re.findall(r"'(\d+)' ([-+.E\d]+)", re.search(r"set x2tics \((.*?)\)", script)[1])
+    assert [int(number) for number, _ in tics] == list(digits)
+    places = np.array([float(at) for _, at in tics])[::-1]
+    width = float(re.search(r"set x2range \[0:([-+.E\d]+)\]", script)[1])
+    assert np.diff(places).min() > 0.0259 * width and places[-1] <= width
+    assert re.findall(r"set label '(.*?)' at first \S+, graph (\S+)", script) == [("digits", "1")], "nothing over the curves"
+    low, high = map(float, re.search(r"set yrange \[([-+.E\d]+):([-+.E\d]+)\]", script).groups())
+    rates = np.loadtxt(figures / "exponent.dat")[:, 3:]
+    assert low < np.nanmin(rates) and np.nanmax(rates) < high
+
+
 def test_growth_at_an_unstable_equilibrium(gudgeon):
     """A rod on its head: neighbouring motions part as exp(sqrt(3 g/(2 l)) t); hanging down they stay together."""
     study = compared(gudgeon, rod(90, "4.5 s") + ladders(instants=200), "--methods", "verner adams")
@@ -249,6 +263,7 @@ def test_growth_at_an_unstable_equilibrium(gudgeon):
         latest = math.log(10.0**-k / 2.22e-16) / rate + 0.05
         earliest = math.log(10.0**-k / 2.22e-16 / most) / rate - 0.05
         assert earliest < horizon[k - 1] < latest, k
+    assert_room_in_the_figure(study.directory / "figures", range(8, 13))
     hanging = compared(gudgeon, rod(-60, "4.5 s") + ladders(instants=200), "--methods", "verner adams")
     assert hanging.summary["growth"] == "power"
     assert np.isnan(hanging.read("twins/horizon")).all()
