@@ -190,6 +190,7 @@ contains
 
       real(wp), parameter :: near = 1.0e-3_wp  ! a part of a length that is no difference [1]
       character(:), allocatable :: name, point_i, point_j
+      type(joint_t) :: new
       real(wp), allocatable :: diameter(:)
       real(wp) :: axes(3, 3, 2), radius, side
       integer :: k, pinion, rack
@@ -222,7 +223,11 @@ contains
       call draft%put("joint.rack", "name i j axis_i axis_j radius", name//tab//point_i//tab//point_j//tab// &
                      direction_cell(body_axis(model, marker(rack), 3))//tab//direction_cell(body_axis(model, marker(pinion), 3))// &
                      tab//exact_text(sign(radius, merge(side, radius, abs(side) > near*abs(radius))))//"m")
-      draft%joints = [draft%joints, joint_t(statement%id, .false., name, "joint.rack", marker)]
+      new%id = statement%id
+      new%name = name
+      new%kind = "joint.rack"
+      new%marker = marker
+      draft%joints = [draft%joints, new]
    end subroutine add_rack
 
    !> The name of a statement.

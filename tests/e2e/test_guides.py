@@ -400,8 +400,8 @@ def test_no_surface_beyond_the_ends_of_a_guide(gudgeon, space, faces):
     run = finished(gudgeon, written(scratch(), text))
     depth, state = run.read("clearances/contacts/penetration"), run.read("clearances/contacts/state")
     entry = 0.04  # 80 mm at 2 m/s bring the front corners to the mouth
-    assert np.abs(depth[run.time < entry]).max() == 0.0
-    assert np.abs(depth[state == 0]).max() == 0.0
+    assert np.abs(depth[run.time < entry]).max() < 1e-17  # round-off of a penetration
+    assert np.abs(depth[state == 0]).max() < 1e-17
     assert run.contacts["time"][0] == pytest.approx(entry, rel=1e-9)
     if faces:
         assert depth[np.isclose(run.time, entry, rtol=1e-9)].max() == pytest.approx(2e-4, rel=1e-9)
