@@ -25,6 +25,8 @@ module build_linkage
    private
    public :: add_joints, begin_linkage, choose_solver, count_sets, declare_rows
 
+   integer, parameter :: items_of_set = 256   !! of solved joints, at most: what a set computes stays in the processor's cache
+
 contains
 
    !> Bodies, masses and sizes; the bodies stand where the deck puts them.
@@ -57,7 +59,7 @@ contains
       call linkage%place_bodies(q, 0.0_wp*v)
    end subroutine begin_linkage
 
-   !> Places for the sets of joints and drivers: up to two for each kind that has rows.
+   !> Places for the sets of joints and drivers.
    subroutine count_sets(scene, choices, is_taken, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
@@ -70,12 +72,20 @@ contains
       do k = 1, n_joint_kinds
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          if (any(choices(k)%is_fixing)) n = n + 1
-         if (.not. all(choices(k)%is_fixing)) n = n + 1
+         n = n + n_piece(count(.not. choices(k)%is_fixing))
       end do
       allocate (linkage%joints(n))
    end subroutine count_sets
 
-   !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows.
+   !> Sets that the solved joints of a kind make.
+   pure integer function n_piece(n)
+      integer, intent(in) :: n   !! the joints
+
+      n_piece = (n + items_of_set - 1)/items_of_set
+   end function n_piece
+
+   !> Ideal joints and drivers that are solved for, or those that fix known bodies: one set per kind that has such rows. Of solved
+   !> ones that are many, one for each `items_of_set`.
    subroutine add_joints(scene, choices, is_taken, is_solved, linkage)
       type(scene_t), intent(in) :: scene                      !! the scene
       type(choice_t), intent(in) :: choices(n_joint_kinds)    !! (kinds) which rows of each table leave the equations
@@ -84,9 +94,8 @@ contains
       type(linkage_t), intent(inout) :: linkage               !! joints are set
 
       class(joint_set_t), allocatable :: set
-      type(item_t), allocatable :: items(:)
       integer, allocatable :: chosen(:)
-      integer :: column(2), k, m, n
+      integer :: column(2), k, last, m, n, piece
 
       n = 0
       if (.not. is_solved) n = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
@@ -94,27 +103,45 @@ contains
       do k = 1, n_joint_kinds
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
-         call new_joint_set(k, set)
-         call take_items(scene%joints(k)%items, chosen, items)
-         call tie_set(scene, scene%joints(k)%info, items, set)
+         do piece = 1, merge(max(n_piece(size(chosen)), 1), 1, is_solved)
+            last = merge(min(piece*items_of_set, size(chosen)), size(chosen), is_solved)
+            call add_set(scene, k, chosen(items_of_set*(piece - 1) + 1:last), is_solved, linkage, set)
+            m = merge(2, 1, set%is_driver)
+            set%column = column(m) + chosen(items_of_set*(piece - 1) + 1:last)
+            if (size(chosen) == 0) exit
+            n = n + 1
+            call move_alloc(set, linkage%joints(n)%set)
+         end do
+         column(m) = column(m) + size(scene%joints(k)%items)
+      end do
+   end subroutine add_joints
+
+   !> A set of some rows of a table, and its place among the constraint rows.
+   subroutine add_set(scene, kind, chosen, is_solved, linkage, set)
+      type(scene_t), intent(in) :: scene                      !! the scene
+      integer, intent(in) :: kind                             !! number of the kind
+      integer, intent(in) :: chosen(:)                        !! (n) rows of its table
+      logical, intent(in) :: is_solved                        !! whether they are solved for
+      type(linkage_t), intent(inout) :: linkage               !! rows are counted
+      class(joint_set_t), allocatable, intent(out) :: set     !! the set
+
+      type(item_t), allocatable :: items(:)
+
+      associate (info => scene%joints(kind)%info)
+         call new_joint_set(kind, set)
+         call take_items(scene%joints(kind)%items, chosen, items)
+         call tie_set(scene, info, items, set)
          call set%prepare(items, start_angles(scene))
          call set%set_start(linkage%motion)
-         call take_joints(scene, scene%joints(k)%info, items, linkage%motion, set)
-         if (is_solved .and. find_column(scene%joints(k)%info, "friction") > 0) then
-            call new_joint_friction(items, scene%frictions, set%friction_lengths(), &
-                                    linkage%coordinates%n_v, set%friction)
+         call take_joints(scene, info, items, linkage%motion, set)
+         if (is_solved .and. find_column(info, "friction") > 0) then
+            call new_joint_friction(items, scene%frictions, set%friction_lengths(), linkage%coordinates%n_v, set%friction)
          end if
-         m = merge(2, 1, set%is_driver)
-         set%column = column(m) + chosen
-         column(m) = column(m) + size(scene%joints(k)%items)
-         if (size(chosen) == 0) cycle
          set%is_solved = is_solved
          set%first_row = linkage%rows%n
          linkage%rows%n = linkage%rows%n + set%n*set%n_row_item
-         n = n + 1
-         call move_alloc(set, linkage%joints(n)%set)
-      end do
-   end subroutine add_joints
+      end associate
+   end subroutine add_set
 
    !> Give the items of a set the joints that their rows name, if they name one each.
    subroutine take_joints(scene, info, items, motion, set)

@@ -236,7 +236,7 @@ contains
          accelerations(1, k) = a(1, body)
          accelerations(2, k) = a(2, body)
          accelerations(3, k) = a(3, body)
-         sum = sum + abs(a(1, body)) + abs(a(2, body)) + abs(a(3, body))
+         sum = sum + (abs(a(1, body)) + abs(a(2, body)) + abs(a(3, body)))
       end do
       status = merge(0, 1, ieee_is_finite(sum))
    end subroutine state_rates

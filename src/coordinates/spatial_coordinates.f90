@@ -253,8 +253,8 @@ contains
          q_dot(4:7, k) = rate_of_parameters(p(:, body), spin(:, body))
          do c = 1, n_v
             v_dot(c, k) = a(c, body)
-            sum = sum + abs(a(c, body))
          end do
+         sum = sum + ((abs(a(1, body)) + abs(a(2, body)) + abs(a(3, body))) + (abs(a(4, body)) + abs(a(5, body)) + abs(a(6, body))))
       end do
       status = merge(0, 1, ieee_is_finite(sum))
    end subroutine state_rates

@@ -20,6 +20,8 @@ module linkage
    private
    public :: linkage_t, scales_t
 
+   integer, parameter :: rows_at_once = 256   !! evaluated before their rates are found, while they are in the processor's cache
+
    !> What is large and what is small, see `mechanism_scales`.
    type :: scales_t
       real(wp) :: length = 1.0_wp         !! size of the bodies, for error scales [m]
@@ -37,7 +39,7 @@ module linkage
       real(wp), allocatable :: mass(:, :)               !! (n_v, bodies) masses [kg or kg.m^2]
       real(wp), allocatable :: inverse_mass(:, :)       !! (n_v, 0:bodies) the same inverted, 0 if known [1/kg or 1/(kg.m^2)]
       type(scales_t) :: scales                          !! sizes and rates
-      type(joint_slot_t), allocatable :: joints(:)      !! ideal joints and drivers, one set per kind
+      type(joint_slot_t), allocatable :: joints(:)      !! sets of ideal joints and drivers, see `build_linkage`
       integer :: n_solved_set = 0                       !! sets of them with rows that are solved for, the first ones
       type(joint_slot_t), allocatable :: ideal(:)       !! joints with clearance taken as ideal, one set per kind
       type(reduced_t) :: reduced                        !! bodies that are not unknown
@@ -57,6 +59,35 @@ module linkage
       procedure :: greatest_violation => linkage_greatest_violation
       procedure :: row_name => linkage_row_name
    end type linkage_t
+
+   interface
+      !> What the reports of some rows need of those that are not solved for. The multipliers of known bodies are found together;
+      !> they have those of the guided bodies in them that known ones carry.
+      module subroutine linkage_list_wanted(self, is_read, wanted)
+         implicit none (type, external)
+         class(linkage_t), intent(in) :: self           !! the linkage
+         logical, intent(in) :: is_read(:)              !! (rows) which are reported
+         type(wanted_rows_t), intent(out) :: wanted     !! the list
+      end subroutine linkage_list_wanted
+
+      !> Multipliers of rows that fix bodies that are not solved for, at the motion and the accelerations that are set.
+      !> Reports want them.
+      module subroutine linkage_find_reactions(self, t, g, wanted)
+         implicit none (type, external)
+         class(linkage_t), intent(inout) :: self        !! the linkage
+         real(wp), intent(in) :: t                      !! time [s]
+         real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
+         type(wanted_rows_t), intent(in) :: wanted      !! which of them
+      end subroutine linkage_find_reactions
+
+      !> Name of the joint or driver that a constraint row belongs to.
+      module function linkage_row_name(self, row) result(name)
+         implicit none (type, external)
+         class(linkage_t), intent(in) :: self   !! the linkage
+         integer, intent(in) :: row             !! number of the row
+         character(:), allocatable :: name      !! the joint's name
+      end function linkage_row_name
+   end interface
 
 contains
 
@@ -168,27 +199,67 @@ contains
       real(wp), intent(in) :: t                 !! time [s]
 
       real(wp) :: inside
-      integer :: k
+      integer :: done, k
 
       inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
-      do k = 1, self%n_solved_set
-         call self%joints(k)%set%evaluate(inside, self%motion, self%rows)
-      end do
+      done = 0
+      if (self%rows%n_solve > rows_at_once) then
+         call evaluate_many(self, inside, done)
+      else
+         do k = 1, self%n_solved_set
+            call self%joints(k)%set%evaluate(inside, self%motion, self%rows)
+         end do
+      end if
       do k = 1, size(self%ideal)
          call self%ideal(k)%set%evaluate(inside, self%motion, self%rows)
       end do
-      associate (rows => self%rows, motion => self%motion, solution => self%solution)
+      call find_sides(self, done + 1, self%rows%n_solve)
+      if (size(self%rows%known, 2) == 0) return
+      associate (rows => self%rows, motion => self%motion)
          if (self%coordinates%turns_in_body) then
-            call right_hand_side(rows, self%bodies%n, motion%v, motion%spatial%spin, solution%alpha, solution%beta, &
-                                 solution%phi_dot, solution%b)
-            if (size(rows%known, 2) > 0) call take_known(rows, self%bodies%n, motion%a, motion%spatial%rise, solution%b)
+            call take_known(rows, self%bodies%n, motion%a, motion%spatial%rise, self%solution%b)
          else
-            call right_hand_side(rows, self%bodies%n, motion%v, motion%omega, solution%alpha, solution%beta, solution%phi_dot, &
-                                 solution%b)
-            if (size(rows%known, 2) > 0) call take_known(rows, self%bodies%n, motion%a, motion%alpha, solution%b)
+            call take_known(rows, self%bodies%n, motion%a, motion%alpha, self%solution%b)
          end if
       end associate
    end subroutine linkage_evaluate_rows
+
+   !> Many solved rows of joints, some at a time with their right-hand sides.
+   subroutine evaluate_many(linkage, t, done)
+      type(linkage_t), intent(inout) :: linkage   !! the linkage, its motion set
+      real(wp), intent(in) :: t                   !! time, in the smooth stretch [s]
+      integer, intent(out) :: done                !! rows that have right-hand sides; the others of joints have none yet
+
+      integer :: k
+
+      done = 0
+      do k = 1, linkage%n_solved_set
+         associate (set => linkage%joints(k)%set)
+            if (set%first_row - done >= rows_at_once) then
+               call find_sides(linkage, done + 1, set%first_row)
+               done = set%first_row
+            end if
+            call set%evaluate(t, linkage%motion, linkage%rows)
+         end associate
+      end do
+   end subroutine evaluate_many
+
+   !> Rates of the violations and right-hand sides of some solved rows, as they were evaluated.
+   subroutine find_sides(linkage, from, to)
+      type(linkage_t), intent(inout) :: linkage   !! the linkage
+      integer, intent(in) :: from                 !! the first of the rows
+      integer, intent(in) :: to                   !! the last of them
+
+      associate (rows => linkage%rows, motion => linkage%motion, solution => linkage%solution)
+         if (linkage%coordinates%turns_in_body) then
+            call right_hand_side(from, to, rows, linkage%bodies%n, motion%v, motion%spatial%spin, solution%alpha, solution%beta, &
+                                 solution%phi_dot, solution%b)
+         else
+            call right_hand_side(from, to, rows, linkage%bodies%n, motion%v, motion%omega, solution%alpha, solution%beta, &
+                                 solution%phi_dot, solution%b)
+         end if
+      end associate
+   end subroutine find_sides
 
    !> Accelerations and multipliers of the rows, as they were evaluated.
    subroutine linkage_find_accelerations(self, g, must_agree, with_guided, status)
@@ -257,135 +328,5 @@ contains
          worst = maxval(self%solution%row_weight(:n)*abs(self%rows%phi(:n)))
       end associate
    end function linkage_greatest_violation
-
-   !> What the reports of some rows need of those that are not solved for. The multipliers of known bodies are found together; they
-   !> have those of the guided bodies in them that known ones carry.
-   subroutine linkage_list_wanted(self, is_read, wanted)
-      class(linkage_t), intent(in) :: self           !! the linkage
-      logical, intent(in) :: is_read(:)              !! (rows) which are reported
-      type(wanted_rows_t), intent(out) :: wanted     !! the list
-
-      logical :: is_wanted(size(is_read)), takes(self%reduced%guided%n)
-      integer :: k
-
-      is_wanted = is_read
-      associate (known => self%reduced%known, guided => self%reduced%guided, n_v => self%coordinates%n_v)
-         do k = 1, known%n
-            wanted%has_known = wanted%has_known .or. is_one_read(known%held(k)%row(:n_v))
-         end do
-         do k = 1, known%n
-            if (wanted%has_known) call want(known%held(k)%row(:n_v))
-         end do
-         do k = 1, guided%n
-            takes(k) = is_one_read(guided%held(k)%row(:n_v - 1)) .or. (wanted%has_known .and. guided%held(k)%base > 0)
-            if (takes(k)) call want(guided%held(k)%row(:n_v - 1))
-         end do
-         wanted%guided = pack([(k, k=1, guided%n)], takes)
-      end associate
-      allocate (wanted%sets(0))
-      do k = self%n_solved_set + 1, size(self%joints)
-         associate (set => self%joints(k)%set)
-            if (any(is_wanted(set%first_row + 1:set%first_row + set%n*set%n_row_item))) wanted%sets = [wanted%sets, k]
-         end associate
-      end do
-
-   contains
-
-      !> Whether one of some rows is reported.
-      pure logical function is_one_read(rows)
-         integer, intent(in) :: rows(:)    !! (any) their numbers
-
-         integer :: i
-
-         is_one_read = .false.
-         do i = 1, size(rows)
-            is_one_read = is_one_read .or. is_read(rows(i))
-         end do
-      end function is_one_read
-
-      !> Some rows are wanted.
-      subroutine want(rows)
-         integer, intent(in) :: rows(:)    !! (any) their numbers
-
-         integer :: i
-
-         do i = 1, size(rows)
-            is_wanted(rows(i)) = .true.
-         end do
-      end subroutine want
-
-   end subroutine linkage_list_wanted
-
-   !> Multipliers of rows that fix bodies that are not solved for, at the motion and the accelerations that are set.
-   !> Reports want them.
-   subroutine linkage_find_reactions(self, t, g, wanted)
-      class(linkage_t), intent(inout) :: self        !! the linkage
-      real(wp), intent(in) :: t                      !! time [s]
-      real(wp), intent(in), contiguous :: g(:, 0:)   !! (n_v, 0:bodies) loads [N or N.m]
-      type(wanted_rows_t), intent(in) :: wanted      !! which of them
-
-      real(wp) :: inside
-      integer :: k
-
-      inside = min(max(t, self%piece%low), self%piece%high)  ! in the smooth stretch: `smooth_piece`, without its call
-      do k = 1, size(wanted%sets)
-         call self%joints(wanted%sets(k))%set%evaluate(inside, self%motion, self%rows)
-      end do
-      associate (known => self%reduced%known, guided => self%reduced%guided, solution => self%solution)
-         do k = 1, size(wanted%guided)
-            call copy(guided%held(wanted%guided(k))%body)
-         end do
-         call guided%find_multipliers(wanted%guided, self%rows, self%mass, g, solution%a, solution%lambda)
-         if (.not. wanted%has_known) return
-         do k = 1, known%n
-            call copy(known%held(k)%body)
-         end do
-         call known%find_multipliers(self%coordinates%n_v, self%bodies%n, self%rows%n, known%held, self%reduced%carried, &
-                                     self%rows%jac, self%mass, g, solution%a, self%rest, solution%lambda)
-      end associate
-
-   contains
-
-      !> Acceleration of a body that is not solved for.
-      subroutine copy(body)
-         integer, intent(in) :: body  !! the body
-
-         call self%coordinates%find_acceleration(self%motion, body, self%solution%a(:, body))
-      end subroutine copy
-
-   end subroutine linkage_find_reactions
-
-   !> Name of the joint or driver that a constraint row belongs to.
-   function linkage_row_name(self, row) result(name)
-      class(linkage_t), intent(in) :: self   !! the linkage
-      integer, intent(in) :: row             !! number of the row
-      character(:), allocatable :: name      !! the joint's name
-
-      integer :: k
-
-      name = "?"
-      do k = 1, size(self%joints)
-         call look(self%joints(k))
-      end do
-      do k = 1, size(self%ideal)
-         call look(self%ideal(k))
-      end do
-
-   contains
-
-      !> Look in one set.
-      subroutine look(slot)
-         type(joint_slot_t), intent(in) :: slot  !! the set
-
-         integer :: item
-
-         associate (set => slot%set)
-            if (row <= set%first_row .or. row > set%first_row + set%n*set%n_row_item) return
-            item = (row - set%first_row - 1)/set%n_row_item + 1
-            name = set%names(item)%s
-         end associate
-      end subroutine look
-
-   end function linkage_row_name
 
 end module linkage

@@ -12,21 +12,23 @@ module row_kernels
 
 contains
 
-   !> Rate of the violation and stabilised right-hand side of the solved rows. The ground has no velocity.
-   pure subroutine right_hand_side(rows, n_body, v, omega, alpha, beta, phi_dot, b)
+   !> Rate of the violation and stabilised right-hand side of some solved rows. The ground has no velocity.
+   pure subroutine right_hand_side(from, to, rows, n_body, v, omega, alpha, beta, phi_dot, b)
+      integer, intent(in) :: from                   !! the first of the rows
+      integer, intent(in) :: to                     !! the last of them
       type(rows_t), intent(in) :: rows              !! rows, evaluated
       integer, intent(in) :: n_body                 !! number of bodies
       real(wp), intent(in) :: v(3, 0:n_body)        !! (3, 0:bodies) velocities [m/s]
       real(wp), intent(in) :: omega(3, 0:n_body)    !! (3, 0:bodies) angular velocities, in the axes of the rows' columns [rad/s]
       real(wp), intent(in) :: alpha                 !! gain on the rate [1/s]
       real(wp), intent(in) :: beta                  !! gain on the violation [1/s]
-      real(wp), intent(inout) :: phi_dot(rows%n)    !! (rows) rate of the violation, set of solved rows [m/s or rad/s]
-      real(wp), intent(inout) :: b(rows%n)          !! (rows) right-hand side, set of solved rows [m/s^2 or rad/s^2]
+      real(wp), intent(inout) :: phi_dot(rows%n)    !! (rows) rate of the violation, set of these rows [m/s or rad/s]
+      real(wp), intent(inout) :: b(rows%n)          !! (rows) right-hand side, set of these rows [m/s^2 or rad/s^2]
 
       if (rows%n_v == n_v_planar) then
-         call planar_side(rows, n_body, v, omega, alpha, beta, phi_dot, b)
+         call planar_side(from, to, rows, n_body, v, omega, alpha, beta, phi_dot, b)
       else
-         call spatial_side(rows, n_body, v, omega, alpha, beta, phi_dot, b)
+         call spatial_side(from, to, rows, n_body, v, omega, alpha, beta, phi_dot, b)
       end if
    end subroutine right_hand_side
 

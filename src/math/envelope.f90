@@ -44,9 +44,11 @@ contains
       allocate (matrix%a(entries), matrix%inverse(matrix%n), matrix%row(matrix%n), source=0.0_wp)
    end subroutine new_envelope
 
-   !> Factorise in place and solve for one right-hand side; the factors can serve further ones.
-   !> The loops are short: they are kept from being vectorised.
-   pure subroutine factorise_and_solve(n, n_entry, first, start, threshold, a, inverse, row, x, bad_row)
+   !> Factorise some rows in place after those before them; after the last row, solve for one right-hand side. The factors can serve
+   !> further ones. The loops are short: they are kept from being vectorised.
+   pure subroutine factorise_and_solve(from, to, n, n_entry, first, start, threshold, a, inverse, row, x, bad_row)
+      integer, intent(in) :: from                 !! the first of the rows
+      integer, intent(in) :: to                   !! the last of them
       integer, intent(in) :: n                    !! order
       integer, intent(in) :: n_entry              !! entries of the envelope
       integer, intent(in) :: first(n)             !! (n) first column of each row
@@ -55,14 +57,14 @@ contains
       real(wp), intent(inout) :: a(n_entry)       !! (entries) matrix, then its factors [any]
       real(wp), intent(inout) :: inverse(n)       !! (n) one over D [any]
       real(wp), intent(inout) :: row(n)           !! (n) scratch [any]
-      real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then solution [any]
+      real(wp), intent(inout) :: x(n)             !! (n) right-hand side, then y of L y = b, then solution [any]
       integer, intent(out) :: bad_row             !! first row with a small pivot, 0: none
 
       real(wp) :: factor, pivot, right, sum
       integer :: i, j, k, first_i, start_i, start_j
 
       bad_row = 0
-      do i = 1, n
+      do i = from, to
          start_i = start(i)
          first_i = first(i)
          pivot = a(start_i + i)
@@ -89,7 +91,7 @@ contains
          inverse(i) = 1.0_wp/pivot
          x(i) = right
       end do
-      call solve_upper(n, n_entry, first, start, a, inverse, x)
+      if (to == n) call solve_upper(n, n_entry, first, start, a, inverse, x)
    end subroutine factorise_and_solve
 
    !> Factorise a semi-definite matrix in place; rows that depend on earlier ones are set aside.

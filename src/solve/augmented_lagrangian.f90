@@ -203,8 +203,8 @@ contains
       n_body = size(g, 2) - 1
       call assemble(self, penalty, inverse_mass, rows)
       self%x = 0.0_wp
-      call factorise_and_solve(self%k%n, size(self%k%a), self%k%first, self%k%start, 0.0_wp, self%k%a, self%k%inverse, &
-                               self%k%row, self%x, bad_row)
+      call factorise_and_solve(1, self%k%n, self%k%n, size(self%k%a), self%k%first, self%k%start, 0.0_wp, self%k%a, &
+                               self%k%inverse, self%k%row, self%x, bad_row)
       self%n_factorisations = self%n_factorisations + 1
       if (bad_row > 0) then
          bad_row = 1

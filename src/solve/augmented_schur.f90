@@ -116,7 +116,7 @@ contains
       real(wp), intent(inout), contiguous :: lambda(:)             !! (rows) multipliers [N or N.m]
       integer, intent(out) :: bad_row                              !! row that depends on others, or nearly so, 0: none
 
-      integer :: n_body
+      integer :: k, n_body
 
       n_body = size(g, 2) - 1
       if (rows%n_solve > 0) self%n_factorisations = self%n_factorisations + 1
@@ -128,20 +128,32 @@ contains
                             g, b, self%least_pivot, a, lambda, bad_row)
       end if
       if (bad_row > 0 .or. size(self%unknown) == 0) return
-      associate (part => self%rest)
-         if (size(part%order) > 0) then
-            call assemble(part, n_body, rows%n, inverse_mass, rows%jac, g, b)
-            call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, self%least_pivot, part%s%a, &
-                                     part%s%inverse, part%s%row, part%x, bad_row)
-            if (bad_row > 0) then
-               bad_row = part%order(bad_row)
-               return
-            end if
-            call in_given_order(size(part%order), part%order, rows%n, part%x, lambda)
-         end if
-      end associate
+      do k = 1, self%rest%n_block
+         call take_block(k, self%rest, n_body, rows%n, inverse_mass, rows%jac, g, b, self%least_pivot, bad_row)
+         if (bad_row > 0) return
+      end do
+      call in_given_order(size(self%rest%order), self%rest%order, rows%n, self%rest%x, lambda)
       call body_accelerations(rows, size(self%unknown), self%unknown, n_body, inverse_mass, rows%jac, g, lambda, a)
    end subroutine schur_solve
+
+   !> Assemble and factorise a block; the last one solves.
+   pure subroutine take_block(block, part, n_body, n_row, inverse_mass, jac, g, b, least_pivot, bad_row)
+      integer, intent(in) :: block                              !! which; they are taken in their order
+      type(part_t), intent(inout) :: part                       !! the part; S and x are set
+      integer, intent(in) :: n_body                             !! number of bodies
+      integer, intent(in) :: n_row                              !! number of rows
+      real(wp), intent(in) :: inverse_mass(part%n_v, 0:n_body)  !! (n_v, 0:bodies) inverse masses [1/kg or 1/(kg.m^2)]
+      real(wp), intent(in) :: jac(2*part%n_v*n_row)             !! (2 n_v rows) Phi_q, row by row [1 or m]
+      real(wp), intent(in) :: g(part%n_v, 0:n_body)             !! (n_v, 0:bodies) applied loads [N or N.m]
+      real(wp), intent(in) :: b(n_row)                          !! (rows) right-hand side [m/s^2 or rad/s^2]
+      real(wp), intent(in) :: least_pivot                       !! of its diagonal: below, rows are nearly dependent [1]
+      integer, intent(out) :: bad_row                           !! row that depends on others, or nearly so, 0: none
+
+      call assemble(block, part, n_body, n_row, inverse_mass, jac, g, b)
+      call factorise_and_solve(part%block(3, block - 1) + 1, part%block(3, block), size(part%order), size(part%s%a), part%s%first, &
+                               part%s%start, least_pivot, part%s%a, part%s%inverse, part%s%row, part%x, bad_row)
+      if (bad_row > 0) bad_row = part%order(bad_row)
+   end subroutine take_block
 
    !> Factors of S with its diagonal raised.
    subroutine schur_factorise(self, inverse_mass, rows, damping, bad_row)
@@ -155,15 +167,17 @@ contains
 
       associate (part => self%all)
          self%residual = 0.0_wp
-         call assemble(part, ubound(inverse_mass, 2), rows%n, inverse_mass, rows%jac, 0.0_wp*inverse_mass, self%residual)
+         do k = 1, part%n_block
+            call assemble(k, part, ubound(inverse_mass, 2), rows%n, inverse_mass, rows%jac, 0.0_wp*inverse_mass, self%residual)
+         end do
          do k = 1, size(part%order)
             associate (diagonal => part%s%a(part%s%start(k) + k))
                diagonal = diagonal*(1.0_wp + damping)
                if (.not. diagonal > 0.0_wp) diagonal = 1.0_wp  ! a row between known bodies
             end associate
          end do
-         call factorise_and_solve(size(part%order), size(part%s%a), part%s%first, part%s%start, 0.0_wp, part%s%a, &
-                                  part%s%inverse, part%s%row, part%x, bad_row)
+         call factorise_and_solve(1, size(part%order), size(part%order), size(part%s%a), part%s%first, part%s%start, 0.0_wp, &
+                                  part%s%a, part%s%inverse, part%s%row, part%x, bad_row)
          if (bad_row > 0) bad_row = part%order(bad_row)
       end associate
       self%n_factorisations = self%n_factorisations + 1
@@ -201,8 +215,9 @@ contains
       end do
    end subroutine in_given_order
 
-   !> The Schur complement of a part, and the right-hand side of its multipliers.
-   pure subroutine assemble(part, n_body, n_row, inverse_mass, jac, g, b)
+   !> What a block of bodies gives to the Schur complement of a part, and to the right-hand side of its multipliers.
+   pure subroutine assemble(block, part, n_body, n_row, inverse_mass, jac, g, b)
+      integer, intent(in) :: block                         !! which of the blocks; they are taken in their order
       type(part_t), intent(inout) :: part                  !! the part; S and x are set
       integer, intent(in) :: n_body                        !! number of bodies
       integer, intent(in) :: n_row                         !! number of rows
@@ -212,9 +227,9 @@ contains
       real(wp), intent(in) :: b(n_row)                     !! (rows) right-hand side [m/s^2 or rad/s^2]
 
       if (part%n_v == n_v_planar) then
-         call assemble_planar(part, n_body, n_row, inverse_mass, jac, g, b)
+         call assemble_planar(block, part, n_body, n_row, inverse_mass, jac, g, b)
       else
-         call assemble_spatial(part, n_body, n_row, inverse_mass, jac, g, b)
+         call assemble_spatial(block, part, n_body, n_row, inverse_mass, jac, g, b)
       end if
    end subroutine assemble
 

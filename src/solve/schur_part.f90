@@ -1,6 +1,9 @@
 !> Structure of the Schur complement of some of the rows: their order, the envelope, and the rows that share a body.
 !>
 !> S = Phi_q M^-1 Phi_q^T. The order is the given one or that of reverse Cuthill-McKee, whichever costs less.
+!>
+!> Bodies are taken in blocks. After each the first rows of S are complete and can be factorised while they are in the processor's
+!> cache: of a long chain, S does not fit in it.
 module schur_part
    use envelope, only: envelope_t, new_envelope
    use kinds, only: wp
@@ -20,8 +23,13 @@ module schur_part
                                                   !! of each in the order of the envelope
       integer :: n_body = 0                       !! bodies with sides
       integer, allocatable :: body(:, :)          !! (2, these bodies) body, its last side
+      integer :: n_block = 0                      !! blocks of these bodies
+      integer, allocatable :: block(:, :)         !! (3, 0:blocks) last of these bodies, last row that has a side in this block or
+                                                  !! one before, last row that is complete after it; of block 0: 0
       real(wp), allocatable :: x(:)               !! (its rows) right-hand side and solution, in the order of the envelope [any]
    end type part_t
+
+   integer, parameter :: block_rows = 96   !! rows that a block completes, at least: some 20 kB of a chain of bodies in space
 
 contains
 
@@ -135,6 +143,47 @@ contains
       part%n_side = n_side
       part%body = part%body(:, :part%n_body)
       allocate (part%x(size(part%order)), source=0.0_wp)
+      call cut_blocks(part)
    end subroutine prepare_part
+
+   !> Cut the bodies into blocks.
+   subroutine cut_blocks(part)
+      type(part_t), intent(inout) :: part    !! the structure; its blocks are set
+
+      integer :: block(3, 0:part%n_body + 1), complete, k, last(0:size(part%order)), n, reached, side
+
+      ! the last of the bodies that a row or one before it is tied to
+      last = 0
+      side = 0
+      do k = 1, part%n_body
+         do while (side < part%body(2, k))
+            side = side + 1
+            last(part%side(1, side)) = k
+         end do
+      end do
+      do k = 1, size(part%order)
+         last(k) = max(last(k), last(k - 1))
+      end do
+      n = 0
+      block(:, 0) = 0
+      complete = 0
+      reached = 0
+      do k = 1, part%n_body
+         reached = max(reached, part%side(1, part%body(2, k)))
+         do while (complete < reached)
+            if (last(complete + 1) > k) exit
+            complete = complete + 1
+         end do
+         if (complete - block(3, n) < block_rows) cycle
+         n = n + 1
+         block(:, n) = [k, reached, complete]
+      end do
+      if (block(3, n) < size(part%order)) then
+         n = n + 1
+         block(:, n) = [part%n_body, size(part%order), size(part%order)]
+      end if
+      part%n_block = n
+      allocate (part%block(3, 0:n), source=block(:, :n))
+   end subroutine cut_blocks
 
 end module schur_part

@@ -64,11 +64,14 @@ contains
       real(wp), intent(in), contiguous :: weight(:, 0:)  !! (n_v, 0:bodies) W [any]
 
       real(wp) :: none(self%rows%n_v, 0:self%n_body), zero(self%rows%n)
+      integer :: k
 
       none = 0.0_wp
       zero = 0.0_wp
       associate (part => self%part)
-         call assemble(part, self%n_body, self%rows%n, weight, jac, none, zero)
+         do k = 1, part%n_block
+            call assemble(k, part, self%n_body, self%rows%n, weight, jac, none, zero)
+         end do
          call factorise_semidefinite(threshold, part%s, self%is_dependent)
       end associate
    end subroutine start_factorise

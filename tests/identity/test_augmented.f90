@@ -2,19 +2,21 @@
 !> and bodies that are solved in closed form.
 module test_augmented
    use augmented_schur, only: augmented_schur_t
-   use check, only: check_equal, check_true, suite_t
+   use check, only: check_close, check_equal, check_true, suite_t
    use deck_scene, only: load_file, loaded_t
    use columns, only: column_of
    use errors, only: error_t
+   use fixed_random, only: random_t
    use hold, only: hold_t
    use hold_registry, only: n_hold_kinds, new_hold
    use item, only: option_t
    use kind_info, only: kind_info_t
-   use kinds, only: wp
+   use kinds, only: i8, wp
+   use linkage, only: linkage_t
    use mechanism, only: mechanism_t
    use scene_fixture, only: nl, slider_crank, start_text
    use section_info, only: dynamic_info, word_options
-   use solver_checks, only: body_head, check_at_random, check_text, point_head, second, use_solver, weight
+   use solver_checks, only: body_head, check_at_random, check_equations, check_text, point_head, second, use_solver, weight
    use text, only: replace, to_text
    implicit none (type, external)
    private
@@ -30,6 +32,7 @@ contains
       call suite%test("slider_crank", test_slider_crank)
       call suite%test("decks", test_decks)
       call suite%test("chain", test_chain)
+      call suite%test("long_chain", test_long_chain)
       call suite%test("star", test_star)
       call suite%test("lone_bodies", test_lone_bodies)
    end subroutine run_test_augmented
@@ -121,11 +124,76 @@ contains
    subroutine test_chain(error)
       type(error_t), allocatable, intent(out) :: error  !! what failed
 
-      integer, parameter :: n = 12
-      integer, parameter :: order(n) = [7, 2, 11, 4, 9, 1, 12, 6, 3, 10, 5, 8]
-      character(:), allocatable :: bodies, joints, points
-      integer :: k, m
+      call check_text(chain_text([7, 2, 11, 4, 9, 1, 12, 6, 3, 10, 5, 8], 5), "chain", error)
+   end subroutine test_chain
 
+   !> Chains so long that their joints are several sets and the complement is taken in blocks, listed from end to end and mixed: the
+   !> equations themselves, rates of the violations and right-hand sides.
+   subroutine test_long_chain(error)
+      type(error_t), allocatable, intent(out) :: error  !! what failed
+
+      integer, parameter :: n = 300
+      type(mechanism_t) :: system
+      type(random_t) :: random
+      real(wp), allocatable :: start(:), ydot(:)
+      integer :: k, status, variant
+
+      random%state = 23_i8
+      do variant = 1, 2
+         if (variant == 1) call start_text(chain_text([(n + 1 - k, k=1, n)], 1), system, start, error)
+         if (variant == 2) call start_text(chain_text([(1 + modulo(11*k, n), k=1, n)], 5), system, start, error)
+         if (allocated(error)) return
+         call use_solver(system, "schur")
+         select type (solver => system%linkage%solution%solver)
+         type is (augmented_schur_t)
+            call check_true(error, size(system%linkage%joints) > 1, "several sets")
+            call check_true(error, solver%rest%n_block > 1 .or. variant == 2, "blocks of the chain from end to end")
+         end select
+         if (allocated(error)) return
+         start = start + random%vector(size(start), -0.01_wp, 0.01_wp)
+         start(3*n + 1:6*n) = random%vector(3*n, -4.0_wp, 4.0_wp)
+         ydot = start
+         call system%evaluate(0.0_wp, start, ydot, status)
+         call check_equal(error, status, 0, "evaluation")
+         call check_equations(system, "long chain "//to_text(variant), error)
+         call check_sides(system%linkage, error)
+      end do
+   end subroutine test_long_chain
+
+   !> Phi' = Phi_q v and b = gamma - 2 alpha Phi' - beta^2 Phi of rows that do not depend on time.
+   subroutine check_sides(linkage, error)
+      type(linkage_t), intent(in) :: linkage              !! the linkage, evaluated
+      type(error_t), allocatable, intent(inout) :: error  !! first failure
+
+      real(wp) :: rate
+      integer :: body, row, side
+
+      do row = 1, linkage%rows%n_solve
+         if (allocated(error)) return
+         rate = 0.0_wp
+         do side = 1, 2
+            body = linkage%rows%body(side, row)
+            rate = rate + dot_product(linkage%rows%jac(3*side - 2:3*side, row), [linkage%motion%v(:2, body), &
+                                                                                  linkage%motion%omega(3, body)])
+         end do
+         associate (solution => linkage%solution)
+            call check_close(error, solution%phi_dot(row), rate, 1.0e-12_wp, "rate of row "//to_text(row))
+            call check_close(error, solution%b(row), linkage%rows%gam(row) - 2.0_wp*solution%alpha*rate &
+                             - solution%beta**2*linkage%rows%phi(row), 1.0e-9_wp, "right-hand side of row "//to_text(row))
+         end associate
+      end do
+   end subroutine check_sides
+
+   !> The deck of a chain from the ground.
+   function chain_text(order, stride) result(deck)
+      integer, intent(in) :: order(:)       !! (n) the links in the order in which they are listed
+      integer, intent(in) :: stride         !! of the joints, from one to that which is listed before it; prime to n + 1
+      character(:), allocatable :: deck     !! its text
+
+      character(:), allocatable :: bodies, joints, points
+      integer :: k, m, n
+
+      n = size(order)
       bodies = body_head
       points = point_head//"peg_0 ground 0 0"//nl
       joints = "[joint.revolute]"//nl//"name i j"//nl
@@ -137,11 +205,11 @@ contains
                   "peg_"//to_text(m)//" link_"//to_text(m)//" 0.5 0"//nl
       end do
       do k = n, 1, -1
-         m = modulo(5*k, n + 1)
+         m = modulo(stride*k, n + 1)
          joints = joints//"pin_"//to_text(m)//" peg_"//to_text(m - 1)//" tail_"//to_text(m)//nl
       end do
-      call check_text(weight//bodies//points//joints//second, "chain", error)
-   end subroutine test_chain
+      deck = weight//bodies//points//joints//second
+   end function chain_text
 
    !> Six bodies on one: the sixth of them a star itself, all of it free to fly.
    subroutine test_star(error)

@@ -94,7 +94,8 @@ contains
             rows%gam = random%vector(rows%n, -1.0_wp, 1.0_wp)
             b = spread(untouched, 1, rows%n)
             phi_dot = b
-            call right_hand_side(rows, problem%n_body, v, omega, alpha, beta, phi_dot, b)
+            call right_hand_side(1, 2, rows, problem%n_body, v, omega, alpha, beta, phi_dot, b)
+            call right_hand_side(3, rows%n_solve, rows, problem%n_body, v, omega, alpha, beta, phi_dot, b)
             do row = 1, rows%n_solve
                rate = rows%phi_t(row)
                associate (i => rows%body(1, row), j => rows%body(2, row))

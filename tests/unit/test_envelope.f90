@@ -77,13 +77,20 @@ contains
       end do
    end subroutine make_matrix
 
-   !> Factorise and solve.
+   !> Factorise in two parts and solve.
    subroutine solve(matrix, x, bad_row)
       type(envelope_t), intent(inout) :: matrix  !! matrix, then its factors
       real(wp), intent(inout) :: x(:)            !! (n) right-hand side, then solution [1]
       integer, intent(out) :: bad_row            !! row with a small pivot
 
-      call factorise_and_solve(matrix%n, size(matrix%a), matrix%first, matrix%start, threshold, matrix%a, matrix%inverse, &
+      integer :: half, n
+
+      n = matrix%n
+      half = n/2
+      call factorise_and_solve(1, half, n, size(matrix%a), matrix%first, matrix%start, threshold, matrix%a, matrix%inverse, &
+                               matrix%row, x, bad_row)
+      if (bad_row > 0) return
+      call factorise_and_solve(half + 1, n, n, size(matrix%a), matrix%first, matrix%start, threshold, matrix%a, matrix%inverse, &
                                matrix%row, x, bad_row)
    end subroutine solve
 
@@ -209,7 +216,8 @@ contains
          ! pivot of the second row: part times its diagonal of 1000
          matrix%a = [4.0_wp, sqrt(4.0_wp*1000.0_wp*(1.0_wp - part(k))), 1000.0_wp]
          x = 1.0_wp
-         call factorise_and_solve(2, 3, matrix%first, matrix%start, 1.0e-6_wp, matrix%a, matrix%inverse, matrix%row, x, bad_row)
+         call factorise_and_solve(1, 2, 2, 3, matrix%first, matrix%start, 1.0e-6_wp, matrix%a, matrix%inverse, matrix%row, x, &
+                                  bad_row)
          call check_equal(error, bad_row, expected(k), "bad row, pivot number "//to_text(k))
       end do
    end subroutine test_threshold
