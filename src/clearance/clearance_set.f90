@@ -235,9 +235,11 @@ contains
       allocate (self%contact(self%n_contact))
       allocate (self%laws%normal, source=law)
       if (allocated(friction)) then
-         if (friction%is_active()) allocate (self%laws%friction, source=friction)
-         info = self%info()
-         if (friction%is_active()) call new_grip(self%n_contact, info%space == in_space, friction, self%grip)
+         if (friction%is_active()) then
+            allocate (self%laws%friction, source=friction)
+            info = self%info()
+            call new_grip(self%n_contact, info%space == in_space, friction, self%grip)
+         end if
       end if
       do k = 1, self%n
          self%names(k)%s = items(k)%name

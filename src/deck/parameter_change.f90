@@ -77,11 +77,31 @@ contains
          associate (at => deck%tokens%t(deck%lines(k)%first)%location)
             associate (source => deck%sources(at%file))
                associate (line => source%text(source%first(at%line):source%last(at%line)))
-                  is_touched(deck%lines(k)%section) = index(line, "{") > 0 .and. index(line, name) > 0
+                  is_touched(deck%lines(k)%section) = index(line, "{") > 0 .and. has_word(line, name)
                end associate
             end associate
          end associate
       end do
    end subroutine touch
+
+   !> Whether a name stands in a line, not as a part of a longer one. What follows a number may be a name.
+   pure logical function has_word(line, name)
+      character(*), intent(in) :: line   !! the line
+      character(*), intent(in) :: name   !! the name
+
+      character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_", digits = "0123456789"
+      integer :: after, at, from
+
+      has_word = .false.
+      from = 1
+      do while (.not. has_word)
+         at = index(line(from:), name) + from - 1
+         if (at < from) return
+         after = at + len(name)
+         has_word = scan(line(max(at - 1, 1):at - 1), letters) == 0 &
+                    .and. scan(line(after:min(after, len(line))), letters//digits) == 0
+         from = at + 1
+      end do
+   end function has_word
 
 end module parameter_change

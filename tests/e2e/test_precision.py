@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 import pytest
 from conftest import ROOT
-from support import DECK, Run, assert_close, call, changed, plain, plain_deck, scratch, text_of, written
+from support import DECK, SLOWNESS, Run, assert_close, call, changed, plain, plain_deck, scratch, text_of, written
 
 HARD = ROOT / "inputs" / "hard"
 EXPECTED_FILES = {"deck.echo", "figures", "precision.csv", "precision.h5", "precision.txt", "summary.json", "summary.txt"}
@@ -359,7 +359,7 @@ def test_nothing_is_chosen_without_a_confirmed_reference(gudgeon):
     assert "none: there is no reference that is confirmed" in (study.directory / "summary.txt").read_text()
 
 
-@pytest.mark.parametrize("seconds", [4, 8])
+@pytest.mark.parametrize("seconds", [4 * SLOWNESS, 8 * SLOWNESS])
 def test_the_budget_is_kept(gudgeon, seconds):
     """A comparison that would take minutes ends in time: the budget and the start and end of a process."""
     text = plain_deck([("analysis.dynamic", "end", "240 ms")])
@@ -375,7 +375,7 @@ def test_the_budget_is_kept(gudgeon, seconds):
 def test_slow_ladders_leave_time_for_others(gudgeon):
     """A stiff film: explicit methods get nowhere in this time, and leave enough for those that do."""
     text = no_figures(changed(text_of(ROOT / "inputs" / "journal_bearing.deck"), "parameters", duration="12 s"))
-    study = compared(gudgeon, text, "--methods", "verner dop853 adams bdf ida", "--budget", "8s")
+    study = compared(gudgeon, text, "--methods", "verner dop853 adams bdf ida", "--budget", f"{8 * SLOWNESS}s")
     assert study.summary["confirmed_by"]
     assert all(any(row["state"] == "done" for row in study.ladder(name)) for name in ("bdf", "ida"))
     assert not any(row["state"] == "done" for name in ("verner", "adams") for row in study.ladder(name))
@@ -492,7 +492,7 @@ def test_with_run_time_checks(gudgeon_debug):
     assert study.summary["runs"] > 20
 
 
-@pytest.mark.parametrize("name, verb, options", [("pinball", "precision", ("--methods", "verner", "--budget", "4s")),
+@pytest.mark.parametrize("name, verb, options", [("pinball", "precision", ("--methods", "verner", "--budget", f"{4 * SLOWNESS}s")),
                                                  ("crosshead", "run", ("--accuracy", "1e-3", "--budget", "8s", "--write", "numbers"))])
 def test_values_that_are_not_kept_are_not_found(gudgeon_debug, name, verb, options):
     """The other side of a stop has no normal, and some items have not all channels: with run-time checks nothing of that is worked out."""
