@@ -19,8 +19,10 @@ module slip_watch
 contains
 
    !> A located event of friction: slip ended, or a contact that sticks gives way. It may go on slipping, the other way; that is
-   !> told by `find_reversal` when all contacts are decided. Others that slide with no speed to speak of are to be decided anew:
-   !> they may have to hold their part of the load.
+   !> told by `find_reversal` when all contacts are decided. Where a slip ended, others that slide with no speed to speak of are to
+   !> be decided anew: they may have to hold their part of the load. Where a contact gives way they are not: it leaves more to
+   !> them, and they are at their limits already. Tried all the same, they would hold beside it by a last digit, be held by it
+   !> again, and give way at once, in turn and without end.
    subroutine handle_slip(system, t, y, slot, k, has_row, row)
       type(mechanism_t), intent(inout) :: system   !! the system; the contact's state is changed
       real(wp), intent(in) :: t                        !! time [s]
@@ -37,7 +39,7 @@ contains
       call system%decide_slip(t, y, slot, k)
       slip = system%loose%sets(slot)%set%grip%slip(k)
       has_row = (slip == sticks) .neqv. stuck
-      call unsettle(system, is_any)
+      if (.not. stuck) call unsettle(system, is_any)
       call system%loose%sets(slot)%set%slip_as(k, slip)
       if (has_row) call tell(system, t, slot, k, merge(word_stick//" ", word_slip//"  ", stuck), row)
    end subroutine handle_slip

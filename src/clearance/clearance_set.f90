@@ -364,7 +364,8 @@ contains
       self%grip%tangent(k) = tangent
    end subroutine clearance_lay
 
-   !> Let the ways of contacts in space that may stick follow their sliding, at the end of a step.
+   !> Let the ways of contacts in space that may stick follow their sliding, at the end of a step. One that is next to none along
+   !> its way, or against it, says nothing of a way: turned by what is left over, step by step, no slip would end.
    subroutine clearance_follow_sliding(self, motion)
       class(clearance_set_t), intent(inout) :: self  !! the set
       type(motion_t), intent(in) :: motion           !! positions and velocities
@@ -377,8 +378,7 @@ contains
          call self%lay(k, motion)
          associate (tangent => self%grip%tangent(k))
             tangent%way = tangent%t(:, 1)
-            if (self%grip%slip(k) /= 1) cycle
-            call self%slip_toward(k, [max(tangent%v(1), self%grip%still(k)), tangent%v(2)])
+            if (self%grip%slip(k) == 1 .and. tangent%v(1) >= self%grip%still(k)) call self%slip_toward(k, tangent%v)
          end associate
       end do
    end subroutine clearance_follow_sliding

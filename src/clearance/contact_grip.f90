@@ -9,9 +9,9 @@
 !> accelerations: the normal turns, and the points of contact move through the bodies.
 !>
 !> In space a contact has two tangents. The first lies along `way`, the direction in which it slid at the end of the last step: slip
-!> is 1 and ends where the velocity along it does. Sliding friction is against the velocity; where that is next to none (`still`),
-!> against the way. The deflection of bristles is a vector of the tangent plane, which the normal takes along as it turns (with the
-!> mean spin of both bodies about it):
+!> is 1 and ends where the velocity along it does. Sliding friction is against the velocity; where that is next to none along the
+!> way (`still`), the way stays as it was decided, and friction is as if the velocity along it were that. The deflection of bristles
+!> is a vector of the tangent plane, which the normal takes along as it turns (with the mean spin of both bodies about it):
 !>
 !> F_T = -F (v_T + ...)/|v_T|,   z' = (rate by the law) + w x z,   w = n x n' + n (n . (w_i + w_j))/2
 !>
@@ -31,7 +31,7 @@ module contact_grip
    !> How a contact lies, at one motion.
    type :: tangent_t
       real(wp) :: t(3, 2) = 0.0_wp     !! (3, 2) unit tangents, in the plane one; world frame [1]
-      real(wp) :: way(3) = 0.0_wp      !! (3) in space: direction of sliding at the end of the last step; zero: none yet [1]
+      real(wp) :: way(3) = 0.0_wp      !! (3) in space: last direction of sliding at the end of a step; zero: none yet [1]
       real(wp) :: spin(3) = 0.0_wp     !! (3) in space: angular velocity of the tangent plane [rad/s]
       real(wp) :: arm_i(3) = 0.0_wp    !! (3) where the force on i acts, from its centre of mass, world frame [m]
       real(wp) :: arm_j(3) = 0.0_wp    !! (3) where the force on j acts, from its centre of mass, world frame [m]

@@ -110,7 +110,8 @@ contains
 
    !> Decide whether a contact slips, which way, or sticks. One whose slip ended, or that begins without sliding, is tried as
    !> sticking; if that takes more than it can hold, it slips the way that the force would have kept it from, and so does one
-   !> that sticks until now. One that drivers move goes with them.
+   !> that sticks until now; but the way it moves if that is against the other by more than is borne. One that drivers move goes
+   !> with them.
    module procedure mechanism_decide_slip
       real(wp) :: band, delta(self%loose%n_contact), limit, rate(self%loose%n_contact), speed
       integer :: before, status
@@ -147,7 +148,11 @@ contains
             end if
             limit = (1.0_wp - band/max(speed, tiny(1.0_wp)))*set%laws%friction%stick_limit(tangent%f_n)
             if (before /= sticks .and. size_of(tangent%f_t) <= limit) return
-            call set%slip_toward(k, -tangent%f_t)
+            if (dot_product(tangent%v, tangent%f_t) > widest_band*speed*size_of(tangent%f_t)) then
+               call set%slip_toward(k, tangent%v)
+            else
+               call set%slip_toward(k, -tangent%f_t)
+            end if
          end associate
       end associate
    end procedure mechanism_decide_slip
