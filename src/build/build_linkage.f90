@@ -95,7 +95,7 @@ contains
 
       class(joint_set_t), allocatable :: set
       integer, allocatable :: chosen(:)
-      integer :: column(2), k, last, m, n, piece
+      integer :: column(2), first, k, last, m, most, n
 
       n = 0
       if (.not. is_solved) n = count([(allocated(linkage%joints(k)%set), k=1, size(linkage%joints))])
@@ -103,14 +103,18 @@ contains
       do k = 1, n_joint_kinds
          if (size(scene%joints(k)%items) == 0 .or. .not. is_taken(k)) cycle
          chosen = pack([(m, m=1, size(scene%joints(k)%items))], choices(k)%is_fixing .neqv. is_solved)
-         do piece = 1, merge(max(n_piece(size(chosen)), 1), 1, is_solved)
-            last = merge(min(piece*items_of_set, size(chosen)), size(chosen), is_solved)
-            call add_set(scene, k, chosen(items_of_set*(piece - 1) + 1:last), is_solved, linkage, set)
+         most = merge(items_of_set, size(chosen), is_solved)
+         last = 0
+         do
+            first = last + 1
+            last = min(last + most, size(chosen))
+            call add_set(scene, k, chosen(first:last), is_solved, linkage, set)
             m = merge(2, 1, set%is_driver)
-            set%column = column(m) + chosen(items_of_set*(piece - 1) + 1:last)
-            if (size(chosen) == 0) exit
+            set%column = column(m) + chosen(first:last)
+            if (last < first) exit
             n = n + 1
             call move_alloc(set, linkage%joints(n)%set)
+            if (last == size(chosen)) exit
          end do
          column(m) = column(m) + size(scene%joints(k)%items)
       end do
