@@ -4,6 +4,7 @@
 !> that it does not save, and several parts with steps of their own, can be saved at instants only that the plan sets: there all
 !> steps end, and what was saved is taken back at once, so that a run that is ended there and resumed does the same.
 module dynamic
+   use catalogue, only: catalogue_t
    use contact_watch, only: close_open
    use cpu_budget, only: cpu_budget_t
    use errors, only: error_t, exit_integration, exit_stopped, set_error
@@ -49,7 +50,7 @@ module dynamic
 contains
 
    !> Run from a state at t = 0 to the end.
-   subroutine run_dynamic(system, method, subsystems, y, plan, limits, recorder, summary, error, saved)
+   subroutine run_dynamic(system, method, subsystems, y, plan, limits, recorder, summary, error, saved, catalogue)
       type(mechanism_t), intent(inout), target :: system          !! the system
       class(integrator_t), intent(inout), target :: method        !! the integrator, with its controls
       type(subsystem_t), intent(inout), target :: subsystems(:)   !! (parts) groups of bodies to be integrated apart; none: as one
@@ -60,6 +61,7 @@ contains
       type(summary_t), intent(out) :: summary                     !! cost and errors
       type(error_t), allocatable, intent(out) :: error            !! the integration failed, or a file could not be written
       type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; absent, unallocated: it begins
+      type(catalogue_t), allocatable, intent(inout), optional :: catalogue  !! what the system can report, taken over; none: it is found
 
       type(error_t), allocatable :: late_error
       type(run_t) :: run
@@ -70,7 +72,7 @@ contains
       run%stop = limits%stop
       call new_whole_motion(system, method, subsystems, limits, plan%instants, run%whole)
       allocate (run%waiting(size(run%whole%parts)))
-      call new_sampler(system, plan, run%sampler)
+      call new_sampler(system, plan, run%sampler, catalogue)
       call recorder%start(run%sampler%catalogue, error)
       if (.not. allocated(error)) call run%sampler%ask(system, recorder, run%stop)
       call run%tally%aside%begin(0.0_wp)

@@ -25,7 +25,7 @@ module sampling
 
    !> What is reported of a motion, and how far it is.
    type :: sampler_t
-      type(catalogue_t) :: catalogue             !! what is reported
+      type(catalogue_t), allocatable :: catalogue  !! what is reported
       integer(i8) :: n_sample = 0                !! output instants done
       integer :: n_strobe = 0                    !! stroboscopic instants done
       integer :: n_row(n_row_kind) = 0           !! rows beside those of output instants, by kind
@@ -54,12 +54,17 @@ module sampling
 contains
 
    !> Room for the reports of a system.
-   subroutine new_sampler(system, plan, sampler)
+   subroutine new_sampler(system, plan, sampler, catalogue)
       type(mechanism_t), intent(in) :: system       !! the system
       type(time_plan_t), intent(in) :: plan         !! times
       type(sampler_t), intent(out) :: sampler       !! nothing reported yet
+      type(catalogue_t), allocatable, intent(inout), optional :: catalogue  !! what it can report, taken over; none: it is found
 
-      call build_catalogue(system, sampler%catalogue)
+      if (present(catalogue)) call move_alloc(catalogue, sampler%catalogue)
+      if (.not. allocated(sampler%catalogue)) then
+         allocate (sampler%catalogue)
+         call build_catalogue(system, sampler%catalogue)
+      end if
       allocate (sampler%y(system%n), sampler%ydot(system%n), source=0.0_wp)
       sampler%n_last_sample = last_instant(plan)
       call sampler%aside%begin(0.0_wp)

@@ -4,19 +4,15 @@ module load
    use build_system, only: levels_as_written, levels_ideal, levels_loose, new_system
    use catalogue, only: catalogue_t
    use change_scene, only: scene_with_changes
-   use channels, only: list_scalars, select_channels, selection_t
    use columns, only: column_of, find_column
    use deck_file, only: read_deck
-   use deck_types, only: deck_t, place_of_part
+   use deck_types, only: deck_t
    use diagnostics, only: diagnostics_t
    use errors, only: error_t, exit_usage, set_error
    use drawn_figures, only: check_drawn_figures
-   use figure_words, only: check_figures, draws_mechanism, figure_bifurcation, figure_film, figure_portrait, figure_section, &
-      figure_statistics, figure_t
-   use film_figures, only: check_film_figures
    use formula_words, only: read_formulas
    use function_range, only: check_function_ranges
-   use item, only: item_t, location_of, location_t, place_of
+   use item, only: item_t, location_t, place_of
    use legacy_way, only: take_legacy_way
    use kind_info, only: kind_info_t
    use kinds, only: wp
@@ -27,20 +23,19 @@ module load
    use options, only: options_t
    use parameter_change, only: change_parameters
    use read_scene, only: scene_from_deck
-   use run_limits, only: check_conditions
+   use run_limits, only: check_conditions, has_conditions
    use scene, only: analysis_dynamic, analysis_kinematic, analysis_names, n_analysis, scene_t, table_formulas
    use spelling, only: nearest_word
-   use statistics, only: names_of_numbers, number_t
    use step_check, only: check_steps
    use study_info, only: sweep_info
    use sweep_values, only: read_sweep
    use swept, only: sweep_t
-   use spelling, only: nearest_word
-   use text, only: append_text, join, text_t, to_text
+   use text, only: append_text, to_text
    use time_plan, only: new_time_plan, time_plan_t
+   use word_checks, only: check_words
    implicit none (type, external)
    private
-   public :: check_swept_words, load_case, load_deck, loaded_t
+   public :: check_swept_words, find_catalogue, load_case, load_deck, loaded_t
 
    !> A deck that is ready to run.
    type :: loaded_t
@@ -48,7 +43,7 @@ module load
       type(deck_t) :: deck                        !! its text and parameters
       type(scene_t) :: scene                      !! what it means
       type(mechanism_t) :: system             !! its equations
-      type(catalogue_t) :: catalogue              !! what they can report
+      type(catalogue_t), allocatable :: catalogue !! what they can report; of a case of a sweep none until it is wanted
       type(time_plan_t) :: plan                   !! its times
       type(sweep_t) :: sweep                      !! its cases
       logical :: is_stream = .false.              !! the deck came through a pipe and cannot be read again
@@ -120,7 +115,8 @@ contains
       if (allocated(error)) return
       call new_system(loaded%scene, merge(levels_ideal, levels_as_written, loaded%scene%analysis == analysis_kinematic), &
                       loaded%system)
-      call build_catalogue(loaded%system, loaded%catalogue)
+      if (allocated(loaded%catalogue)) deallocate (loaded%catalogue)
+      if (needs_catalogue(options, loaded%scene)) call find_catalogue(loaded)
       if (size(loaded%scene%tables%requests(table_formulas)%items) > 0) then
          if (has_all_words) call read_formulas(loaded%deck, loaded%catalogue, loaded%scene, mistakes)
          loaded%system%requests%formulas = loaded%scene%requests%formulas
@@ -133,7 +129,7 @@ contains
          if (.not. options%runs%has_known_words) then
             call check_words(loaded%deck, loaded%scene, loaded%plan%end, loaded%catalogue, mistakes)
          end if
-         call check_conditions(loaded%scene, loaded%catalogue, mistakes)
+         if (has_conditions(loaded%scene)) call check_conditions(loaded%scene, loaded%catalogue, mistakes)
       else
          call check_words(loaded%deck, loaded%scene, loaded%plan%end, catalogue, mistakes)
          call check_conditions(loaded%scene, catalogue, mistakes)
@@ -143,6 +139,25 @@ contains
       end if
       call mistakes%to_error(loaded%deck%sources, error)
    end subroutine prepare
+
+   !> Whether words must be looked up to load a deck: of a case of a sweep whose words are known only expressions and conditions.
+   logical function needs_catalogue(options, scene)
+      type(options_t), intent(in) :: options  !! the command line
+      type(scene_t), intent(in) :: scene      !! the scene of the deck
+
+      needs_catalogue = .not. (options%runs%is_member .and. options%runs%has_known_words)
+      if (needs_catalogue) return
+      needs_catalogue = size(scene%tables%requests(table_formulas)%items) > 0 .or. has_conditions(scene)
+   end function needs_catalogue
+
+   !> Find what a loaded deck can report, unless that is done.
+   subroutine find_catalogue(loaded)
+      type(loaded_t), intent(inout) :: loaded   !! the deck
+
+      if (allocated(loaded%catalogue)) return
+      allocate (loaded%catalogue)
+      call build_catalogue(loaded%system, loaded%catalogue)
+   end subroutine find_catalogue
 
    !> Whether the run has all that a deck can have words for: it is the deck's first analysis, and no joint is taken as ideal.
    logical function runs_as_written(options, scene)
@@ -292,104 +307,5 @@ contains
       end subroutine set_tolerance
 
    end subroutine apply_options
-
-   !> Channels and figures must name what the scene has.
-   subroutine check_words(deck, scene, end, catalogue, mistakes)
-      type(deck_t), intent(in) :: deck                !! the deck, for the places of mistakes
-      type(scene_t), intent(in) :: scene              !! the scene
-      real(wp), intent(in) :: end                     !! of the run; 0: it has none [s]
-      type(catalogue_t), intent(in) :: catalogue      !! what it can report
-      type(diagnostics_t), intent(inout) :: mistakes  !! mistakes found
-
-      type(figure_t), allocatable :: figures(:)
-      type(selection_t) :: selection
-      character(:), allocatable :: hint, message, part
-      integer :: bad, k
-
-      associate (value => scene%settings%output%values(place_of(scene%settings%output, "channels")))
-         call select_channels(value%words, catalogue, selection, bad, message, hint)
-         if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
-      end associate
-      associate (value => scene%settings%output%values(place_of(scene%settings%output, "figures")))
-         call check_figures(value%words, catalogue, bad, message, hint, part, figures)
-         if (bad == 0) call check_statistics_figures(value%words, figures, scene, catalogue, bad, message, hint)
-         if (bad == 0) call check_film_figures(value%words, figures, scene, end, bad, message, hint)
-         if (bad > 0) call mistakes%add(place_of_part(deck, location_of(value, bad), part), message, "no figure of this deck", hint)
-      end associate
-      if (.not. scene%settings%statistics%is_present) return
-      do k = 1, size(scene%settings%statistics%values)
-         associate (value => scene%settings%statistics%values(k))
-            if (size(value%words) == 0) cycle
-            call select_channels(value%words, catalogue, selection, bad, message, hint)
-            if (bad > 0) call mistakes%add(location_of(value, bad), message, "no channel of this deck", hint)
-         end associate
-      end do
-   end subroutine check_words
-
-   !> Figures of statistics need a section [statistics], some a period, and numbers that there are.
-   subroutine check_statistics_figures(words, figures, scene, catalogue, bad, message, hint)
-      type(text_t), intent(in) :: words(:)                 !! (n) words for figures
-      type(figure_t), intent(in) :: figures(:)             !! (n) the figures
-      type(scene_t), intent(in) :: scene                   !! the scene
-      type(catalogue_t), intent(in) :: catalogue           !! what it can report
-      integer, intent(out) :: bad                          !! number of the first wrong word, 0: none
-      character(:), allocatable, intent(out) :: message    !! what is wrong with it
-      character(:), allocatable, intent(out) :: hint       !! what may have been meant, may be blank
-
-      type(text_t), allocatable :: known(:)
-      integer :: i, k
-
-      message = ""
-      hint = ""
-      do bad = 1, size(words)
-         associate (figure => figures(bad))
-            if (figure%kind <= figure_portrait .or. figure%kind == figure_film .or. draws_mechanism(figure)) cycle
-            if (.not. scene%settings%statistics%is_present) then
-               message = "'"//words(bad)%s//"' needs a section [statistics]"
-               hint = "it says how long the transient is: [statistics], then after = 2 turns of motor"
-               return
-            end if
-            if (.not. scene%settings%statistics%is_given("period") .and. &
-                (figure%kind == figure_section .or. figure%kind == figure_bifurcation)) then
-               message = "'"//words(bad)%s//"' needs the period of the drive"
-               hint = "in section [statistics]: period = 1 turns of motor, or a time"
-               return
-            end if
-            if (figure%kind /= figure_statistics) cycle
-            known = known_numbers(scene, catalogue)
-            do k = 1, size(figure%numbers)
-               if (any([(known(i)%s == figure%numbers(k)%s, i=1, size(known))])) cycle
-               message = "unknown number '"//figure%numbers(k)%s//"'"
-               hint = nearest_word(figure%numbers(k)%s, known)
-               if (len(hint) > 0) hint = "did you mean '"//hint//"'? "
-               hint = hint//"numbers of this deck's statistics: "//join(known, " ")
-               return
-            end do
-         end associate
-      end do
-      bad = 0
-   end subroutine check_statistics_figures
-
-   !> Names of the numbers of a scene's statistics.
-   function known_numbers(scene, catalogue) result(names)
-      type(scene_t), intent(in) :: scene             !! the scene
-      type(catalogue_t), intent(in) :: catalogue     !! what it can report
-      type(text_t), allocatable :: names(:)          !! (n) names
-
-      type(number_t), allocatable :: list(:)
-      type(selection_t) :: selection
-      character(:), allocatable :: hint, message
-      integer :: bad, k
-
-      associate (words => scene%settings%statistics%values(place_of(scene%settings%statistics, "channels"))%words)
-         call selection%clear(catalogue)
-         if (size(words) > 0) call select_channels(words, catalogue, selection, bad, message, hint)
-         call names_of_numbers(list_scalars(selection), catalogue, list)
-      end associate
-      allocate (names(size(list)))
-      do k = 1, size(list)
-         names(k)%s = list(k)%name
-      end do
-   end function known_numbers
 
 end module load

@@ -94,7 +94,8 @@ contains
       plan%horizon = horizon
       keeper%plan = plan
       call listen(.true.)
-      call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error, saved)
+      call run_dynamic(loaded%system, method, subsystems, y, loaded%plan, limits, keeper, summary, error, saved, &
+                       loaded%catalogue)
       call listen(.false.)
       call conclude(loaded, ideal, keeper, summary, error)
       call directory%close()

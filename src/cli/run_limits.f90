@@ -16,7 +16,7 @@ module run_limits
    use units, only: parse_unit, unit_t
    implicit none (type, external)
    private
-   public :: check_conditions, limits_of, twin_limits
+   public :: check_conditions, has_conditions, limits_of, twin_limits
 
 contains
 
@@ -60,6 +60,13 @@ contains
       limits%cpu = scene%settings%dynamic%number("limit_cpu")
       call new_guards(scene, system, limits%guards)
    end function twin_limits
+
+   !> Whether a scene has conditions that end a run.
+   pure logical function has_conditions(scene)
+      type(scene_t), intent(in) :: scene              !! the scene
+
+      has_conditions = size(scene%settings%guards%values(place_of(scene%settings%guards, "stop"))%conditions) > 0
+   end function has_conditions
 
    !> Conditions must name one number of a channel of the scene, and compare it with a number of its dimension.
    subroutine check_conditions(scene, catalogue, mistakes)

@@ -4,7 +4,7 @@ module verb_run
    use errors, only: error_t, exit_stopped, exit_usage, set_error
    use exponent, only: horizon_t
    use kinds, only: wp
-   use load, only: load_deck, loaded_t
+   use load, only: find_catalogue, load_deck, loaded_t
    use member_result, only: member_result_t
    use motion_run, only: run_motion
    use options, only: options_t
@@ -60,6 +60,7 @@ contains
 
       type(horizon_t) :: horizon
 
+      call find_catalogue(loaded)
       call check_accuracy(options, loaded, error)
       if (.not. allocated(error)) call check_restart(options, loaded, error)
       if (.not. allocated(error) .and. options%write /= "nothing") then

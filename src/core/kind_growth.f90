@@ -1,9 +1,17 @@
-!> How the lists of a kind grow, and what dimensions are the same. What a list holds already is handed over to the
+!> How the lists of a kind grow. What a list holds already is handed over to the
 !> longer one, its texts not copied.
 submodule(kind_info) kind_growth
    implicit none (type, external)
 
 contains
+
+   !> What every column has.
+   module procedure start_column
+      column%name = name
+      column%cell = cell
+      column%help = help
+      if (present(default)) column%default = default
+   end procedure start_column
 
    !> Append a column to a kind.
    module procedure add_column
@@ -17,7 +25,7 @@ contains
       do i = 1, n
          call hand_over_column(info%columns(i), grown(i))
       end do
-      grown(n + 1) = column
+      call hand_over_column(column, grown(n + 1))
       call move_alloc(grown, info%columns)
    end procedure add_column
 
@@ -75,13 +83,5 @@ contains
       call move_alloc(from%frame, to%frame)
       call move_alloc(from%help, to%help)
    end subroutine hand_over_channel
-
-   !> Whether two dimensions are the same.
-   module procedure same_dimension
-      real(wp), parameter :: close = 1.0e-9_wp  !! exponents nearer than this are the same [1]
-
-      same_dimension = abs(a%kg - b%kg) < close .and. abs(a%m - b%m) < close .and. abs(a%s - b%s) < close &
-                     & .and. abs(a%rad - b%rad) < close .and. abs(a%k - b%k) < close
-   end procedure same_dimension
 
 end submodule kind_growth

@@ -4,6 +4,10 @@
 !> section of settings gives one `kind_info_t`. The deck reader, the range checks, the writers,
 !> `gudgeon help`, the manual page and the tests read it; nothing is said twice.
 module kind_info
+   use dimensions, only: dim_acceleration, dim_angle, dim_angular_acceleration, dim_angular_damping, dim_angular_speed, &
+      dim_angular_stiffness, dim_area, dim_contact_stiffness, dim_damping, dim_density, dim_energy, dim_force, dim_frequency, &
+      dim_inertia, dim_length, dim_mass, dim_moment, dim_none, dim_power, dim_pressure, dim_speed, dim_stiffness, dim_t, &
+      dim_temperature, dim_time, dim_viscosity, same_dimension
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -11,7 +15,7 @@ module kind_info
    public :: cell_duration, cell_expression, cell_flag, cell_number, cell_reference, cell_vector, cell_word
    public :: cell_condition, cell_file, cell_formula, cell_list, cell_words
    public :: add_any_number, add_condition, add_direction, add_file, add_formula, add_list
-   public :: add_channel, add_column, add_duration, add_expression, add_flag, add_number, add_reference
+   public :: add_channel, add_duration, add_expression, add_flag, add_number, add_reference
    public :: add_vector, add_word, add_words, same_dimension
    public :: dim_acceleration, dim_angle, dim_angular_acceleration, dim_angular_damping, dim_angular_speed
    public :: dim_angular_stiffness, dim_area, dim_contact_stiffness, dim_damping, dim_density, dim_energy
@@ -20,44 +24,6 @@ module kind_info
    public :: longest_column, no_bound
    public :: in_any_space, in_plane, in_space, is_of_space
    public :: leaves_angles, leaves_more, leaves_nothing, leaves_turn, leaves_way
-
-   !> Physical dimension as exponents of kg, m, s, rad and K.
-   !> They are real because a contact stiffness is N/m^1.5, or N/m^n with any n.
-   !> An angle is a dimension of its own, so that `5 s^-1` and `5 rad/s` are not confused; a moment
-   !> is N.m, and radians are dropped where mechanics drops them (arc length is radius times angle).
-   type :: dim_t
-      real(wp) :: kg = 0.0_wp   !! exponent of mass [1]
-      real(wp) :: m = 0.0_wp    !! exponent of length [1]
-      real(wp) :: s = 0.0_wp    !! exponent of time [1]
-      real(wp) :: rad = 0.0_wp  !! exponent of plane angle [1]
-      real(wp) :: k = 0.0_wp    !! exponent of temperature [1]
-   end type dim_t
-
-   type(dim_t), parameter :: dim_none = dim_t()
-   type(dim_t), parameter :: dim_mass = dim_t(kg=1)
-   type(dim_t), parameter :: dim_length = dim_t(m=1)
-   type(dim_t), parameter :: dim_area = dim_t(m=2)
-   type(dim_t), parameter :: dim_time = dim_t(s=1)
-   type(dim_t), parameter :: dim_frequency = dim_t(s=-1)
-   type(dim_t), parameter :: dim_angle = dim_t(rad=1)
-   type(dim_t), parameter :: dim_angular_speed = dim_t(rad=1, s=-1)
-   type(dim_t), parameter :: dim_speed = dim_t(m=1, s=-1)
-   type(dim_t), parameter :: dim_acceleration = dim_t(m=1, s=-2)
-   type(dim_t), parameter :: dim_inertia = dim_t(kg=1, m=2)
-   type(dim_t), parameter :: dim_force = dim_t(kg=1, m=1, s=-2)
-   type(dim_t), parameter :: dim_moment = dim_t(kg=1, m=2, s=-2)
-   type(dim_t), parameter :: dim_energy = dim_t(kg=1, m=2, s=-2)
-   type(dim_t), parameter :: dim_power = dim_t(kg=1, m=2, s=-3)
-   type(dim_t), parameter :: dim_pressure = dim_t(kg=1, m=-1, s=-2)
-   type(dim_t), parameter :: dim_density = dim_t(kg=1, m=-3)
-   type(dim_t), parameter :: dim_angular_acceleration = dim_t(rad=1, s=-2)
-   type(dim_t), parameter :: dim_stiffness = dim_t(kg=1, s=-2)
-   type(dim_t), parameter :: dim_damping = dim_t(kg=1, s=-1)
-   type(dim_t), parameter :: dim_angular_stiffness = dim_t(kg=1, m=2, s=-2, rad=-1)
-   type(dim_t), parameter :: dim_angular_damping = dim_t(kg=1, m=2, s=-1, rad=-1)
-   type(dim_t), parameter :: dim_contact_stiffness = dim_t(kg=1, m=-0.5_wp, s=-2)
-   type(dim_t), parameter :: dim_viscosity = dim_t(kg=1, m=-1, s=-1)
-   type(dim_t), parameter :: dim_temperature = dim_t(k=1)
 
    integer, parameter :: cell_number = 1      !! one dimensional number
    integer, parameter :: cell_vector = 2      !! `size` numbers with one unit (settings only)
@@ -142,18 +108,21 @@ module kind_info
    end type kind_info_t
 
    interface
-      !> Whether two dimensions are the same.
-      pure module logical function same_dimension(a, b)
+      !> What every column has.
+      module subroutine start_column(column, name, cell, help, default)
          implicit none (type, external)
-         type(dim_t), intent(in) :: a  !! one dimension
-         type(dim_t), intent(in) :: b  !! the other
-      end function same_dimension
+         type(column_t), intent(out) :: column          !! the column
+         character(*), intent(in) :: name               !! as written in the deck
+         integer, intent(in) :: cell                    !! what a cell holds
+         character(*), intent(in) :: help               !! one line
+         character(*), intent(in), optional :: default  !! as in a deck; absent: required
+      end subroutine start_column
 
       !> Append a column to a kind.
       module subroutine add_column(info, column)
          implicit none (type, external)
          type(kind_info_t), intent(inout) :: info  !! the kind
-         type(column_t), intent(in) :: column      !! its new column
+         type(column_t), intent(inout) :: column   !! its new column; its texts are handed over
       end subroutine add_column
 
       !> Append an output channel to a kind.
@@ -187,8 +156,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_number, dimension=dimension, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_number, help, default)
+      column%dimension = dimension
       if (present(lower)) column%bounds%lower = lower
       if (present(upper)) column%bounds%upper = upper
       if (present(open_lower)) column%bounds%open_lower = open_lower
@@ -207,8 +176,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_number, is_any=.true., help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_number, help, default)
+      column%is_any = .true.
       call add_column(info, column)
    end subroutine add_any_number
 
@@ -221,8 +190,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_list, is_any=.true., help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_list, help, default)
+      column%is_any = .true.
       call add_column(info, column)
    end subroutine add_list
 
@@ -235,8 +204,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_list, size=3, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_list, help, default)
+      column%size = 3
       call add_column(info, column)
    end subroutine add_direction
 
@@ -257,8 +226,7 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_file, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_file, help, default)
       call add_column(info, column)
    end subroutine add_file
 
@@ -273,8 +241,7 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_word, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_word, help, default)
       if (present(choices)) column%choices = choices
       if (present(options)) column%options = options
       call add_column(info, column)
@@ -290,8 +257,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_reference, refers_to=refers_to, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_reference, help, default)
+      column%refers_to = refers_to
       call add_column(info, column)
    end subroutine add_reference
 
@@ -301,7 +268,10 @@ contains
       character(*), intent(in) :: name               !! as written in the deck
       character(*), intent(in) :: help               !! one line
 
-      call add_column(info, column_t(name=name, cell=cell_formula, help=help))
+      type(column_t) :: column
+
+      call start_column(column, name, cell_formula, help)
+      call add_column(info, column)
    end subroutine add_formula
 
    !> Append a column that holds a number or an expression in the time `t`, or in another variable.
@@ -317,8 +287,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_expression, dimension=dimension, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_expression, help, default)
+      column%dimension = dimension
       if (present(variable)) column%variable = variable
       if (present(argument)) column%argument(1:size(argument)) = argument
       if (present(sees_motion)) column%sees_motion = sees_motion
@@ -336,8 +306,9 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_vector, dimension=dimension, size=n, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_vector, help, default)
+      column%dimension = dimension
+      column%size = n
       call add_column(info, column)
    end subroutine add_vector
 
@@ -350,8 +321,7 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_words, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_words, help, default)
       call add_column(info, column)
    end subroutine add_words
 
@@ -361,7 +331,10 @@ contains
       character(*), intent(in) :: name               !! as written in the deck
       character(*), intent(in) :: help               !! one line
 
-      call add_column(info, column_t(name=name, cell=cell_condition, help=help, default=""))
+      type(column_t) :: column
+
+      call start_column(column, name, cell_condition, help, "")
+      call add_column(info, column)
    end subroutine add_condition
 
    !> Append a column that is on or off.
@@ -373,8 +346,7 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_flag, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_flag, help, default)
       call add_column(info, column)
    end subroutine add_flag
 
@@ -389,8 +361,8 @@ contains
 
       type(column_t) :: column
 
-      column = column_t(name=name, cell=cell_duration, dimension=dim_time, help=help)
-      if (present(default)) column%default = default
+      call start_column(column, name, cell_duration, help, default)
+      column%dimension = dim_time
       if (present(lower)) column%bounds%lower = lower
       if (present(open_lower)) column%bounds%open_lower = open_lower
       call add_column(info, column)
