@@ -14,6 +14,7 @@ module spatial_coordinates
    use kinds, only: wp
    use motion, only: cross, loads_t, motion_t
    use readings, only: readings_t
+   use spatial_load_kernels, only: spatial_loads, spatial_weights
    use rotations, only: euler_parameters_of, product_of, rate_of_parameters, rotation_of_parameters, rotation_vector_of, spin_of, &
       turned_by
    use spatial_bodies, only: of_orientation, of_spin, spatial_bodies_info
@@ -285,32 +286,12 @@ contains
       type(loads_t), intent(in) :: loads                 !! forces and moments
       real(wp), intent(out), contiguous :: g(:, 0:)      !! (6, 0:bodies) loads on the rates [N and N.m]
 
-      call spatial_loads(n_body, mass, motion%rot, motion%spatial%spin, loads%force, loads%moment, g)
+      if (loads%is_weight) then
+         call spatial_weights(n_body, mass, motion%spatial%spin, loads%force, g)
+      else
+         call spatial_loads(n_body, mass, motion%rot, motion%spatial%spin, loads%force, loads%moment, g)
+      end if
    end subroutine spatial_gather
-
-   !> The same on plain arrays.
-   pure subroutine spatial_loads(n, mass, rot, spin, force, moment, g)
-      integer, intent(in) :: n                      !! number of bodies
-      real(wp), intent(in) :: mass(n_v, n)          !! (6, n) masses [kg and kg.m^2]
-      real(wp), intent(in) :: rot(3, 3, 0:n)        !! (3, 3, 0:n) body frames to world frame [1]
-      real(wp), intent(in) :: spin(3, 0:n)          !! (3, 0:n) angular velocities, body frames [rad/s]
-      real(wp), intent(in) :: force(3, 0:n)         !! (3, 0:n) forces [N]
-      real(wp), intent(in) :: moment(3, 0:n)        !! (3, 0:n) moments about the centres of mass, world frame [N.m]
-      real(wp), intent(out) :: g(n_v, 0:n)          !! (6, 0:n) loads on the rates [N and N.m]
-
-      integer :: k
-
-      g(:, 0) = 0.0_wp
-      do k = 1, n
-         g(1:3, k) = force(:, k)
-         g(4, k) = rot(1, 1, k)*moment(1, k) + rot(2, 1, k)*moment(2, k) + rot(3, 1, k)*moment(3, k) &
-                   + (mass(5, k) - mass(6, k))*spin(2, k)*spin(3, k)
-         g(5, k) = rot(1, 2, k)*moment(1, k) + rot(2, 2, k)*moment(2, k) + rot(3, 2, k)*moment(3, k) &
-                   + (mass(6, k) - mass(4, k))*spin(3, k)*spin(1, k)
-         g(6, k) = rot(1, 3, k)*moment(1, k) + rot(2, 3, k)*moment(2, k) + rot(3, 3, k)*moment(3, k) &
-                   + (mass(4, k) - mass(5, k))*spin(1, k)*spin(2, k)
-      end do
-   end subroutine spatial_loads
 
    !> Scales of the coordinates: lengths, and Euler parameters, which a turn of a radian changes by a half.
    pure subroutine spatial_weigh_positions(self, length, n, scale)

@@ -19,7 +19,7 @@ module one_step
    implicit none (type, external)
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
-   public :: is_wild, wild
+   public :: wild
 
    real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit
@@ -195,9 +195,21 @@ contains
       if (.not. is_fixed) call self%pace%accept(h, norm, is_last)
       self%step%h = h
       self%t = merge(t_stop, self%step%t0 + h, is_last)
-      self%step%y1(:) = self%trial
+      call swap(self%step%y1, self%trial)
       call finish_step(self, system, status)
    end subroutine one_step_advance
+
+   !> Two arrays change places.
+   pure subroutine swap(a, b)
+      real(wp), allocatable, intent(inout) :: a(:)   !! one [any]
+      real(wp), allocatable, intent(inout) :: b(:)   !! the other [any]
+
+      real(wp), allocatable :: other(:)
+
+      call move_alloc(a, other)
+      call move_alloc(b, a)
+      call move_alloc(other, b)
+   end subroutine swap
 
    !> Whether another step is allowed.
    pure subroutine check_limits(self, status)

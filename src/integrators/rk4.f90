@@ -13,7 +13,7 @@ module rk4
    use kind_info, only: kind_info_t
    use kinds, only: wp
    use ode_system, only: ode_system_t
-   use one_step, only: is_wild, one_step_t
+   use one_step, only: one_step_t, wild
    implicit none (type, external)
    private
    public :: rk4_t
@@ -65,35 +65,47 @@ contains
       integer, intent(out) :: status                !! of the evaluations
 
       real(wp) :: t
-      integer :: i, n
+      integer :: i, n, tame
 
       n = size(self%y)
       t = self%step%t0
       associate (y0 => self%step%y0, k1 => self%step%f0, k => self%k, y => self%y)
          self%count%n_evaluations = self%count%n_evaluations + 3
-         do concurrent(i=1:n)
-            y(i) = y0(i) + 0.5_wp*h*k1(i)
-         end do
-         call system%evaluate(t + 0.5_wp*h, y, k(:, 2), status)
-         if (status == 0 .and. is_wild(k(:, 2))) status = 1
+         call next_state(n, y0, 0.5_wp*h, k1, y, status)
+         if (status == 0) call system%evaluate(t + 0.5_wp*h, y, k(:, 2), status)
+         if (status == 0) call next_state(n, y0, 0.5_wp*h, k(:, 2), y, status)
+         if (status == 0) call system%evaluate(t + 0.5_wp*h, y, k(:, 3), status)
+         if (status == 0) call next_state(n, y0, h, k(:, 3), y, status)
+         if (status == 0) call system%evaluate(t + h, y, k(:, 4), status)
          if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + 0.5_wp*h*k(i, 2)
-         end do
-         call system%evaluate(t + 0.5_wp*h, y, k(:, 3), status)
-         if (status == 0 .and. is_wild(k(:, 3))) status = 1
-         if (status /= 0) return
-         do concurrent(i=1:n)
-            y(i) = y0(i) + h*k(i, 3)
-         end do
-         call system%evaluate(t + h, y, k(:, 4), status)
-         if (status == 0 .and. is_wild(k(:, 4))) status = 1
-         if (status /= 0) return
-         do concurrent(i=1:n)
+         tame = 0
+         do i = 1, n
             self%trial(i) = y0(i) + h/6.0_wp*(k1(i) + 2.0_wp*(k(i, 2) + k(i, 3)) + k(i, 4))
+            tame = tame + merge(1, 0, abs(k(i, 4)) <= wild)
          end do
+         if (tame < n) status = 1
       end associate
    end subroutine rk4_make_stages
+
+   !> State of the next evaluation. Whether the derivative is wild, as `is_wild` has it, is seen in the same loop: of a large
+   !> system every other one waits for memory.
+   pure subroutine next_state(n, y0, h, f, y, status)
+      integer, intent(in) :: n          !! entries of the state
+      real(wp), intent(in) :: y0(n)     !! (n) state at the start of the step [any]
+      real(wp), intent(in) :: h         !! time from there [s]
+      real(wp), intent(in) :: f(n)      !! (n) derivative [any]
+      real(wp), intent(inout) :: y(n)   !! (n) state [any]
+      integer, intent(out) :: status    !! 1: wild
+
+      integer :: i, tame
+
+      tame = 0
+      do i = 1, n
+         y(i) = y0(i) + h*f(i)
+         tame = tame + merge(1, 0, abs(f(i)) <= wild)
+      end do
+      status = merge(1, 0, tame < n)
+   end subroutine next_state
 
    !> There is no estimate: a step that is not fixed is refused.
    real(wp) function rk4_error_norm(self, system, h) result(norm)

@@ -209,7 +209,7 @@ contains
             select case (element%what)
             case (is_point)
                call put_vector_rows(self%n, self%body, self%s_i, self%s_j, ubound(motion%angle, 1), motion%r, motion%rot, &
-                                    motion%omega, row, self%n_row_item, rows%n, rows%phi, rows%phi_t, rows%jac, rows%gam)
+                                    motion%omega, row, self%n_row_item, rows%n, rows%phi, rows%jac, rows%gam)
                row = row + 3
             case (is_across)
                call put_across_rows(self%n, self%body, element%of_i, axes%frame_i, element%of_j, axes%frame_j, &

@@ -298,7 +298,8 @@ contains
    end subroutine put_across_rows
 
    !> Set three rows each to the coincidence of two points along the world's axes: kernel on plain arrays, for many joints.
-   pure subroutine put_vector_rows(n, body, s_i, s_j, n_body, r, rot, omega, first, n_each, n_row, phi, phi_t, jac, gam)
+   !> Their partial time derivatives stay zero.
+   pure subroutine put_vector_rows(n, body, s_i, s_j, n_body, r, rot, omega, first, n_each, n_row, phi, jac, gam)
       integer, intent(in) :: n                          !! number of joints
       integer, intent(in) :: body(2, n)                 !! (2, n) bodies i and j
       real(wp), intent(in) :: s_i(3, n)                 !! (3, n) point of body i, its frame [m]
@@ -311,7 +312,6 @@ contains
       integer, intent(in) :: n_each                     !! rows of each joint, these the first of them
       integer, intent(in) :: n_row                      !! number of rows
       real(wp), intent(inout) :: phi(n_row)             !! (rows) violations [m]
-      real(wp), intent(inout) :: phi_t(n_row)           !! (rows) their partial time derivatives [m/s]
       real(wp), intent(inout) :: jac(12, n_row)         !! (12, rows) Phi_q [1 or m]
       real(wp), intent(inout) :: gam(n_row)             !! (rows) gamma [m/s^2]
 
@@ -345,7 +345,6 @@ contains
             end do
          end do
          phi(row + 1:row + 3) = gap
-         phi_t(row + 1:row + 3) = 0.0_wp
          gam(row + 1:row + 3) = pull
       end do
    end subroutine put_vector_rows

@@ -34,6 +34,7 @@ module motion
    type :: loads_t
       real(wp), allocatable :: force(:, :)    !! (3, 0:n) force, world frame [N]
       real(wp), allocatable :: moment(:, :)   !! (3, 0:n) moment about the centre of mass, world frame [N.m]
+      logical :: is_weight = .false.          !! the forces are those of gravity alone, and there are no moments
    end type loads_t
 
    !> Vector product, for all that need not have it inlined.

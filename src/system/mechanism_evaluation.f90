@@ -68,7 +68,10 @@ contains
 
       inside = min(max(t, self%linkage%piece%low), self%linkage%piece%high)
       associate (loading => self%loading, motion => self%linkage%motion, n_body => self%linkage%bodies%n)
-         call start_loads(n_body, loading%weight, loading%loads%force, loading%loads%moment)
+         if (.not. loading%loads%is_weight) then
+            call start_loads(n_body, loading%weight, loading%loads%force, loading%loads%moment)
+            loading%loads%is_weight = size(loading%forces) + size(self%loose%sets) == 0  ! and stay so
+         end if
          loading%power = 0.0_wp
          do k = 1, size(loading%forces)
             call loading%forces(k)%set%evaluate(inside, motion, loading%loads, loading%power)
