@@ -328,14 +328,12 @@ contains
       end associate
    end subroutine make_room
 
-   !> The present state becomes the start of the next step.
+   !> The present time, and the events there, become the start of the next step; the state is the method's to take over.
    subroutine begin_step(self)
       class(integrator_t), intent(inout) :: self  !! the integrator
 
       self%events%n_happened = 0
       self%step%t0 = self%t
-      self%step%y0(:) = self%step%y1  ! no shape is looked at
-      self%step%f0(:) = self%step%f1
       self%events%g0(:) = self%events%g1
       self%events%rate0(:) = self%events%rate1
       self%step%has_inner = .false.

@@ -172,6 +172,8 @@ contains
       real(wp) :: t
 
       call self%begin_step()
+      self%step%y0(:) = self%step%y1  ! no shape is looked at
+      self%step%f0(:) = self%step%f1
       self%last%is_doubtful = .false.
       status = advance_step
       associate (controls => self%controls)

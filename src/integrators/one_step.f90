@@ -9,9 +9,10 @@
 module one_step
    use event_location, only: find_first_event
    use event_prediction, only: foretell_event
-   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations
-   use integrator, only: advance_too_many_steps, advance_too_small, integrator_t
+   use integrator, only: advance_event, advance_failed_evaluation, advance_step, advance_too_many_evaluations, &
+      advance_too_many_steps, advance_too_small, integrator_t
    use integrator_controls, only: onset_located, onset_reject
+   use interpolation, only: step_t
    use kinds, only: eps, wp
    use ode_system, only: contact_end, ode_system_t
    use onset_control, only: begin_control, end_controlled_step, is_too_deep, meet_onsets
@@ -156,10 +157,37 @@ contains
       real(wp), intent(in) :: t_stop                !! not to be passed [s]
       integer, intent(out) :: status                !! advance_step, advance_event or a failure
 
+      call self%begin_step()
+      call exchange_ends(self%step)
+      call take_step(self, system, t_stop, status)
+      if (status == advance_step) then
+         call finish_step(self, system, status)
+      else
+         ! the state is where it was
+         call exchange_ends(self%step)
+         self%step%y0(:) = self%step%y1
+         self%step%f0(:) = self%step%f1
+      end if
+   end subroutine one_step_advance
+
+   !> The end of the last step becomes the start of this one; what stands at its end is of no use until the step is accepted.
+   pure subroutine exchange_ends(step)
+      type(step_t), intent(inout) :: step   !! the step
+
+      call swap(step%y0, step%y1)
+      call swap(step%f0, step%f1)
+   end subroutine exchange_ends
+
+   !> Try steps until one is accepted.
+   subroutine take_step(self, system, t_stop, status)
+      class(one_step_t), intent(inout) :: self      !! the integrator
+      class(ode_system_t), intent(inout) :: system  !! the system
+      real(wp), intent(in) :: t_stop                !! not to be passed [s]
+      integer, intent(out) :: status                !! advance_step, or a failure
+
       real(wp) :: greatest, h, least, norm
       logical :: is_fixed, is_last
 
-      call self%begin_step()
       call self%pace%begin()
       is_fixed = self%controls%fixed_step > 0.0_wp
       greatest = huge(1.0_wp)
@@ -196,8 +224,8 @@ contains
       self%step%h = h
       self%t = merge(t_stop, self%step%t0 + h, is_last)
       call swap(self%step%y1, self%trial)
-      call finish_step(self, system, status)
-   end subroutine one_step_advance
+      status = advance_step
+   end subroutine take_step
 
    !> Two arrays change places.
    pure subroutine swap(a, b)

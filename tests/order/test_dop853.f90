@@ -191,6 +191,8 @@ contains
       if (way == course_to_root) system%root = h
       call method%start(system, 0.0_wp, [system%exact(0.0_wp)], h, status)
       call method%begin_step()
+      method%step%y0 = method%step%y1
+      method%step%f0 = method%step%f1
       method%step%course = course
       call method%make_stages(system, h, status)
       method%step%h = h
