@@ -61,7 +61,7 @@ contains
       type(summary_t), intent(out) :: summary                     !! cost and errors
       type(error_t), allocatable, intent(out) :: error            !! the integration failed, or a file could not be written
       type(saved_run_t), allocatable, intent(inout), optional :: saved  !! what the run goes on from; absent, unallocated: it begins
-      type(catalogue_t), allocatable, intent(inout), optional :: catalogue  !! what the system can report, taken over; none: it is found
+      type(catalogue_t), allocatable, intent(inout), optional :: catalogue  !! what the system can report, taken over
 
       type(error_t), allocatable :: late_error
       type(run_t) :: run

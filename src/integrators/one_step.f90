@@ -229,8 +229,8 @@ contains
 
    !> Two arrays change places.
    pure subroutine swap(a, b)
-      real(wp), allocatable, intent(inout) :: a(:)   !! one [any]
-      real(wp), allocatable, intent(inout) :: b(:)   !! the other [any]
+      real(wp), allocatable, intent(inout) :: a(:)   !! (n) one [any]
+      real(wp), allocatable, intent(inout) :: b(:)   !! (n) the other [any]
 
       real(wp), allocatable :: other(:)
 
