@@ -20,7 +20,7 @@ module one_step
    implicit none (type, external)
    private
    public :: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
-   public :: wild
+   public :: is_wild, wild
 
    real(wp), parameter :: wild = 1.0e60_wp        !! derivative of a trial step far too long for a stiff force [any]
    integer, parameter :: too_deep = 2             !! of a trial step: a contact that begins is beyond the limit

@@ -25,7 +25,7 @@ module rock4
    use kinds, only: eps, wp
    use memory, only: get, put
    use ode_system, only: ode_system_t
-   use one_step, only: one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
+   use one_step, only: is_wild, one_step_advance, one_step_load, one_step_memory_size, one_step_restart, one_step_save, one_step_t
    use rock4_stages, only: end_coefficients, estimate_coefficients, find_recurrence, least_degree, longest_stretch, most_stages, &
       n_recurrence, recurrence
    use spectral_radius, only: find_radius, most_iterations
@@ -192,6 +192,7 @@ contains
          end do
          do j = 2, m
             call system%evaluate(self%step%t0 + h*c(4, j - 1), g(:, 1), f, status)
+            if (status == 0 .and. is_wild(f)) status = 1
             if (status /= 0) return
             do i = 1, size(y0)
                new = h*c(1, j)*f(i) + c(2, j)*g(i, 1) + c(3, j)*g(i, 2)
