@@ -303,14 +303,15 @@ ARCHIVES := $(and $(OPENBLAS),$(wildcard /usr/lib/*/libsundials_fcvode_mod.a),$(
 LINK ?= $(if $(SUNDIALS_DIR)$(HDF5_DIR)$(SUITESPARSE_DIR)$(FFTW_DIR)$(LAPACK),shared,$(if $(ARCHIVES),static,shared))
 ifeq ($(LINK),static)
 # Archives that want no others: those of SUNDIALS 7 want MPI, that of HDF5 after 1.10 curl and OpenSSL; these are loaded. What
-# blas_threads looks up at run time stays visible.
+# blas_threads looks up at run time stays visible. gfortran's own too, but in the sanitized build, whose tools want theirs loaded.
+RUN_TIME := $(if $(filter sanitize,$(MODE)),,$(wildcard $(foreach l,gfortran quadmath,$(shell $(FC) -print-file-name=lib$(l).a))) -static-libgcc)
 HDF5_MINOR := $(shell awk '/define H5_VERS_MINOR/ { print $$3 }' /usr/include/hdf5/serial/H5public.h 2>/dev/null)
 HDF5_ARCHIVES := $(if $(filter 10,$(HDF5_MINOR)),-lhdf5_serial_fortran -lhdf5_serial_hl -lhdf5_serial -lsz -laec -lz)
 SUNDIALS_ARCHIVES := $(if $(filter 6,$(SUNDIALS_VERSION)),-Wl$(comma)--start-group $(SUNDIALS_LIBRARIES) -Wl$(comma)--end-group)
 LIBRARIES := -Wl,--as-needed $(if $(SUNDIALS_ARCHIVES),,$(SUNDIALS_LIBRARIES)) $(if $(HDF5_ARCHIVES),,$(HDF5_LIBRARIES)) \
   -Wl,-Bstatic $(SUNDIALS_ARCHIVES) $(HDF5_ARCHIVES) -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig -lfftw3 \
   $(foreach f,openblas_set_num_threads blas_memory_alloc blas_memory_free,-Wl$(comma)-u$(comma)$(f) -Wl$(comma)--export-dynamic-symbol=$(f)) \
-  $(OPENBLAS) -Wl,-Bdynamic -lgomp -lpthread -ldl -lm
+  $(OPENBLAS) $(RUN_TIME) -Wl,-Bdynamic -lgomp -lpthread -ldl -lm
 else ifeq ($(LINK),shared)
 LIBRARIES := -Wl,--as-needed $(SUNDIALS_LIBRARIES) $(HDF5_LIBRARIES) $(SUITESPARSE_PATH) -lklu \
   $(FFTW_PATH) -lfftw3 $(or $(LAPACK),-llapack -lblas) -lm
@@ -325,7 +326,9 @@ WARNINGS := -Wall -Wextra -Wimplicit-interface -Wno-unused-dummy-argument -Wno-c
 ifeq ($(MODE),release)
 # Loops here are short: as calls of memcpy and memset (loop-distribute-patterns) they take longer. Vectors of the two components
 # of a point (slp-vectorize) take longer too: they are put together from memory, just written, and taken apart again.
-OPTIMISE := -O3 -fno-tree-loop-distribute-patterns -fno-tree-slp-vectorize -g $(ARCH:%=-march=%)
+# A program at a fixed place needs not be adjusted to where it was loaded: a fifth of its start.
+FIXED_PLACE := -no-pie
+OPTIMISE := -O3 -fno-tree-loop-distribute-patterns -fno-tree-slp-vectorize -fno-pie -g $(ARCH:%=-march=%)
 else ifeq ($(MODE),sanitize)
 # Wrong accesses and leaks of memory, and what the language leaves undefined: the first one ends the program.
 # Of the undefined in Fortran, sums, shifts and conversions: checks of the pointer at each access to a component make the compiler
@@ -340,10 +343,10 @@ OPTIMISE := -Og -g -fcheck=all,no-array-temps -ffpe-trap=invalid,zero -finit-rea
 endif
 FFLAGS := -std=f2018 -fimplicit-none $(WARNINGS) $(OPTIMISE)
 DEFINES := -DSUNDIALS_VERSION=$(SUNDIALS_VERSION) -DSUNDIALS_INDEX=$(SUNDIALS_INDEX)
-CFLAGS := -std=c11 -Wall -Wextra $(filter-out -f%,$(OPTIMISE))$(if $(SANITIZE), $(SANITIZE))
+CFLAGS := -std=c11 -Wall -Wextra $(filter -fno-pie,$(OPTIMISE)) $(filter-out -f%,$(OPTIMISE))$(if $(SANITIZE), $(SANITIZE))
 PREFIX_MAP := -ffile-prefix-map=$(CURDIR)=.
 COMPILE = $(FC) $(FFLAGS) $(PREFIX_MAP) -J$(B)/mod -I$(B)/mod $(SUNDIALS_INCLUDE) $(HDF5_INCLUDE)
-LINK = $(FC) $(FFLAGS) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
+LINK_PROGRAM = $(FC) $(FFLAGS) $(FIXED_PLACE) -o $@ $(sort $(filter %.o,$^)) $(LIBRARIES)
 
 # Files that change only when their content does: flags, what is linked, build_info, the test program.
 keep_if_equal = cmp -s $(1).new $(1) && rm -f $(1).new || mv $(1).new $(1)
@@ -382,23 +385,23 @@ fuzz_program: $(B)/tests/many_decks
 
 $(B)/gudgeon: $(MAIN_OBJECT) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
-	@$(LINK)
+	@$(LINK_PROGRAM)
 
 $(B)/tests/run_tests: $(TEST_OBJECTS) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
-	@$(LINK)
+	@$(LINK_PROGRAM)
 
 $(BENCH_PROGRAMS): $(B)/bench/%: $(B)/obj/tests/bench/%.o $(call object,$(BENCH_HELPERS)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
-	@$(LINK)
+	@$(LINK_PROGRAM)
 
 $(FILM_PROGRAMS): $(B)/films/%: $(B)/obj/tests/films/%.o $(call object,$(FILM_HELPERS) $(TEST_HELPERS)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
-	@$(LINK)
+	@$(LINK_PROGRAM)
 
 $(B)/tests/many_decks: $(call object,$(FUZZ_MAIN) $(COVERAGE)) $(OBJECTS) $(B)/objects
 	@echo "  LD $@"
-	@$(LINK)
+	@$(LINK_PROGRAM)
 
 # What runs once takes longer to optimise than it can gain: tests, the reading of decks, the verbs.
 ifeq ($(MODE),release)
