@@ -53,23 +53,19 @@ contains
    end subroutine read_joints
 
    !> Values of a channel of all items, or of all contacts.
-   subroutine read_loose(set, channel, motion, values, is_evaluated)
+   subroutine read_loose(set, channel, motion, values)
       class(clearance_set_t), intent(in) :: set   !! the set
       character(*), intent(in) :: channel         !! name of the channel
       type(motion_t), intent(in) :: motion        !! positions and velocities
       real(wp), intent(inout) :: values(:, :)     !! (components, all items or contacts) values [any]
-      logical, intent(in), optional :: is_evaluated   !! the set was evaluated at this motion last; absent: it may not have been
 
       type(readings_t) :: readings
       real(wp) :: row(size(values))
-      logical :: takes_over
 
-      takes_over = .false.
-      if (present(is_evaluated)) takes_over = is_evaluated
       call readings%start(1)
       call readings%add(channel_code(set%info(), channel), 1, 0, 0, size(values, 1))
       row = reshape(values, [size(values)])
-      call set%report(readings, motion, takes_over, row)
+      call set%report(readings, motion, row)
       values = reshape(row, shape(values))
    end subroutine read_loose
 

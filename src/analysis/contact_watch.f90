@@ -4,7 +4,7 @@
 !> told at once (`peaks`), or the force at the end of a step, of which a row is owed (`owes_row`) until one is written there or a
 !> greater force is found. What is greater by no more than the noise of an integration is not told anew.
 module contact_watch
-   use clearance_set, only: loss_contact, loss_friction
+   use clearance_set, only: clearance_set_t, loss_contact, loss_friction
    use contact_impulse, only: find_impulse
    use contact_peaks, only: add_peak, drop_peaks, find_force_peak, find_penetration_peak, has_peak_above, look, peak_t, trend_t
    use contact_places, only: place_of_loss, slip_function, touch_function, transition_function, turn_function
@@ -106,49 +106,50 @@ contains
 
       self%n_peak = 0
       do k = 1, size(system%loose%sets)
-         if (system%loose%sets(k)%set%n_touching == 0) cycle
-         call system%linkage%set_acceleration(method%step%f1)
-         do i = 1, system%loose%sets(k)%set%n_contact
-            if (.not. system%loose%sets(k)%set%contact(i)%is_touching) cycle
-            number = system%loose%sets(k)%set%before%contacts + i
-            call look(system, k, i, force, penetration)
-            has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
-            has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, &
-                                            system%loose%sets(k)%set%contact(i)%peak_force)
-            deepest = penetration%value
-            deepest_at = method%t
-            if (has_peak) then
-               call find_penetration_peak(system, method, k, i, self%penetration(number), penetration, self%y, deepest, deepest_at)
-            end if
-            peak%force = -1.0_wp
-            if (has_force_peak) then
-               call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
-            end if
-            call find_impulse(system, method, k, i, self%force(number), force, self%y, has_moved, impulse)
-            call system%loose%sets(k)%set%add_impulse(i, impulse)
-            if (has_moved .or. has_peak .or. has_force_peak) then
-               call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
-            end if
-            if (penetration%value > deepest) deepest_at = method%t
-            call system%loose%sets(k)%set%note_depth(i, max(deepest, penetration%value), deepest_at)
-            call keep_force(self, system, method, k, i, peak, force%value)
-            if (system%ledger%is_kept) then
-               call follow_cut_off(system%loose%sets(k)%set, i, penetration%value, force%value, &
-                                   method%step%y1(system%in_state(place_of_loss(number, loss_contact))))
-            end if
-            self%force(number) = force
-            self%penetration(number) = penetration
-         end do
+         associate (set => system%loose%sets(k)%set)
+            if (set%n_touching == 0) cycle
+            call system%linkage%set_acceleration(method%step%f1)
+            do i = 1, set%n_contact
+               if (.not. set%contact(i)%is_touching) cycle
+               number = set%before%contacts + i
+               call look(system, k, i, force, penetration)
+               has_peak = self%penetration(number)%rate >= 0.0_wp .and. penetration%rate < 0.0_wp
+               has_force_peak = has_peak_above(self%force(number), force, penetration, method%step%h, set%contact(i)%peak_force)
+               deepest = penetration%value
+               deepest_at = method%t
+               if (has_peak) then
+                  call find_penetration_peak(system, method, k, i, self%penetration(number), penetration, self%y, deepest, &
+                                             deepest_at)
+               end if
+               peak%force = -1.0_wp
+               if (has_force_peak) then
+                  call find_force_peak(system, method, k, i, self%force(number), force, self%y, self%ydot, peak)
+               end if
+               call find_impulse(system, method, k, i, self%force(number), force, self%y, has_moved, impulse)
+               call set%add_impulse(i, impulse)
+               if (has_moved .or. has_peak .or. has_force_peak) then
+                  call system%linkage%set_state(method%t, method%step%y1, method%step%f1)
+               end if
+               if (penetration%value > deepest) deepest_at = method%t
+               call set%note_depth(i, max(deepest, penetration%value), deepest_at)
+               call keep_force(self, method, set, i, peak, force%value)
+               if (system%ledger%is_kept) then
+                  call follow_cut_off(set, i, penetration%value, force%value, &
+                                      method%step%y1(system%in_state(place_of_loss(number, loss_contact))))
+               end if
+               self%force(number) = force
+               self%penetration(number) = penetration
+            end do
+         end associate
       end do
    end subroutine after_step
 
    !> Raise the greatest force that a contact remembers, by what the last step had. Where it stood at the start of the step and the
    !> step does not go beyond it, the row that is owed is told now.
-   subroutine keep_force(self, system, method, slot, item, peak, at_end)
+   subroutine keep_force(self, method, set, item, peak, at_end)
       type(contact_watch_t), intent(inout) :: self    !! the watch
-      type(mechanism_t), intent(inout) :: system  !! the system
       class(integrator_t), intent(in) :: method       !! the integrator, after a step
-      integer, intent(in) :: slot                     !! set of the contact
+      class(clearance_set_t), intent(inout) :: set    !! set of the contact
       integer, intent(in) :: item                     !! contact of the set
       type(peak_t), intent(in) :: peak                !! maximum within the step
       real(wp), intent(in) :: at_end                  !! force at its end [N]
@@ -156,16 +157,16 @@ contains
       real(wp) :: greatest
       integer :: number
 
-      number = system%loose%sets(slot)%set%before%contacts + item
-      associate (set => system%loose%sets(slot)%set)
-         greatest = set%contact(item)%peak_force
+      number = set%before%contacts + item
+      associate (contact => set%contact(item))
+         greatest = contact%peak_force
          if (peak%force > max(greatest, at_end)) then
             if (peak%force > (1.0_wp + noise)*self%told(number)) call tell(peak)
          else if (self%owes_row(number) .and. at_end <= greatest) then
             call tell(peak_t(method%step%t0, greatest, method%step%y0))
          end if
          call set%note_force(item, max(peak%force, at_end), merge(peak%t, method%t, peak%force > at_end))
-         self%owes_row(number) = at_end >= set%contact(item)%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
+         self%owes_row(number) = at_end >= contact%peak_force .and. at_end > (1.0_wp + noise)*self%told(number)
       end associate
 
    contains

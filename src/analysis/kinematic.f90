@@ -241,7 +241,7 @@ contains
          if (change <= same) exit
       end do
       y = [state%q, state%v]
-      call fill_catalogue(system, state%t, y, 0.0_wp, .false., catalogue)
+      call fill_catalogue(system, state%t, y, 0.0_wp, catalogue)
       energy = energy_of(system, y)
       summary%quality%energy_max = max(summary%quality%energy_max, energy%kinetic + energy%elastic)
       summary%quality%violation_max = max(summary%quality%violation_max, maxval(abs(system%linkage%rows%phi)))

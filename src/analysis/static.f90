@@ -362,7 +362,7 @@ contains
       summary%wall_seconds = equilibrium%cpu_seconds
       call recorder%start(catalogue, error)
       if (.not. allocated(error)) then
-         call fill_catalogue(system, 0.0_wp, y, 0.0_wp, .false., catalogue)
+         call fill_catalogue(system, 0.0_wp, y, 0.0_wp, catalogue)
          call recorder%sample(0.0_wp, catalogue, error)
          if (.not. allocated(error)) summary%count%samples = 1
          call films%begin(system, recorder)

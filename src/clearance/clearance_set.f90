@@ -178,13 +178,12 @@ module clearance_set
       end subroutine lie_interface
 
       !> Values that are read, of all items, or of all contacts if a channel is one of theirs. No allocation.
-      subroutine report_interface(self, readings, motion, is_evaluated, values)
+      subroutine report_interface(self, readings, motion, values)
          import :: clearance_set_t, motion_t, readings_t, wp
          implicit none (type, external)
          class(clearance_set_t), intent(in) :: self  !! the set
          type(readings_t), intent(in) :: readings    !! channels that are read, as `info` numbers them
          type(motion_t), intent(in) :: motion        !! positions and velocities
-         logical, intent(in) :: is_evaluated         !! the set was evaluated at this motion last
          real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine report_interface
 
@@ -346,6 +345,7 @@ contains
          time = self%laws%normal%contact_time(self%laws%parameters(:, k), max(speed, self%contact(k)%impact_speed), inverse_mass)
       end associate
       if (time > 0.0_wp) self%contact(k)%swing = pi/time
+      self%evaluated_at = 0
       if (allocated(self%laws%films)) then
          if (self%laws%films%fades()) self%contact(k)%is_dry = delta > self%laws%films%place(item)%depth
       end if

@@ -6,7 +6,7 @@
 module contact_states
    use contact_grip, only: grip_t
    use contact_memory, only: contact_memory_t, n_contact_memory
-   use kinds, only: not_a_number, wp
+   use kinds, only: i8, not_a_number, wp
    use recorder, only: event_t
    use states_of_contacts, only: state_contact, state_free, state_name
    use text, only: text_t
@@ -26,6 +26,8 @@ module contact_states
       integer :: n_contact_item = 1                       !! contacts of an item
       integer :: n_contact = 0                            !! contacts of all items
       integer :: n_touching = 0                           !! number of contacts that touch
+      integer(i8) :: evaluated_at = 0                     !! number of the motion at which forces were found last; 0: none, or
+                                                          !! a contact has changed since
       type(numbers_before_t) :: before                    !! of earlier sets
       type(text_t), allocatable :: names(:)               !! (n) names
       type(text_t), allocatable :: labels(:)              !! (n_contact_item) names of the contacts of an item
@@ -91,6 +93,7 @@ contains
       self%contact(k)%went%force_at = t
       self%contact(k)%went%penetration_at = t
       self%n_touching = self%n_touching + 1
+      self%evaluated_at = 0
       call self%grip%forget(k)
    end subroutine begin_contact
 
@@ -101,6 +104,7 @@ contains
       real(wp), intent(in) :: impact_speed            !! penetration rate at its onset [m/s]
 
       self%contact(k)%impact_speed = impact_speed
+      self%evaluated_at = 0
    end subroutine set_impact_speed
 
    !> A contact ends, or the run ends within it: tell its story in one row.
@@ -132,6 +136,7 @@ contains
             event%state_after = state_name(state_free)
             contact%is_touching = .false.
             self%n_touching = self%n_touching - 1
+            self%evaluated_at = 0
             call self%grip%forget(k)
          else
             event%duration = not_a_number()
@@ -148,6 +153,7 @@ contains
 
       self%contact(k)%is_touching = .false.
       self%n_touching = self%n_touching - 1
+      self%evaluated_at = 0
    end subroutine take_off
 
    !> Take over what a contact of another set of the same laws remembers; deflections of bristles are in the state.
@@ -160,6 +166,7 @@ contains
       self%n_touching = self%n_touching + merge(1, 0, other%contact(k_other)%is_touching) &
                         - merge(1, 0, self%contact(k)%is_touching)
       self%contact(k) = other%contact(k_other)
+      self%evaluated_at = 0
       call self%grip%adopt(k, other%grip, k_other)
    end subroutine states_adopt
 
@@ -170,6 +177,7 @@ contains
 
       self%contact%is_touching = delta(self%before%contacts + 1:self%before%contacts + self%n_contact) > 0.0_wp
       self%n_touching = count(self%contact%is_touching)
+      self%evaluated_at = 0
    end subroutine touch_where
 
    !> The contacts that touch in an equilibrium begin there, at t = 0 and without a speed.
@@ -237,6 +245,7 @@ contains
       real(wp), intent(in), optional :: rest_speed    !! greatest rate of one that rests [m/s]
 
       self%contact(k)%course = course
+      self%evaluated_at = 0
       if (present(rest_speed)) self%contact(k)%rest_speed = rest_speed
    end subroutine set_course
 

@@ -127,12 +127,11 @@ module point_contacts
 
       !> Values that are read: those of the contacts and the force on j here, others as the geometry has them. The contacts of an
       !> item are found once for all of them.
-      module subroutine point_report(self, readings, motion, is_evaluated, values)
+      module subroutine point_report(self, readings, motion, values)
          implicit none (type, external)
          class(point_contacts_t), intent(in) :: self  !! the set
          type(readings_t), intent(in) :: readings     !! channels that are read
          type(motion_t), intent(in) :: motion         !! positions and velocities
-         logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
          real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
       end subroutine point_report
 

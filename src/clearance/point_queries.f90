@@ -29,21 +29,56 @@ contains
 
    !> Penetration and its rate for all contacts.
    module procedure point_gaps
-      type(point_contact_t) :: contact
       integer :: k
 
       do k = 1, self%n_contact
-         call self%measure(k, .false., motion, contact)
-         delta(self%before%contacts + k) = contact%delta
-         rate(self%before%contacts + k) = contact%rate
+         call find_depth(self, k, motion, delta(self%before%contacts + k), rate(self%before%contacts + k))
       end do
    end procedure point_gaps
+
+   !> Penetration of a contact and its rate.
+   subroutine find_depth(self, k, motion, delta, rate)
+      class(point_contacts_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                     !! contact
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+      real(wp), intent(out) :: delta               !! penetration [m]
+      real(wp), intent(out) :: rate                !! its rate [m/s]
+
+      type(point_contact_t) :: contact
+
+      if (has_forces(self, k, motion)) then
+         delta = self%work%contacts(k)%delta
+         rate = self%work%contacts(k)%rate
+      else
+         call self%measure(k, .false., motion, contact)
+         delta = contact%delta
+         rate = contact%rate
+      end if
+   end subroutine find_depth
+
+   !> Whether the last evaluation, which was at this motion, measured a contact and found its forces. It is of the contact as it is.
+   pure logical function has_forces(self, k, motion)
+      class(point_contacts_t), intent(in) :: self  !! the set
+      integer, intent(in) :: k                     !! contact
+      type(motion_t), intent(in) :: motion         !! positions and velocities
+
+      has_forces = self%evaluated_at == motion%number .and. motion%number > 0
+      if (has_forces) has_forces = self%contact(k)%is_touching .or. self%laws%normal%acts_apart
+   end function has_forces
 
    !> Normal force of a touching contact and its rate, F' = dF/ddelta delta' + dF/drate delta''.
    module procedure point_watch
       type(point_contact_t) :: contact
       real(wp), dimension(1) :: d, d_rate, elastic, f, impact_speed, slope_delta, slope_rate
 
+      if (has_forces(self, k, motion) .and. .not. self%traits%has_faces) then
+         delta = self%work%contacts(k)%delta
+         rate = self%work%contacts(k)%rate
+         force = self%work%f_n(k)
+         force_rate = self%work%slope_delta(k)*rate &
+                      + self%work%slope_rate(k)*self%penetration_acceleration(k, motion, self%work%contacts(k))
+         return
+      end if
       call self%measure(k, .false., motion, contact)
       delta = contact%delta
       rate = contact%rate
@@ -62,31 +97,29 @@ contains
       type(point_contact_t) :: contacts(1)
 
       if (self%n_contact_item == 1) then  ! nothing is made ready for sixteen
-         call report_items(self, readings, motion, is_evaluated, 1, contacts, values)
+         call report_items(self, readings, motion, 1, contacts, values)
       else
-         call report_several(self, readings, motion, is_evaluated, values)
+         call report_several(self, readings, motion, values)
       end if
    end procedure point_report
 
    !> Items of several contacts.
-   subroutine report_several(self, readings, motion, is_evaluated, values)
+   subroutine report_several(self, readings, motion, values)
       class(point_contacts_t), intent(in) :: self  !! the set
       type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
       real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(point_contact_t) :: contacts(most_of_item)
 
-      call report_items(self, readings, motion, is_evaluated, self%n_contact_item, contacts, values)
+      call report_items(self, readings, motion, self%n_contact_item, contacts, values)
    end subroutine report_several
 
    !> Values of all items.
-   subroutine report_items(self, readings, motion, is_evaluated, n, contacts, values)
+   subroutine report_items(self, readings, motion, n, contacts, values)
       class(point_contacts_t), intent(in) :: self           !! the set
       type(readings_t), intent(in) :: readings              !! channels that are read
       type(motion_t), intent(in) :: motion                  !! positions and velocities
-      logical, intent(in) :: is_evaluated                   !! the set was evaluated at this motion last
       integer, intent(in) :: n                              !! contacts of an item
       type(point_contact_t), intent(inout) :: contacts(n)   !! (n) scratch
       real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
@@ -96,7 +129,7 @@ contains
       logical :: is_found, takes_over, with_sliding
 
       with_sliding = readings%most >= of_sliding_speed
-      takes_over = is_evaluated .and. self%grip%memory == memory_none
+      takes_over = self%evaluated_at == motion%number .and. motion%number > 0 .and. self%grip%memory == memory_none
       if (with_sliding .and. .not. allocated(self%laws%friction)) takes_over = .false.
       do item = 1, self%n
          first = (item - 1)*n
@@ -382,14 +415,14 @@ contains
 
    !> Elastic energy that the touching contacts store.
    module procedure point_elastic_energy
-      type(point_contact_t) :: contact
+      real(wp) :: delta, rate
       integer :: k
 
       energy = 0.0_wp
       do k = 1, self%n_contact
          if (.not. (self%contact(k)%is_touching .or. self%laws%normal%acts_apart)) cycle
-         call self%measure(k, .false., motion, contact)
-         energy = energy + self%laws%normal%potential(contact%delta, self%laws%parameters(:, k))
+         call find_depth(self, k, motion, delta, rate)
+         energy = energy + self%laws%normal%potential(delta, self%laws%parameters(:, k))
       end do
    end procedure point_elastic_energy
 

@@ -250,11 +250,10 @@ contains
    end subroutine find_centres
 
    !> Values that are read: of films here, and what they add to those of contacts.
-   subroutine round_report(self, readings, motion, is_evaluated, values)
+   subroutine round_report(self, readings, motion, values)
       class(round_contacts_t), intent(in) :: self  !! the set
       type(readings_t), intent(in) :: readings     !! channels that are read
       type(motion_t), intent(in) :: motion         !! positions and velocities
-      logical, intent(in) :: is_evaluated          !! the set was evaluated at this motion last
       real(wp), intent(inout), contiguous :: values(:)  !! (any) of the catalogue, those that are read are set [any]
 
       type(film_motion_t) :: film
@@ -262,7 +261,7 @@ contains
       integer :: at, k, m
       logical :: has_state
 
-      call point_report(self, readings, motion, is_evaluated, values)
+      call point_report(self, readings, motion, values)
       if (.not. allocated(self%laws%films)) return
       do k = 1, self%n
          film = self%laws%films%motion_of(k, self%items%body(:, k), self%items%s_i(:, k), self%items%s_j(:, k), motion)

@@ -121,6 +121,7 @@ contains
       real(wp), intent(in) :: y(self%n_position + self%n_rate)  !! (positions + rates) the first of a state [any]
 
       self%motion%t = t
+      self%motion%number = self%motion%number + 1
       if (self%reduced%known%n > 0) call self%reduced%known%move(self%joints, t, self%motion)
       associate (n => self%rows%n_unknown, nq => self%n_position, guided => self%reduced%guided)
          if (n > 0) call self%coordinates%move(n, self%rows%unknown, y, y(nq + 1:), self%motion)
@@ -146,6 +147,7 @@ contains
 
       integer :: k
 
+      self%motion%number = self%motion%number + 1
       call self%coordinates%move(self%bodies%n, [(k, k=1, self%bodies%n)], q, v, self%motion)
       if (allocated(self%reduced%known)) self%reduced%known%t = -huge(1.0_wp)
    end subroutine linkage_place_bodies

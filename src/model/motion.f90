@@ -3,7 +3,7 @@
 !> One column per body, column 0 the ground. A planar body is a special case of a spatial one
 !> (z = 0, rotation about z), so that forces and contacts are written once, in 3-vectors.
 module motion
-   use kinds, only: wp
+   use kinds, only: i8, wp
    implicit none (type, external)
    private
    public :: cross, loads_t, motion_t, new_loads, new_motion, point_position, point_velocity
@@ -20,6 +20,7 @@ module motion
    !> Kinematic state of all bodies.
    type :: motion_t
       real(wp) :: t = 0.0_wp                  !! time [s]
+      integer(i8) :: number = 0               !! another one after each change of positions or velocities; 0: nobody counts
       real(wp), allocatable :: r(:, :)        !! (3, 0:n) centre of mass, world frame [m]
       real(wp), allocatable :: rot(:, :, :)   !! (3, 3, 0:n) body frame to world frame [1]
       real(wp), allocatable :: v(:, :)        !! (3, 0:n) velocity of the centre of mass, world frame [m/s]

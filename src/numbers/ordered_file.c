@@ -1,20 +1,21 @@
 /* A file of HDF5 that can be read whenever its writer dies: a file driver that writes the library's metadata in order.
  *
  * The library writes metadata by address, the length of a dataset before the index of its chunks, and whenever its cache is
- * full: a reader may find rows that were not yet written. Here raw data goes to the file at once, into places that nothing in
- * the file points to; metadata waits in memory until the library flushes. Then it is written so that nothing points to what is
- * not there:
+ * full: a reader may find rows that were not yet written. Here raw data goes into places that nothing in the file points to, or
+ * beyond the length of its dataset, at once where it is long; what is short, and metadata, waits in memory until the library
+ * flushes. Then it is written so that nothing points to what is not there:
  *
- *    1. blocks that are not yet in the file (nothing points to them);
+ *    1. raw data, and blocks that are not yet in the file (nothing points to them): what lies side by side in one write;
  *    2. the superblock, which tells the end of the file;
  *    3. heaps with names, then nodes of B-trees, those nearer to the root first (where a node was parted, its parent knows both
  *       halves while the node itself still holds all), then lists of names;
  *    4. object headers, with the lengths of datasets.
  *
- * The first flush writes the superblock last, so that there is a file or none. A block is one write. The system makes a write page by
- * page, and a process that is killed may have made the first pages only: a block that fits into a page never lies in two. Nodes and
- * headers do. Limits: not for power failures, which order nothing; not for a header or heap longer than a page; not where the library,
- * between two flushes, frees a place that the file points to and takes it again (appending rows frees nothing).
+ * The first flush writes the superblock last, so that there is a file or none. What the file points to is changed block by block,
+ * each in one write. The system makes a write page by page, and a process that is killed may have made the first pages only: a block
+ * that fits into a page never lies in two. Nodes and headers do. Limits: not for power failures, which order nothing; not for a
+ * header or heap longer than a page; not where the library, between two flushes, frees a place that the file points to and takes it
+ * again (appending rows frees nothing).
  */
 #define _GNU_SOURCE
 
@@ -24,15 +25,19 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
-enum { page = 4096 };  /* bytes; where the system's pages are larger they are multiples of it */
+enum { page = 4096 };       /* bytes; where the system's pages are larger they are multiples of it */
+enum { short_data = 512 };  /* bytes of raw data that wait; rows of a chunk are more */
+enum { most_at_once = 64 }; /* blocks of one write; every system takes as many */
 
-/* Metadata that waits. */
+/* What waits. */
 typedef struct {
    haddr_t address;
    size_t size;
    H5FD_mem_t type;
+   int rank;              /* when it may be written, set by a flush */
    unsigned char *bytes;
 } block_t;
 
@@ -60,6 +65,27 @@ static herr_t write_all(ordered_t *self, haddr_t address, size_t size, const uns
       bytes += done;
       size -= (size_t)done;
       self->length = larger(self->length, address);
+   }
+   return 0;
+}
+
+/* Blocks that lie side by side, in one write where the system takes it whole. */
+static herr_t write_row(ordered_t *self, const block_t *blocks, size_t n)
+{
+   struct iovec pieces[most_at_once];
+   haddr_t address = blocks[0].address;
+   size_t size = 0;
+   for (size_t k = 0; k < n; k++) {
+      pieces[k] = (struct iovec){.iov_base = blocks[k].bytes, .iov_len = blocks[k].size};
+      size += blocks[k].size;
+   }
+   ssize_t done = n > 1 ? pwritev(self->file, pieces, (int)n, (off_t)address) : -1;
+   if (done == (ssize_t)size) {
+      self->length = larger(self->length, address + size);
+      return 0;
+   }
+   for (size_t k = 0; k < n; k++) {
+      if (write_all(self, blocks[k].address, blocks[k].size, blocks[k].bytes) < 0) return -1;
    }
    return 0;
 }
@@ -178,7 +204,7 @@ static herr_t keep_block(ordered_t *self, H5FD_mem_t type, haddr_t address, size
    block_t *blocks = with_room(self->blocks, self->n, &self->room, sizeof *blocks);
    if (blocks == NULL) return -1;
    self->blocks = blocks;
-   block_t block = {address, size, type, malloc(size)};
+   block_t block = {address, size, type, 0, malloc(size)};
    if (block.bytes == NULL) return -1;
    memcpy(block.bytes, bytes, size);
    self->blocks[self->n++] = block;
@@ -198,7 +224,7 @@ static herr_t ordered_write(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr
       is_kept = 1;
    }
    if (is_kept) return 0;
-   if (type == H5FD_MEM_DRAW) return write_all(self, address, size, buffer);
+   if (type == H5FD_MEM_DRAW && size > short_data) return write_all(self, address, size, buffer);
    return keep_block(self, type, address, size, buffer);
 }
 
@@ -235,39 +261,54 @@ static herr_t note_flushed(ordered_t *self, haddr_t address)
    return 0;
 }
 
+enum { rank_new = 1000 };
+
 /* When a block may be written: the least first. In the thousands the steps above, then the place within a step. */
 static int rank_block(const ordered_t *self, const block_t *block)
 {
    size_t at;
+   if (block->type == H5FD_MEM_DRAW) return rank_new;
    int is_there = is_flushed(self, block->address, &at);
    if (block->type == H5FD_MEM_SUPER) return is_there ? 2000 : 5000;
-   if (!is_there) return 1000;
+   if (!is_there) return rank_new;
    if (block->type == H5FD_MEM_OHDR) return 4000;
    if (block->type != H5FD_MEM_BTREE) return 3000;
    int is_node = block->size > 5 && memcmp(block->bytes, "TREE", 4) == 0;
    return is_node ? 3500 - block->bytes[5] : 3600;  /* byte 5 of a node: its level above the leaves; below them: lists of names */
 }
 
+/* The order in which blocks are written. */
+static int compare_blocks(const void *one, const void *other)
+{
+   const block_t *a = one, *b = other;
+   if (a->rank != b->rank) return a->rank < b->rank ? -1 : 1;
+   return a->address < b->address ? -1 : a->address > b->address;
+}
+
 static herr_t ordered_flush(H5FD_t *file, hid_t transfer, hbool_t closing)
 {
    (void)transfer, (void)closing;
    ordered_t *self = (ordered_t *)file;
-   while (self->n > 0) {
-      size_t first = 0;
-      int least = rank_block(self, &self->blocks[0]);
-      for (size_t k = 1; k < self->n; k++) {
-         int rank = rank_block(self, &self->blocks[k]);
-         if (rank >= least) continue;
-         least = rank;
-         first = k;
+   for (size_t k = 0; k < self->n; k++) self->blocks[k].rank = rank_block(self, &self->blocks[k]);
+   qsort(self->blocks, self->n, sizeof *self->blocks, compare_blocks);
+   size_t done = 0;
+   herr_t code = 0;
+   while (done < self->n) {
+      block_t *first = &self->blocks[done];
+      size_t n = 1;
+      while (first->rank == rank_new && n < most_at_once && done + n < self->n && first[n].rank == rank_new &&
+             first[n].address == first[n - 1].address + first[n - 1].size) n++;
+      code = write_row(self, first, n);
+      for (size_t k = 0; code == 0 && k < n; k++) {
+         if (first[k].type != H5FD_MEM_DRAW) code = note_flushed(self, first[k].address);
       }
-      block_t *block = &self->blocks[first];
-      if (write_all(self, block->address, block->size, block->bytes) < 0) return -1;
-      if (note_flushed(self, block->address) < 0) return -1;
-      free(block->bytes);
-      *block = self->blocks[--self->n];
+      if (code != 0) break;
+      for (size_t k = 0; k < n; k++) free(first[k].bytes);
+      done += n;
    }
-   return 0;
+   self->n -= done;
+   memmove(self->blocks, self->blocks + done, self->n * sizeof *self->blocks);
+   return code;
 }
 
 static herr_t ordered_truncate(H5FD_t *file, hid_t transfer, hbool_t closing)

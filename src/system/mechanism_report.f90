@@ -37,17 +37,16 @@ contains
       if (size(catalogue%readings%rows%sets) > 0) then
          call system%linkage%find_reactions(t, system%loading%g, catalogue%readings%rows)
       end if
-      call fill_catalogue(system, t, y, residual, .not. system%way%at_stages, catalogue)
+      call fill_catalogue(system, t, y, residual, catalogue)
    end subroutine report_state
 
    !> Fill the catalogue from what the system holds: motion with accelerations, rows, rates of their
    !> violations, multipliers, states of the contacts. Only what is bound is found; nothing is allocated.
-   subroutine fill_catalogue(system, t, y, residual, is_evaluated, catalogue)
+   subroutine fill_catalogue(system, t, y, residual, catalogue)
       class(mechanism_t), intent(in) :: system       !! the system at the state
       real(wp), intent(in) :: t                      !! time [s]
       real(wp), intent(in) :: y(:)                   !! (n) state; without a ledger positions and velocities suffice [any]
       real(wp), intent(in) :: residual               !! of the ledger at the last step [J]
-      logical, intent(in) :: is_evaluated            !! loads were evaluated at this motion last
       type(catalogue_t), intent(inout) :: catalogue  !! values
 
       type(energy_t) :: energy
@@ -62,7 +61,7 @@ contains
          end do
          do k = 1, size(plan%loose)
             if (plan%loose(k)%n == 0) cycle
-            call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, is_evaluated, values)
+            call system%loose%sets(k)%set%report(plan%loose(k), linkage%motion, values)
          end do
          if (size(plan%ideal) > 0) call report_ideal(system, plan%ideal, values)
          if (size(plan%forces) > 0) call report_forces(system, t, plan%forces, values)

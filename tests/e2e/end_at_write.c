@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #ifndef NAME
@@ -61,3 +62,19 @@ static ssize_t write_pages(int file, const char *bytes, size_t size, off_t at)
 ssize_t pwrite(int file, const void *bytes, size_t size, off_t at) { return write_pages(file, bytes, size, at); }
 
 ssize_t pwrite64(int file, const void *bytes, size_t size, off_t at) { return write_pages(file, bytes, size, at); }
+
+static ssize_t write_pieces(int file, const struct iovec *pieces, int n, off_t at)
+{
+   ssize_t done = 0;
+   for (int k = 0; k < n; k++) {
+      ssize_t n_written = write_pages(file, pieces[k].iov_base, pieces[k].iov_len, at + (off_t)done);
+      if (n_written < 0) return done > 0 ? done : n_written;
+      done += n_written;
+      if ((size_t)n_written < pieces[k].iov_len) break;
+   }
+   return done;
+}
+
+ssize_t pwritev(int file, const struct iovec *pieces, int n, off_t at) { return write_pieces(file, pieces, n, at); }
+
+ssize_t pwritev64(int file, const struct iovec *pieces, int n, off_t at) { return write_pieces(file, pieces, n, at); }

@@ -73,6 +73,7 @@ contains
       integer :: k
 
       call new_loads(n_body, loads)
+      bench%motion%number = 1
       call bench%set%evaluate(bench%motion, loads, losses(:, :bench%set%n_contact))
       scale = sum(abs(loads%force))
       call check_true(error, scale > 100.0_wp, bench%name//": there are forces")
@@ -167,6 +168,7 @@ contains
       integer :: c
 
       call new_loads(n_body, loads)
+      bench%motion%number = 1
       call bench%set%evaluate(bench%motion, loads, losses(:, :bench%set%n_contact))
       scale = sum(abs(loads%force))
       do c = 1, size(bench%info%channels)
@@ -176,10 +178,12 @@ contains
                                   " "//channel%name//" ") > 0
             allocate (values(merge(3, 1, channel%components == 2), merge(bench%set%n_contact, 1, is_of_contact)), &
                       source=not_a_number())
+            bench%motion%number = 2  ! not the one of the evaluation
             call read_loose(bench%set, channel%name, bench%motion, values)
             call check_true(error, all(ieee_is_finite(values)), bench%name//": channel "//channel%name)
             taken = values
-            call read_loose(bench%set, channel%name, bench%motion, taken, is_evaluated=.true.)
+            bench%motion%number = 1
+            call read_loose(bench%set, channel%name, bench%motion, taken)
             call check_close(error, reshape(taken, [size(taken)]), reshape(values, [size(values)]), &
                              1.0e-14_wp*maxval(abs(values)), bench%name//": evaluated "//channel%name)
             if (channel%name == "force") then
